@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The game's files as the engine finds them: the game's folder over baseq2, in each the archives over the loose files.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vkpt::client {
+
+class FileSystem {
+public:
+    // base: the folder that holds "baseq2", empty: the first of the usual places that does. game: a folder beside baseq2, empty: none.
+    // One FileSystem at a time. Throws Failure where no such folder is.
+    FileSystem(const std::filesystem::path& base, const std::string& game);
+    ~FileSystem();
+    FileSystem(const FileSystem&) = delete;
+    FileSystem& operator=(const FileSystem&) = delete;
+
+    // Makes a file on the disk appear under a game path, over everything else.
+    void add_file(std::string_view game_path, const std::filesystem::path& file);
+
+    // Paths do not mind case, as in archives.
+    bool exists(std::string_view game_path) const;
+    std::optional<std::vector<std::byte>> read(std::string_view game_path) const;
+    // Files in `folder` with this ending, sorted.
+    std::vector<std::string> list(std::string_view folder, std::string_view ending) const;
+
+    // What is searched, first one first: for messages.
+    const std::vector<std::string>& search_path() const { return search_path_; }
+
+private:
+    void mount(const std::filesystem::path& folder);
+    void index_files();
+
+    std::vector<std::string> search_path_;
+    std::map<std::string, std::string, std::less<>> index_; // lower case -> as written
+    std::map<std::string, std::filesystem::path, std::less<>> added_; // lower case -> on the disk
+};
+
+} // namespace vkpt::client

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// MD2 (key-framed triangle meshes) and SP2 (sprites).
+#pragma once
+
+#include "formats/byte_reader.hpp"
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace formats {
+
+// One mesh: corners are (position index, texture coordinate) pairs made unique, so one index buffer serves all frames.
+struct Md2Model {
+    struct Frame {
+        std::string name;
+        std::vector<glm::vec3> positions; // one per vertex, model space
+        std::vector<glm::vec3> normals;   // unit, from the format's table of 162 directions
+        glm::vec3 mins, maxs;
+    };
+    int skin_width = 0, skin_height = 0;
+    std::vector<std::string> skins;            // paths as stored
+    std::vector<glm::vec2> texture_coordinates; // one per vertex, 0..1
+    std::vector<uint32_t> indices;             // three per triangle, counter-clockwise seen from outside
+    std::vector<Frame> frames;                 // at least one
+    size_t vertex_count() const { return texture_coordinates.size(); }
+    size_t triangle_count() const { return indices.size() / 3; }
+};
+
+struct Sp2Sprite {
+    struct Frame {
+        int width = 0, height = 0;
+        int origin_x = 0, origin_y = 0; // from the lower left corner to the sprite's origin
+        std::string picture;
+    };
+    std::vector<Frame> frames;
+};
+
+Md2Model read_md2(Bytes file, std::string_view name);
+Sp2Sprite read_sp2(Bytes file, std::string_view name);
+std::vector<std::byte> write_md2(const Md2Model& model);
+std::vector<std::byte> write_sp2(const Sp2Sprite& sprite);
+
+} // namespace formats

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/cvars.hpp"
+
+#include "ref_vkpt/cvars_rows.hpp"
+#include "ref_vkpt/engine/engine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace vkpt::cvars {
+
+namespace {
+
+constexpr size_t row_count = std::size(cvar_rows);
+
+static_assert(std::string_view(find_cvar_row("pt_tone_map")->choices) == "none|filmic");
+constexpr int debug_view(std::string_view name) { return find_choice(find_cvar_row("pt_debug_view")->choices, name); }
+static_assert(debug_view("off") == shared::DEBUG_VIEW_OFF && debug_view("albedo") == shared::DEBUG_VIEW_ALBEDO
+    && debug_view("normal") == shared::DEBUG_VIEW_NORMAL && debug_view("depth") == shared::DEBUG_VIEW_DEPTH
+    && debug_view("emission") == shared::DEBUG_VIEW_EMISSION && debug_view("cluster") == shared::DEBUG_VIEW_CLUSTER
+    && debug_view("list_length") == shared::DEBUG_VIEW_LIST_LENGTH
+    && debug_view("irradiance") == shared::DEBUG_VIEW_IRRADIANCE
+    && debug_view("roughness") == shared::DEBUG_VIEW_ROUGHNESS && debug_view("motion") == shared::DEBUG_VIEW_MOTION
+    && debug_view("triangle") == shared::DEBUG_VIEW_TRIANGLE && debug_view("light") == shared::DEBUG_VIEW_LIGHT);
+
+struct State {
+    std::array<engine::Cvar*, row_count> cvars {}; // the engine's, in the order of the rows
+    std::array<std::optional<std::string>, row_count> texts; // as last read
+    CvarValues values;
+};
+State state;
+
+int engine_flags(CvarKeep keep)
+{
+    switch (keep) {
+    case CvarKeep::session:
+        return engine::CVAR_NONE;
+    case CvarKeep::archive:
+        return engine::CVAR_ARCHIVE;
+    case CvarKeep::user_info:
+        return engine::CVAR_ARCHIVE | engine::CVAR_USERINFO;
+    }
+    return engine::CVAR_NONE;
+}
+
+// All of `text` must be one finite number, spaces around it aside.
+std::optional<double> parse_number(std::string_view text)
+{
+    const size_t first = text.find_first_not_of(" \t");
+    if (first == std::string_view::npos)
+        return std::nullopt;
+    text = text.substr(first, text.find_last_not_of(" \t") - first + 1);
+    if (text.front() == '+')
+        text.remove_prefix(1);
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
+        return std::nullopt;
+    return number;
+}
+
+std::string number_text(double number) { return fmt::format("{}", float(number)); }
+
+// What the row makes of `text`: the same text where it is valid.
+std::string correct_number(const CvarRow& row, const std::string& text)
+{
+    const std::optional<double> number = parse_number(text);
+    if (!number) {
+        engine::print("ref_vkpt: {} \"{}\" is not a number; range {} to {}, using the default {}", row.name, text,
+            row.lowest, row.highest, row.initial);
+        return row.initial;
+    }
+    double corrected = std::clamp(*number, row.lowest, row.highest);
+    if (row.type == CvarType::integer)
+        corrected = std::trunc(corrected);
+    if (corrected == *number)
+        return text;
+    engine::print("ref_vkpt: {} {} is outside its range of {}{} to {} (default {}), using {}", row.name, text,
+        row.type == CvarType::integer ? "whole numbers " : "", row.lowest, row.highest, row.initial,
+        number_text(corrected));
+    return number_text(corrected);
+}
+
+std::string correct_choice(const CvarRow& row, const std::string& text)
+{
+    if (*row.choices == '\0' || find_choice(row.choices, text) >= 0)
+        return text;
+    engine::print(
+        "ref_vkpt: {} \"{}\" is not one of {}; using the default {}", row.name, text, row.choices, row.initial);
+    return row.initial;
+}
+
+// The row's text as it counts, put right in the engine where it was wrong.
+const std::string& read_text(size_t index)
+{
+    const CvarRow& row = cvar_rows[index];
+    std::string text = state.cvars[index] && state.cvars[index]->text ? state.cvars[index]->text : row.initial;
+    if (row.owner == CvarOwner::module) {
+        std::string corrected = row.type == CvarType::text ? correct_choice(row, text) : correct_number(row, text);
+        if (corrected != text)
+            engine::set_cvar(row.name, corrected);
+        text = std::move(corrected);
+    }
+    return state.texts[index].emplace(std::move(text));
+}
+
+double read_number(size_t index) { return parse_number(read_text(index)).value_or(0); }
+
+void read_field(size_t index, int& field) { field = int(std::clamp(read_number(index), -2147483648.0, 2147483647.0)); }
+void read_field(size_t index, float& field) { field = float(read_number(index)); }
+void read_field(size_t index, std::string& field) { field = read_text(index); }
+
+// Reads what differs from the last reading.
+void read_all(CvarValues& values)
+{
+    size_t index = 0;
+    const auto read_next = [&](auto& field) {
+        const size_t i = index++;
+        const engine::Cvar* cvar = state.cvars[i];
+        if (!state.texts[i] || (cvar && cvar->text && *state.texts[i] != cvar->text))
+            read_field(i, field);
+    };
+#define VKPT_SHADER_INT(name, initial, lowest, highest, keep, help) read_next(values.name);
+#define VKPT_SHADER_FLOAT(name, initial, lowest, highest, keep, help) read_next(values.name);
+#define VKPT_SHADER_CHOICE(name, initial, choices, keep, help) read_next(values.name);
+#define VKPT_HOST_INT(name, initial, lowest, highest, keep, help) read_next(values.name);
+#define VKPT_HOST_FLOAT(name, initial, lowest, highest, keep, help) read_next(values.name);
+#define VKPT_HOST_STRING(name, initial, choices, keep, help) read_next(values.name);
+#define VKPT_ENGINE_INT(name, initial, keep, help) read_next(values.name);
+#define VKPT_ENGINE_FLOAT(name, initial, keep, help) read_next(values.name);
+#define VKPT_ENGINE_STRING(name, initial, keep, help) read_next(values.name);
+#include "shaders/shared/cvars.def"
+}
+
+} // namespace
+
+void register_all()
+{
+    state = {};
+    for (size_t i = 0; i < row_count; i++)
+        state.cvars[i] = engine::get_cvar(cvar_rows[i].name, cvar_rows[i].initial, engine_flags(cvar_rows[i].keep));
+    read_all(state.values);
+}
+
+bool update()
+{
+    CvarValues before = state.values;
+    read_all(state.values);
+    return !(state.values == before);
+}
+
+const CvarValues& values() { return state.values; }
+
+shared::ShaderCvars shader_values()
+{
+    shared::ShaderCvars numbers {};
+#define VKPT_SHADER_INT(name, initial, lowest, highest, keep, help) numbers.name = state.values.name;
+#define VKPT_SHADER_FLOAT(name, initial, lowest, highest, keep, help) numbers.name = state.values.name;
+#define VKPT_SHADER_CHOICE(name, initial, choices, keep, help) numbers.name = find_choice(choices, state.values.name);
+#include "shaders/shared/cvars.def"
+    return numbers;
+}
+
+void set(const char* name, const std::string& text) { engine::set_cvar(name, text); }
+
+} // namespace vkpt::cvars

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How renderer code fails. It throws; engine/exports.cpp alone turns what it catches into the engine's own errors.
+#pragma once
+
+#include <stdexcept>
+
+namespace vkpt {
+
+// This level cannot go on, the game can: the engine returns to its console with the text.
+// Say what, where, why and what to do. formats::FormatError and std::bad_alloc are treated the same way.
+class LevelError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+// The module cannot go on (a Vulkan call failed, the device is lost). During Init: one console line, and the engine
+// falls back to its own renderers. Later: the engine stops with the text.
+class FatalError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+} // namespace vkpt

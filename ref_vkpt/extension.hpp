@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What ref_vkpt.so offers beyond the engine's refresh API: pictures, timings, and facts about itself.
+// A host gets it with dlsym(module, "vkpt_extension"). Everything is valid between Init and Shutdown, on the engine's thread.
+// The host replaces the engine: it hands GetRefAPI its own imports and calls InitContext(nullptr) for "no window".
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace vkpt {
+
+inline constexpr uint32_t extension_version = 1;
+
+struct ImageSize {
+    int32_t width = 0, height = 0;
+};
+
+struct PassTime {
+    const char* name; // the pass's shader file without its ending
+    double milliseconds;
+};
+
+// Strings live until the next call or Shutdown. Lists end with nullptr.
+struct ModuleInfo {
+    const char* device;
+    const char* driver;
+    const char* vulkan_version;
+    const char* trace_backend; // the one in use
+    const char* const* trace_backends;
+    const char* const* light_samplers;
+    const char* const* denoisers;
+    int32_t api_versions[8]; // zero-terminated
+    int32_t max_entities, max_dlights, max_particles, max_image_size;
+    // counts of the current map
+    uint64_t triangles, dynamic_triangles, clusters, emitters, light_list_entries, textures;
+    // bytes by kind
+    uint64_t texture_bytes, geometry_bytes, acceleration_bytes, light_bytes, image_bytes, staging_bytes;
+};
+
+// A surface point to be lit: Quake world units, unit normal.
+struct IrradianceProbe {
+    float position[3];
+    float normal[3];
+};
+
+struct Extension {
+    uint32_t version;
+    uint32_t struct_size;
+    // The size of the last frame's picture.
+    ImageSize (*frame_size)();
+    // The last finished frame as shown (sRGB-encoded RGBA8, 4 * width * height bytes, top row first). False: no frame yet.
+    bool (*capture_display)(uint8_t* rgba);
+    // The last 3D view as linear radiance before exposure (RGB float32, 3 * width * height, top row first). With
+    // pt_accumulate 1: the average of all frames since the last change.
+    bool (*capture_radiance)(float* rgb);
+    // How many frames the accumulation holds.
+    uint32_t (*accumulated_frames)();
+    // Passes of the last finished frame, in order. The array lives until the next frame ends.
+    const PassTime* (*pass_times)(size_t* count);
+    ModuleInfo (*info)();
+    // Irradiance / pi (that is: the radiance of a white diffuse surface) at each probe, RGB, `samples` paths each,
+    // in the map of the last frame with its lightstyles. False: no map.
+    bool (*measure_irradiance)(const IrradianceProbe* probes, size_t count, uint32_t samples, float* rgb);
+};
+
+// Signature of the exported symbol "vkpt_extension". Returns nullptr if `version` is not served.
+using GetExtension = const Extension* (*)(uint32_t version);
+
+} // namespace vkpt

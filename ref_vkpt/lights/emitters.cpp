@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/lights/emitters.hpp"
+
+#include "ref_vkpt/lights/cluster_finder.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+namespace vkpt {
+
+namespace {
+
+using formats::Bsp;
+using formats::BspTexinfo;
+
+enum class Emission {
+    none,
+    face, // SURF_LIGHT with a value
+    sky,
+};
+
+Emission classify(const BspTexinfo& texinfo)
+{
+    if (texinfo.flags & formats::SURF_NODRAW)
+        return Emission::none;
+    if (texinfo.flags & formats::SURF_SKY)
+        return Emission::sky;
+    return (texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0 ? Emission::face : Emission::none;
+}
+
+float max_component(glm::vec3 colour) { return std::max({ colour.x, colour.y, colour.z }); }
+
+// The classic compilers scale the picture's average colour so that its greatest component is 1.
+glm::vec3 normalise_colour(glm::vec3 colour)
+{
+    const float greatest = max_component(colour);
+    return greatest > 0 ? colour / greatest : glm::vec3(0);
+}
+
+glm::vec3 average_radiance(const BspTexinfo& texinfo, const AverageColour& colour, const EmissionScales& scales)
+{
+    const glm::vec3 average = glm::max(colour(texinfo.texture), glm::vec3(0));
+    if ((texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0)
+        return scales.face * float(texinfo.value) * normalise_colour(average);
+    return scales.sky * average;
+}
+
+// What the picture is multiplied by, so that the average over the picture is average_radiance.
+glm::vec3 emission_factor(const BspTexinfo& texinfo, const AverageColour& colour, const EmissionScales& scales)
+{
+    if (classify(texinfo) != Emission::face)
+        return glm::vec3(0);
+    const float greatest = max_component(colour(texinfo.texture));
+    return greatest > 0 ? glm::vec3(scales.face * float(texinfo.value) / greatest) : glm::vec3(0);
+}
+
+// Where in the tree a face's front lies: leaves are numbered in tree order, so near numbers are near places.
+size_t find_leaf_before(const Bsp& bsp, size_t face)
+{
+    const std::vector<glm::vec3> outline = bsp.face_polygon(face);
+    const glm::vec3 sum = std::accumulate(outline.begin(), outline.end(), glm::vec3(0));
+    return bsp.find_leaf(sum / std::max(1.0f, float(outline.size())) + bsp.face_normal(face), find_world_root(bsp));
+}
+
+// A face or a point light, to be put in order.
+struct Piece {
+    size_t leaf;
+    int64_t face; // -1: a point light
+    std::vector<shared::Emitter> emitters;
+};
+
+std::vector<Piece> collect_faces(const Bsp& bsp, const AverageColour& colour, const EmissionScales& scales)
+{
+    std::vector<Piece> pieces;
+    const formats::BspModel& world = bsp.models[0];
+    for (int32_t i = 0; i < world.face_count; i++) {
+        const size_t face = size_t(world.first_face + i);
+        std::vector<shared::Emitter> emitters = emitters_of_face(bsp, face, colour, scales);
+        if (!emitters.empty())
+            pieces.push_back({ find_leaf_before(bsp, face), int64_t(face), std::move(emitters) });
+    }
+    return pieces;
+}
+
+// Names the textures that were meant to emit and do not.
+void report_unused(const Bsp& bsp, const AverageColour& colour, std::vector<std::string>& messages)
+{
+    std::map<std::string, size_t> black, undrawn;
+    for (const formats::BspFace& face : bsp.faces) {
+        const BspTexinfo& texinfo = bsp.texinfos[face.texinfo];
+        const bool meant = (texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0;
+        if (meant && (texinfo.flags & formats::SURF_NODRAW))
+            undrawn[texinfo.texture]++;
+        else if (meant && !(max_component(colour(texinfo.texture)) > 0))
+            black[texinfo.texture]++;
+    }
+    for (const auto& [texture, count] : undrawn)
+        messages.push_back(
+            fmt::format("{}: {} light faces of {} are not drawn and emit nothing", bsp.name, count, texture));
+    for (const auto& [texture, count] : black)
+        messages.push_back(
+            fmt::format("{}: the picture of {} is black: its {} light faces emit nothing", bsp.name, texture, count));
+}
+
+} // namespace
+
+std::vector<shared::Emitter> emitters_of_face(
+    const Bsp& bsp, size_t face, const AverageColour& colour, const EmissionScales& scales)
+{
+    const BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
+    const Emission emission = classify(texinfo);
+    if (emission == Emission::none)
+        return {};
+    const glm::vec3 radiance = average_radiance(texinfo, colour, scales);
+    if (!(max_component(radiance) > 0) && emission != Emission::sky)
+        return {};
+    const std::vector<glm::vec3> outline = bsp.face_polygon(face);
+    std::vector<shared::Emitter> emitters;
+    for (const std::array<uint32_t, 3>& t : triangulate_face(bsp, face)) {
+        shared::Emitter emitter {};
+        emitter.p0 = outline[t[0]];
+        emitter.p1 = outline[t[1]];
+        emitter.p2 = outline[t[2]];
+        emitter.type = emission == Emission::sky ? shared::EMITTER_SKY : shared::EMITTER_TRIANGLE;
+        emitter.area = 0.5f * glm::length(glm::cross(emitter.p1 - emitter.p0, emitter.p2 - emitter.p0));
+        emitter.radiance = radiance;
+        emitters.push_back(emitter);
+    }
+    return emitters;
+}
+
+StaticEmitters extract_emitters(const Bsp& bsp, const AverageColour& colour, const EmissionScales& scales)
+{
+    StaticEmitters result;
+    result.first_of_face.assign(bsp.faces.size(), -1);
+    result.count_of_face.assign(bsp.faces.size(), 0);
+    for (const BspTexinfo& texinfo : bsp.texinfos)
+        result.face_emission.push_back(emission_factor(texinfo, colour, scales));
+
+    std::vector<Piece> pieces;
+    if (!bsp.models.empty())
+        pieces = collect_faces(bsp, colour, scales);
+    for (const shared::Emitter& light : extract_point_lights(bsp, scales, result.messages))
+        pieces.push_back({ bsp.find_leaf(light.p0, find_world_root(bsp)), -1, { light } });
+    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.leaf < b.leaf; });
+
+    for (const Piece& piece : pieces) {
+        if (piece.face >= 0) {
+            result.first_of_face[size_t(piece.face)] = int32_t(result.emitters.size());
+            result.count_of_face[size_t(piece.face)] = uint32_t(piece.emitters.size());
+        }
+        result.emitters.insert(result.emitters.end(), piece.emitters.begin(), piece.emitters.end());
+    }
+    report_unused(bsp, colour, result.messages);
+    return result;
+}
+
+std::vector<shared::Emitter> emitters_of_brush_model(
+    const Bsp& bsp, size_t model, const AverageColour& colour, const EmissionScales& scales)
+{
+    std::vector<shared::Emitter> emitters;
+    const formats::BspModel& source = bsp.models[model];
+    for (int32_t i = 0; i < source.face_count; i++) {
+        const std::vector<shared::Emitter> of_face
+            = emitters_of_face(bsp, size_t(source.first_face + i), colour, scales);
+        emitters.insert(emitters.end(), of_face.begin(), of_face.end());
+    }
+    return emitters;
+}
+
+shared::Emitter make_dynamic_light(glm::vec3 origin, glm::vec3 colour, float intensity, float radius)
+{
+    // At d = intensity / 2 the engine adds 255 * colour * (intensity - d) / 255 lightmap units, and the fade of
+    // shaders/lib/emitters.glsl, (1 - (d / reach)^4)^2, has the value below.
+    constexpr float fade_at_half = 0.9375f * 0.9375f;
+    constexpr float pi = std::numbers::pi_v<float>;
+    const float half = 0.5f * intensity;
+    const float radiant_intensity = pi * half * half * half / (128 * fade_at_half);
+    shared::Emitter emitter {};
+    emitter.type = shared::EMITTER_SPHERE;
+    emitter.p0 = origin;
+    emitter.p1 = glm::vec3(radius, 0, 0);
+    emitter.area = 4 * pi * radius * radius;
+    emitter.radiance = glm::max(colour, glm::vec3(0)) * (radiant_intensity / (pi * radius * radius));
+    emitter.reach = intensity;
+    return emitter;
+}
+
+} // namespace vkpt

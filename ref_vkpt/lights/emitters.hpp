@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What emits light in a map: faces of the world and of brush models, sky faces, point light entities.
+#pragma once
+
+#include "formats/bsp.hpp"
+#include "shaders/shared/scene.h"
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace vkpt {
+
+// How the map compiler's numbers become radiance. Measured against the baked lightmaps of real maps:
+// tools/calibrate_light.
+//
+// First values come from what the classic light compiler computes, in lightmap units (our unit: a white diffuse surface
+// under lightmap value 128 has radiance 1, so irradiance / pi = value / 128):
+// - face: a patch of area A adds 0.4 * texinfo value * colour * A * cos * cos' / d^2. A patch of radiance L adds
+//   L * A * cos * cos' / (pi d^2). Equal for L = 0.4 pi / 128 * value.
+// - point: a light adds (light - d) * cos: linear, not inverse square. A light of intensity I adds I * cos / (pi d^2).
+//   Equal at distance d for I = pi d^2 (light - d) / 128. With the default of 300 and d = 128, about half a room's
+//   height and width: I = 230 * light.
+// - sky: a face with SURF_SKY and SURF_LIGHT is an area light like any other; a plain sky is what its picture shows.
+struct EmissionScales {
+    float face = 0.0098f; // radiance = face * texinfo value * normalised picture colour
+    float point = 230; // radiant intensity of a point light = point * its "light" value
+    float sky = 1; // radiance = sky * sky picture (sky faces that are not SURF_LIGHT; others: as faces)
+    float point_light_radius = 4; // of the spheres that stand for point lights, units; less where walls are nearer
+};
+
+// Average colour of a picture, linear RGB 0..1; asked for by texinfo texture name.
+using AverageColour = std::function<glm::vec3(const std::string& texture)>;
+
+struct StaticEmitters {
+    std::vector<shared::Emitter>
+        emitters; // spatially coherent: BSP leaf order, so that strided subsets are representative
+    // Where the triangles of face f went: emitters[first_of_face[f] .. first_of_face[f] + count_of_face[f]), in the
+    // order of triangulate_face; -1: none.
+    std::vector<int32_t> first_of_face;
+    std::vector<uint32_t> count_of_face;
+    std::vector<glm::vec3> face_emission; // what Material::emission has to be for that face's texinfo (per texinfo)
+    std::vector<std::string> messages; // what could not be used, by name
+};
+
+// Every face's triangles, used for geometry and emitters alike: indices into Bsp::face_polygon(face), front as in
+// Triangle. All corners of the outline are used, also those on straight edges (neighbours may end there), as far as
+// triangles with an area allow it. Slivers of zero area are left out.
+std::vector<std::array<uint32_t, 3>> triangulate_face(const formats::Bsp& bsp, size_t face);
+
+// Emitters of the world model (faces of models[0], and entities). Brush models: emitters_of_brush_model, model space.
+StaticEmitters extract_emitters(const formats::Bsp& bsp, const AverageColour& colour, const EmissionScales& scales);
+std::vector<shared::Emitter> emitters_of_brush_model(
+    const formats::Bsp& bsp, size_t model, const AverageColour& colour, const EmissionScales& scales);
+
+// The triangles of one face as emitters, in the order of triangulate_face; empty: the face emits nothing.
+std::vector<shared::Emitter> emitters_of_face(
+    const formats::Bsp& bsp, size_t face, const AverageColour& colour, const EmissionScales& scales);
+
+// The engine's dynamic light: it adds colour * (intensity - distance), in lightmap units, to what is nearer than
+// `intensity`. The sphere's inverse-square light, faded to nothing there, equals that at half the distance. Negative
+// colours (lights that darken) become 0.
+shared::Emitter make_dynamic_light(glm::vec3 origin, glm::vec3 colour, float intensity, float radius = 4);
+
+// The spheres of all point light entities, in the order of the entities (point_lights.cpp).
+std::vector<shared::Emitter> extract_point_lights(
+    const formats::Bsp& bsp, const EmissionScales& scales, std::vector<std::string>& messages);
+
+} // namespace vkpt

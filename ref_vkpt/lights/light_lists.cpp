@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/lights/light_lists.hpp"
+
+#include "ref_vkpt/lights/cluster_finder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace vkpt {
+
+namespace {
+
+using formats::Bsp;
+using formats::ClusterSet;
+
+// How far off their face triangles are looked up, units: first just in front of it; farther where that is inside of a
+// wall (faces that the map compiler left a little inside).
+constexpr float lifts[] = { 0.125f, 1, 4 };
+constexpr float bounds_tolerance = 2; // leaf bounds are rounded to integers, units
+
+template <class Visit> void for_each_cluster(const ClusterSet& set, Visit visit)
+{
+    const std::vector<uint8_t>& bytes = set.bytes();
+    for (size_t byte = 0; byte < bytes.size(); byte++)
+        for (unsigned bits = bytes[byte]; bits != 0; bits &= bits - 1)
+            visit(byte * 8 + size_t(std::countr_zero(bits)));
+}
+
+int encode_leaf(const Bsp& bsp, int32_t child)
+{
+    const int cluster = bsp.leaves[size_t(-1 - child)].cluster;
+    return cluster >= 0 && cluster < bsp.cluster_count ? -(cluster + 2) : -1;
+}
+
+// The world's tree, parents before children, without what only collision needs.
+std::vector<shared::BspTreeNode> compact_tree(const Bsp& bsp)
+{
+    const int32_t root = find_world_root(bsp);
+    if (root < 0) // a single leaf: a node whose sides are the same
+        return { { glm::vec3(0, 0, 1), 0, encode_leaf(bsp, root), encode_leaf(bsp, root) } };
+    std::vector<shared::BspTreeNode> tree(1);
+    struct Pending {
+        int32_t source;
+        size_t target;
+    };
+    std::vector<Pending> pending { { root, 0 } };
+    while (!pending.empty()) {
+        const Pending here = pending.back();
+        pending.pop_back();
+        const formats::BspNode& node = bsp.nodes[size_t(here.source)];
+        int children[2];
+        for (int side = 0; side < 2; side++) {
+            if (node.children[side] < 0) {
+                children[side] = encode_leaf(bsp, node.children[side]);
+                continue;
+            }
+            children[side] = int(tree.size());
+            pending.push_back({ node.children[side], tree.size() });
+            tree.emplace_back();
+        }
+        const formats::BspPlane& plane = bsp.planes[size_t(node.plane)];
+        tree[here.target] = { plane.normal, plane.dist, children[0], children[1] };
+    }
+    return tree;
+}
+
+} // namespace
+
+void LightLists::build(const Bsp& bsp, std::span<const shared::Emitter> static_emitters)
+{
+    bsp_ = &bsp;
+    cluster_count_ = size_t(std::max(bsp.cluster_count, 0));
+    static_emitter_count_ = static_emitters.size();
+    unlisted_static_count_ = 0;
+    tree_ = compact_tree(bsp);
+    build_visibility(bsp);
+    build_cluster_bounds(bsp);
+    build_static_lists(static_emitters);
+    update({});
+}
+
+// A compiler's PVS is meant to be symmetric but is computed for each direction: what either says is seen is listed.
+void LightLists::build_visibility(const Bsp& bsp)
+{
+    visible_from_.clear();
+    for (size_t cluster = 0; cluster < cluster_count_; cluster++)
+        visible_from_.push_back(bsp.pvs(int(cluster)));
+    for (size_t cluster = 0; cluster < cluster_count_; cluster++)
+        for_each_cluster(bsp.pvs(int(cluster)), [&](size_t seen) { visible_from_[seen].insert(int(cluster)); });
+}
+
+void LightLists::build_cluster_bounds(const Bsp& bsp)
+{
+    cluster_mins_.assign(cluster_count_, glm::vec3(1e30f));
+    cluster_maxs_.assign(cluster_count_, glm::vec3(-1e30f));
+    for (const formats::BspLeaf& leaf : bsp.leaves) {
+        if (leaf.cluster < 0 || size_t(leaf.cluster) >= cluster_count_)
+            continue;
+        glm::vec3& mins = cluster_mins_[size_t(leaf.cluster)];
+        glm::vec3& maxs = cluster_maxs_[size_t(leaf.cluster)];
+        mins = glm::min(mins, glm::vec3(leaf.mins[0], leaf.mins[1], leaf.mins[2]) - bounds_tolerance);
+        maxs = glm::max(maxs, glm::vec3(leaf.maxs[0], leaf.maxs[1], leaf.maxs[2]) + bounds_tolerance);
+    }
+}
+
+void LightLists::build_static_lists(std::span<const shared::Emitter> emitters)
+{
+    std::vector<std::vector<uint32_t>> members(cluster_count_);
+    ClusterSet receivers;
+    for (uint32_t i = 0; i < emitters.size(); i++) {
+        if (!find_receivers(emitters[i], receivers)) {
+            unlisted_static_count_ += cluster_count_ > 0;
+            continue;
+        }
+        for_each_cluster(receivers, [&](size_t cluster) {
+            if (reaches(emitters[i], cluster))
+                members[cluster].push_back(i);
+        });
+    }
+
+    lists_.assign(cluster_count_ + 1, shared::LightList {});
+    static_indices_.clear();
+    for (size_t cluster = 0; cluster < cluster_count_; cluster++) {
+        lists_[cluster].first_static = uint32_t(static_indices_.size());
+        lists_[cluster].static_count = uint32_t(members[cluster].size());
+        static_indices_.insert(static_indices_.end(), members[cluster].begin(), members[cluster].end());
+    }
+    lists_.back().first_static = uint32_t(static_indices_.size());
+    lists_.back().static_count = uint32_t(emitters.size());
+    for (uint32_t i = 0; i < emitters.size(); i++)
+        static_indices_.push_back(i);
+}
+
+bool LightLists::find_receivers(const shared::Emitter& emitter, ClusterSet& receivers) const
+{
+    receivers = ClusterSet(cluster_count_);
+    for (const float lift : lifts) {
+        const std::vector<int> touched = find_touched_clusters(*bsp_, emitter, lift);
+        for (const int cluster : touched)
+            receivers.merge(visible_from_[size_t(cluster)]);
+        if (!touched.empty())
+            return true;
+    }
+    return false;
+}
+
+bool LightLists::reaches(const shared::Emitter& emitter, size_t cluster) const
+{
+    if (!(emitter.reach > 0))
+        return true;
+    const glm::vec3 nearest = glm::clamp(emitter.p0, cluster_mins_[cluster], cluster_maxs_[cluster]);
+    const glm::vec3 offset = nearest - emitter.p0;
+    return glm::dot(offset, offset) <= emitter.reach * emitter.reach;
+}
+
+void LightLists::append_receivers_in_reach(const shared::Emitter& emitter, const ClusterSet& receivers)
+{
+    for_each_cluster(receivers, [&](size_t cluster) {
+        if (reaches(emitter, cluster))
+            receiver_clusters_.push_back(uint32_t(cluster));
+    });
+}
+
+void LightLists::update(std::span<const shared::Emitter> dynamic_emitters)
+{
+    receiver_clusters_.clear();
+    receiver_ends_.clear();
+    ClusterSet receivers;
+    for (const shared::Emitter& emitter : dynamic_emitters) {
+        // What moves may be inside a wall for a moment, or be an effect at a wall: then it may be seen from anywhere.
+        if (!find_receivers(emitter, receivers))
+            for (size_t cluster = 0; cluster < cluster_count_; cluster++)
+                receivers.insert(int(cluster));
+        append_receivers_in_reach(emitter, receivers);
+        receiver_ends_.push_back(receiver_clusters_.size());
+    }
+
+    for (shared::LightList& list : lists_)
+        list.dynamic_count = 0;
+    for (const uint32_t cluster : receiver_clusters_)
+        lists_[cluster].dynamic_count++;
+    lists_.back().dynamic_count = uint32_t(dynamic_emitters.size());
+    uint32_t first = 0;
+    for (shared::LightList& list : lists_) {
+        list.first_dynamic = first;
+        first += list.dynamic_count;
+        list.dynamic_count = 0; // counted again while filling
+    }
+
+    dynamic_indices_.resize(first);
+    const auto append = [&](shared::LightList& list, size_t emitter) {
+        dynamic_indices_[list.first_dynamic + list.dynamic_count++] = uint32_t(static_emitter_count_ + emitter);
+    };
+    size_t at = 0;
+    for (size_t i = 0; i < dynamic_emitters.size(); i++) {
+        for (; at < receiver_ends_[i]; at++)
+            append(lists_[receiver_clusters_[at]], i);
+        append(lists_.back(), i);
+    }
+}
+
+} // namespace vkpt

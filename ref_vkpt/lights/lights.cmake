@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Emitters and light lists: a static library of its own, so that tests and tools can use it without Vulkan.
+add_library(vkpt_lights STATIC
+    ${CMAKE_CURRENT_LIST_DIR}/cluster_finder.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/emitters.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/light_lists.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/point_lights.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/triangulate.cpp)
+find_package(fmt REQUIRED)
+target_link_libraries(vkpt_lights PUBLIC vkpt_formats PRIVATE vkpt_build fmt::fmt)
+target_include_directories(vkpt_lights PUBLIC ${CMAKE_SOURCE_DIR})

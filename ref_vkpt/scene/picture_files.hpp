@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Finds and decodes the game's pictures by the engine's naming rules. No engine, no GPU: files come from a callback.
+#pragma once
+
+#include "formats/image.hpp"
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vkpt {
+
+// What a picture is asked for; decides where it is searched and how it is stored.
+//   wall     "e1u1/floor": textures/e1u1/floor.wal
+//   skin     full path with ending, always opaque
+//   sprite   full path with ending
+//   picture  "inven": pics/inven.pcx; "/players/male/a_i.pcx": the path behind the slash, as it stands
+//   sky      "unit1_rt": env/unit1_rt.tga
+enum class TextureUse : uint8_t { wall, skin, sprite, picture, sky };
+inline constexpr size_t texture_use_count = 5;
+
+struct LoadedPicture {
+    std::string path; // the original, whether or not a replacement was loaded: "pics/conchars.pcx"
+    std::string file; // what was read
+    formats::Image image;
+    int width = 0, height = 0; // of the original: texture coordinates and 2D sizes refer to these
+};
+
+class PictureFiles {
+public:
+    using LoadFile = std::function<std::optional<std::vector<std::byte>>(const std::string& path)>;
+    using Report = std::function<void(std::string_view line)>;
+
+    // `report` gets one line for every file that is there but cannot be used.
+    PictureFiles(LoadFile load_file, Report report);
+
+    // From pics/colormap.pcx; without a usable one, a palette of even steps in grey and hue, and a line that says so.
+    void load_palette();
+    const formats::Palette& palette() const { return palette_; }
+
+    // Replacements (TGA, PNG, JPG beside the original, not smaller than it) are preferred where `retexturing`.
+    // Nothing: no usable file.
+    std::optional<LoadedPicture> load(std::string_view name, TextureUse use, bool retexturing) const;
+
+    // Where the original may lie, in the order of the search.
+    static std::vector<std::string> original_paths(std::string_view name, TextureUse use);
+
+private:
+    std::optional<LoadedPicture> load_replacement(const std::string& path) const;
+    std::optional<LoadedPicture> load_original(const std::string& path) const;
+
+    LoadFile load_file_;
+    Report report_;
+    formats::Palette palette_;
+};
+
+// Entries that stand in for a missing game palette: row 0 is grey, the others hues, dark to light.
+formats::Palette make_neutral_palette();
+
+struct PictureMeasure {
+    glm::vec3 average { 0 }; // linear RGB, weighted by alpha; black where nothing is opaque
+    float opaque_fraction = 1; // share of pixels that pass an alpha test at one half
+    bool has_alpha = false; // some pixel is not fully opaque
+};
+PictureMeasure measure_picture(const formats::Image& image);
+
+// Halves (averaging linear light) until neither side exceeds `limit`.
+formats::Image shrink_picture(formats::Image image, int limit);
+
+} // namespace vkpt

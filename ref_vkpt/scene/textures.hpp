@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The pictures on the device: found by name, uploaded once, each with a slot in the bindless table. Slot 0 is white.
+#pragma once
+
+#include "ref_vkpt/scene/picture_files.hpp"
+#include "ref_vkpt/vulkan/bindings.hpp"
+#include "ref_vkpt/vulkan/uploader.hpp"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace vkpt {
+
+// The engine holds pointers to these and sorts entities by them: addresses are stable and ascend in the order of loading.
+struct Texture {
+    std::string name; // as asked for
+    std::string path; // of the original picture: "textures/e1u1/floor.wal"
+    std::string file; // what was read; empty: missing
+    TextureUse use = TextureUse::wall;
+    uint32_t slot = 0; // bindless index
+    int width = 0, height = 0; // of the original picture
+    glm::vec3 average { 1 }; // see PictureMeasure
+    float opaque_fraction = 1;
+    bool has_alpha = false;
+    bool missing = false; // grey in place of a wall that was not found
+    uint32_t registration = 0; // the last one that used it; 0: free
+    Image image; // not set: shares the slot of another
+};
+
+class TextureStore {
+public:
+    // Makes the white picture and loads the palette. `bindings` must be fresh: slot 0 becomes the white picture.
+    TextureStore(const Gpu& gpu, Bindings& bindings, Uploader& uploader);
+    ~TextureStore();
+    TextureStore(const TextureStore&) = delete;
+    TextureStore& operator=(const TextureStore&) = delete;
+
+    // Names as in TextureUse. Loads what is not there yet and marks it used. A wall that is not found is a grey picture of
+    // 64 x 64, named on the console once per map; anything else that is not found is nullptr.
+    const Texture* find(std::string_view name, TextureUse use);
+    // The six sides in the order of shared::Sky (rt, bk, lf, ft, up, dn); nullptr where a side is missing.
+    std::array<const Texture*, 6> find_sky(std::string_view name);
+    // Marks a texture found earlier as used by this map.
+    void touch(const Texture* texture);
+
+    const Texture& white() const { return *white_; }
+    // The game's. Alpha of entry 255 is 0.
+    const formats::Palette& palette() const { return files_.palette(); }
+
+    void begin_registration();
+    // Frees what the new map does not use, except 2D pictures. The device must be idle.
+    void end_registration();
+    uint32_t registration() const { return registration_; }
+
+    // Before a frame is submitted that may show newly found pictures.
+    void flush_if_needed();
+
+    // For the console command `imagelist`.
+    void print_list() const;
+
+private:
+    using Names = std::map<std::string, Texture*, std::less<>>; // nullptr: searched and not found
+
+    Texture* load(std::string_view name, TextureUse use);
+    Texture* make_missing_wall(std::string_view name);
+    Texture* take_entry();
+    void release(Texture& texture);
+    void upload(Texture& texture, const formats::Image& pixels);
+
+    Gpu gpu_;
+    Bindings& bindings_;
+    Uploader& uploader_;
+    PictureFiles files_;
+    size_t capacity_;
+    std::unique_ptr<Texture[]> entries_;
+    std::set<size_t> free_entries_; // lowest first, so that two runs hand out the same order
+    std::array<Names, texture_use_count> names_;
+    Texture* white_ = nullptr;
+    Texture* grey_ = nullptr;
+    uint32_t registration_ = 1;
+    bool upload_pending_ = false;
+    bool said_full_ = false;
+};
+
+} // namespace vkpt

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The one descriptor set and pipeline layout that all passes share, so that a new pass is a shader and nothing else.
+//   binding 0  uniform buffer: shared::FrameUniforms (dynamic offset: one per frame in flight)
+//   binding 1  storage image: the picture that is shown (RGBA8, sRGB-encoded values)
+//   binding 2  samplers, see SamplerIndex
+//   binding 3  sampled images, bindless; slot 0 is always a valid white picture
+// Push constants: 64 bytes, the pass's own.
+#pragma once
+
+#include "ref_vkpt/vulkan/resources.hpp"
+
+#include <string>
+#include <vector>
+
+namespace vkpt {
+
+inline constexpr uint32_t push_constant_bytes = 64;
+
+class Bindings {
+public:
+    Bindings(const Gpu& gpu, bool anisotropic);
+    ~Bindings();
+    Bindings(const Bindings&) = delete;
+    Bindings& operator=(const Bindings&) = delete;
+
+    VkPipelineLayout pipeline_layout() const { return pipeline_layout_; }
+    uint32_t max_textures() const { return max_textures_; }
+
+    void bind_uniforms(const Buffer& buffer, VkDeviceSize bytes_per_frame);
+    void bind_output(const Image& image);
+    // A free slot now showing `image` (layout SHADER_READ_ONLY). Throws FatalError when all are taken.
+    uint32_t add_texture(const Image& image);
+    // The slot may be handed out again; the device must be idle.
+    void remove_texture(uint32_t slot);
+
+    void bind(VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset) const;
+
+private:
+    void create_layouts();
+    void create_samplers(bool anisotropic);
+    void create_set();
+
+    Gpu gpu_;
+    uint32_t max_textures_;
+    std::vector<VkSampler> samplers_;
+    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+    VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    std::vector<uint32_t> free_slots_;
+    uint32_t next_slot_ = 0;
+};
+
+} // namespace vkpt

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/vulkan/device.hpp"
+
+#include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/engine/errors.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <fmt/format.h>
+#include <optional>
+
+namespace vkpt {
+
+namespace {
+
+std::atomic<uint32_t> validation_message_count { 0 };
+
+const char* result_name(VkResult result)
+{
+    switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY: return "out of host memory";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "out of device memory";
+    case VK_ERROR_DEVICE_LOST: return "device lost";
+    case VK_ERROR_INITIALIZATION_FAILED: return "initialization failed";
+    case VK_ERROR_LAYER_NOT_PRESENT: return "layer not present";
+    case VK_ERROR_EXTENSION_NOT_PRESENT: return "extension not present";
+    case VK_ERROR_FEATURE_NOT_PRESENT: return "feature not present";
+    case VK_ERROR_INCOMPATIBLE_DRIVER: return "incompatible driver";
+    case VK_ERROR_SURFACE_LOST_KHR: return "surface lost";
+    case VK_ERROR_OUT_OF_DATE_KHR: return "swapchain out of date";
+    default: return "error";
+    }
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL print_validation_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
+    VkDebugUtilsMessageTypeFlagsEXT, const VkDebugUtilsMessengerCallbackDataEXT* data, void*)
+{
+    validation_message_count++;
+    engine::print("vkpt validation: {}", data->pMessage);
+    return VK_FALSE;
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messenger_info()
+{
+    VkDebugUtilsMessengerCreateInfoEXT info { VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT };
+    info.messageSeverity
+        = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    info.pfnUserCallback = print_validation_message;
+    return info;
+}
+
+std::vector<VkExtensionProperties> instance_extensions(const char* layer)
+{
+    uint32_t count = 0;
+    VKPT_CHECK(vkEnumerateInstanceExtensionProperties(layer, &count, nullptr));
+    std::vector<VkExtensionProperties> extensions(count);
+    VKPT_CHECK(vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data()));
+    return extensions;
+}
+
+bool contains(const std::vector<VkExtensionProperties>& extensions, const char* name)
+{
+    return std::ranges::any_of(extensions, [&](auto& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+bool has_layer(const char* name)
+{
+    uint32_t count = 0;
+    VKPT_CHECK(vkEnumerateInstanceLayerProperties(&count, nullptr));
+    std::vector<VkLayerProperties> layers(count);
+    VKPT_CHECK(vkEnumerateInstanceLayerProperties(&count, layers.data()));
+    return std::ranges::any_of(layers, [&](auto& layer) { return std::strcmp(layer.layerName, name) == 0; });
+}
+
+std::vector<VkExtensionProperties> device_extensions(VkPhysicalDevice device)
+{
+    uint32_t count = 0;
+    VKPT_CHECK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr));
+    std::vector<VkExtensionProperties> extensions(count);
+    VKPT_CHECK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()));
+    return extensions;
+}
+
+std::optional<uint32_t> find_queue_family(VkPhysicalDevice device)
+{
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (uint32_t i = 0; i < count; i++)
+        if ((families[i].queueFlags & wanted) == wanted)
+            return i;
+    return std::nullopt;
+}
+
+// The features every pass relies on, asked of a device in one chain.
+struct Features {
+    VkPhysicalDeviceFeatures2 core { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2 };
+    VkPhysicalDeviceVulkan12Features v12 { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES };
+    Features() { core.pNext = &v12; }
+    Features(const Features&) = delete;
+};
+
+// The name of the first feature that `has` lacks; nullptr: nothing is missing. Copies the needed ones to `use`.
+const char* require_features(const Features& has, Features& use)
+{
+    struct Row {
+        const VkBool32* present;
+        VkBool32* enable;
+        const char* name;
+    };
+#define VKPT_FEATURE(block, field) Row { &has.block.field, &use.block.field, #field }
+    const Row rows[] = {
+        VKPT_FEATURE(core.features, shaderInt64),
+        VKPT_FEATURE(v12, scalarBlockLayout),
+        VKPT_FEATURE(v12, bufferDeviceAddress),
+        VKPT_FEATURE(v12, descriptorIndexing),
+        VKPT_FEATURE(v12, runtimeDescriptorArray),
+        VKPT_FEATURE(v12, shaderSampledImageArrayNonUniformIndexing),
+        VKPT_FEATURE(v12, descriptorBindingPartiallyBound),
+        VKPT_FEATURE(v12, descriptorBindingSampledImageUpdateAfterBind),
+        VKPT_FEATURE(v12, descriptorBindingUpdateUnusedWhilePending),
+    };
+#undef VKPT_FEATURE
+    for (const Row& row : rows) {
+        if (!*row.present)
+            return row.name;
+        *row.enable = VK_TRUE;
+    }
+    return nullptr;
+}
+
+int rank_device_type(VkPhysicalDeviceType type)
+{
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return 1;
+    default: return 0;
+    }
+}
+
+// Mesa's CPU driver runs our compute BVH up to twice as fast with 512-bit vectors, and its disk cache ignores the width:
+// so a width of its own needs a cache of its own. Both are read when the driver loads.
+void prepare_cpu_driver(const std::string& cache_directory)
+{
+    constexpr int keep_users_choice = 0;
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw"))
+        setenv("LP_NATIVE_VECTOR_WIDTH", "512", keep_users_choice);
+#endif
+    if (!cache_directory.empty()) {
+        const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+        const std::string directory = fmt::format("{}/driver-{}", cache_directory, width ? width : "default");
+        setenv("MESA_SHADER_CACHE_DIR", directory.c_str(), keep_users_choice);
+    }
+}
+
+} // namespace
+
+void check_vulkan(VkResult result, const char* call)
+{
+    if (result >= 0)
+        return;
+    std::string_view name(call);
+    throw FatalError(fmt::format(
+        "{} failed: {} ({})", name.substr(0, name.find('(')), result_name(result), static_cast<int>(result)));
+}
+
+std::string describe_api_version(uint32_t version)
+{
+    return fmt::format(
+        "{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version), VK_API_VERSION_PATCH(version));
+}
+
+uint32_t Device::validation_messages() { return validation_message_count; }
+
+Device::Device(const DeviceSettings& settings)
+    : windowed_(!settings.instance_extensions.empty())
+{
+    prepare_cpu_driver(settings.cache_directory);
+    load_vulkan_library();
+    try {
+        create_instance(settings);
+        choose_physical_device(settings);
+        create_logical_device();
+    } catch (...) {
+        destroy();
+        throw;
+    }
+}
+
+Device::~Device() { destroy(); }
+
+void Device::destroy()
+{
+    if (handle)
+        vkDestroyDevice(handle, nullptr);
+    if (messenger_)
+        vkDestroyDebugUtilsMessengerEXT(instance, messenger_, nullptr);
+    if (instance)
+        vkDestroyInstance(instance, nullptr);
+    handle = VK_NULL_HANDLE;
+    messenger_ = VK_NULL_HANDLE;
+    instance = VK_NULL_HANDLE;
+}
+
+void Device::create_instance(const DeviceSettings& settings)
+{
+    uint32_t version = VK_API_VERSION_1_0;
+    VKPT_CHECK(vkEnumerateInstanceVersion(&version));
+    if (version < VK_API_VERSION_1_2)
+        throw FatalError(fmt::format("Vulkan {} is too old: version 1.2 is needed", describe_api_version(version)));
+
+    constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
+    std::vector<const char*> layers;
+    std::vector<const char*> extensions = settings.instance_extensions;
+    const bool validate = settings.validation && has_layer(validation_layer);
+    if (settings.validation && !validate)
+        throw FatalError("pt_validation 1 needs the Vulkan validation layers: install vulkan-validationlayers");
+    if (validate)
+        layers.push_back(validation_layer);
+    has_debug_utils = contains(instance_extensions(nullptr), VK_EXT_DEBUG_UTILS_EXTENSION_NAME)
+        || (validate && contains(instance_extensions(validation_layer), VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
+    if (has_debug_utils)
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (validate)
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+
+    VkApplicationInfo application { VK_STRUCTURE_TYPE_APPLICATION_INFO };
+    application.pApplicationName = "ref_vkpt";
+    application.apiVersion = VK_API_VERSION_1_2;
+
+    const VkValidationFeatureEnableEXT checks[] = { VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT };
+    VkValidationFeaturesEXT features { VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT };
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = checks;
+
+    VkInstanceCreateInfo info { VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO };
+    info.pNext = validate ? &features : nullptr;
+    info.pApplicationInfo = &application;
+    info.enabledLayerCount = uint32_t(layers.size());
+    info.ppEnabledLayerNames = layers.data();
+    info.enabledExtensionCount = uint32_t(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    VKPT_CHECK(vkCreateInstance(&info, nullptr, &instance));
+    load_instance_functions(instance);
+
+    if (validate) {
+        const VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info();
+        VKPT_CHECK(vkCreateDebugUtilsMessengerEXT(instance, &messenger, nullptr, &messenger_));
+    }
+}
+
+void Device::choose_physical_device(const DeviceSettings& settings)
+{
+    uint32_t count = 0;
+    VKPT_CHECK(vkEnumeratePhysicalDevices(instance, &count, nullptr));
+    std::vector<VkPhysicalDevice> devices(count);
+    VKPT_CHECK(vkEnumeratePhysicalDevices(instance, &count, devices.data()));
+    if (devices.empty())
+        throw FatalError("no Vulkan device on this machine: install your card's driver, or mesa-vulkan-drivers for the CPU");
+
+    std::string reasons;
+    int best = -1;
+    for (VkPhysicalDevice device : devices) {
+        VkPhysicalDeviceVulkan12Properties v12 { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES };
+        VkPhysicalDeviceProperties2 about { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &v12 };
+        vkGetPhysicalDeviceProperties2(device, &about);
+        const std::string device_name = about.properties.deviceName;
+        const auto reject = [&](std::string_view why) { reasons += fmt::format("; {} {}", device_name, why); };
+        if (device_name.find(settings.name_part) == std::string::npos) {
+            reject(fmt::format("is not pt_device \"{}\"", settings.name_part));
+            continue;
+        }
+        if (about.properties.apiVersion < VK_API_VERSION_1_2) {
+            reject("has only Vulkan " + describe_api_version(about.properties.apiVersion) + ", 1.2 is needed");
+            continue;
+        }
+        Features has, use;
+        vkGetPhysicalDeviceFeatures2(device, &has.core);
+        if (const char* missing = require_features(has, use)) {
+            reject(fmt::format("lacks the feature {}", missing));
+            continue;
+        }
+        const std::optional<uint32_t> family = find_queue_family(device);
+        if (!family) {
+            reject("has no queue for graphics and compute");
+            continue;
+        }
+        const int rank = rank_device_type(about.properties.deviceType);
+        if (rank <= best)
+            continue;
+        best = rank;
+        physical = device;
+        properties = about.properties;
+        queue_family = *family;
+        driver = fmt::format("{} {}", v12.driverName, v12.driverInfo);
+        max_textures = std::min(v12.maxPerStageDescriptorUpdateAfterBindSampledImages,
+            v12.maxDescriptorSetUpdateAfterBindSampledImages);
+    }
+    if (!physical)
+        throw FatalError("no usable Vulkan device" + reasons);
+    is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+}
+
+void Device::create_logical_device()
+{
+    Features has, use;
+    vkGetPhysicalDeviceFeatures2(physical, &has.core);
+    require_features(has, use);
+    has_anisotropy = has.core.features.samplerAnisotropy;
+    use.core.features.samplerAnisotropy = has.core.features.samplerAnisotropy;
+
+    std::vector<const char*> extensions;
+    has_swapchain = windowed_ && contains(device_extensions(physical), VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (has_swapchain)
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queues { VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO };
+    queues.queueFamilyIndex = queue_family;
+    queues.queueCount = 1;
+    queues.pQueuePriorities = &priority;
+
+    VkDeviceCreateInfo info { VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO };
+    info.pNext = &use.core;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queues;
+    info.enabledExtensionCount = uint32_t(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    VKPT_CHECK(vkCreateDevice(physical, &info, nullptr, &handle));
+    load_device_functions(handle);
+    vkGetDeviceQueue(handle, queue_family, 0, &queue);
+}
+
+void Device::wait_idle() const { VKPT_CHECK(vkDeviceWaitIdle(handle)); }
+
+uint32_t Device::find_memory_type(
+    uint32_t type_bits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const
+{
+    std::optional<uint32_t> found;
+    for (uint32_t i = 0; i < memory.memoryTypeCount; i++) {
+        const VkMemoryPropertyFlags flags = memory.memoryTypes[i].propertyFlags;
+        if (!(type_bits >> i & 1) || (flags & required) != required)
+            continue;
+        if ((flags & preferred) == preferred)
+            return i;
+        if (!found)
+            found = i;
+    }
+    if (!found)
+        throw FatalError(fmt::format("{} has no memory of the kind needed (flags {:#x})", properties.deviceName, required));
+    return *found;
+}
+
+void Device::name_object(VkObjectType type, uint64_t object, std::string_view name) const
+{
+    if (!vkSetDebugUtilsObjectNameEXT || !has_debug_utils)
+        return;
+    const std::string text(name);
+    VkDebugUtilsObjectNameInfoEXT info { VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT };
+    info.objectType = type;
+    info.objectHandle = object;
+    info.pObjectName = text.c_str();
+    vkSetDebugUtilsObjectNameEXT(handle, &info);
+}
+
+} // namespace vkpt

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Instance, physical device, logical device and its one queue.
+#pragma once
+
+#include "ref_vkpt/vulkan/functions.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vkpt {
+
+// Throws FatalError with the call's text unless the call succeeded.
+void check_vulkan(VkResult result, const char* call);
+#define VKPT_CHECK(call) ::vkpt::check_vulkan((call), #call)
+
+struct DeviceSettings {
+    std::string name_part; // empty: the best device
+    bool validation = false;
+    std::vector<const char*> instance_extensions; // what the window asks for
+    std::string cache_directory; // for the driver's shader cache; empty: the driver's own place
+};
+
+class Device {
+public:
+    // Throws FatalError: no Vulkan, no device, or a feature that device X lacks.
+    explicit Device(const DeviceSettings& settings);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice handle = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    uint32_t queue_family = 0;
+
+    VkPhysicalDeviceProperties properties {};
+    VkPhysicalDeviceMemoryProperties memory {};
+    std::string driver;
+    bool is_cpu = false;
+    bool has_swapchain = false;
+    bool has_debug_utils = false;
+    bool has_anisotropy = false;
+    uint32_t max_textures = 0;
+    // How many validation messages have been printed.
+    static uint32_t validation_messages();
+
+    void wait_idle() const;
+    // A memory type among `type_bits` with all of `required` and, if there is one, `preferred`.
+    uint32_t find_memory_type(uint32_t type_bits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
+    void name_object(VkObjectType type, uint64_t object, std::string_view name) const;
+
+private:
+    void create_instance(const DeviceSettings& settings);
+    void choose_physical_device(const DeviceSettings& settings);
+    void create_logical_device();
+    void destroy();
+
+    bool windowed_;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+};
+
+// "1.2.131"
+std::string describe_api_version(uint32_t version);
+
+} // namespace vkpt

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/vulkan/memory.hpp"
+
+#include "ref_vkpt/engine/errors.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+namespace vkpt {
+
+namespace {
+
+constexpr VkDeviceSize block_size = 32u << 20;
+
+const char* describe(MemoryKind kind)
+{
+    constexpr const char* names[] = { "textures", "geometry", "acceleration structures", "lights", "images", "staging" };
+    return names[size_t(kind)];
+}
+
+VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) { return (value + alignment - 1) & ~(alignment - 1); }
+
+// Cuts `size` bytes out of the block's free ranges.
+std::optional<VkDeviceSize> cut(MemoryBlock& block, VkDeviceSize size, VkDeviceSize alignment)
+{
+    for (auto range = block.free.begin(); range != block.free.end(); ++range) {
+        const auto [start, length] = *range;
+        const VkDeviceSize offset = align_up(start, alignment);
+        if (offset + size > start + length)
+            continue;
+        block.free.erase(range);
+        if (offset > start)
+            block.free[start] = offset - start;
+        if (offset + size < start + length)
+            block.free[offset + size] = start + length - offset - size;
+        return offset;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+Allocation::~Allocation()
+{
+    if (allocator_)
+        allocator_->release(*this);
+}
+
+VkDeviceMemory Allocation::memory() const { return block_->memory; }
+
+void* Allocation::mapped() const { return block_->mapped ? block_->mapped + offset_ : nullptr; }
+
+void Allocation::swap(Allocation& other) noexcept
+{
+    std::swap(allocator_, other.allocator_);
+    std::swap(block_, other.block_);
+    std::swap(offset_, other.offset_);
+    std::swap(size_, other.size_);
+    std::swap(kind_, other.kind_);
+}
+
+MemoryAllocator::~MemoryAllocator()
+{
+    for (MemoryBlock& block : blocks_)
+        vkFreeMemory(device_.handle, block.memory, nullptr);
+}
+
+Allocation MemoryAllocator::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
+    VkMemoryPropertyFlags preferred, bool linear, MemoryKind kind)
+{
+    const uint32_t type = device_.find_memory_type(requirements.memoryTypeBits, required, preferred);
+    Allocation allocation;
+    allocation.size_ = align_up(requirements.size, 256);
+    allocation.kind_ = kind;
+    const auto place = [&](MemoryBlock& block) {
+        const std::optional<VkDeviceSize> offset = cut(block, allocation.size_, requirements.alignment);
+        if (!offset)
+            return false;
+        allocation.block_ = &block;
+        allocation.offset_ = *offset;
+        return true;
+    };
+    const bool found = std::ranges::any_of(
+        blocks_, [&](MemoryBlock& block) { return block.type == type && block.linear == linear && place(block); });
+    if (!found)
+        place(add_block(std::max(block_size, allocation.size_), type, linear, kind));
+    allocation.allocator_ = this;
+    in_use_[size_t(kind)] += allocation.size_;
+    return allocation;
+}
+
+MemoryBlock& MemoryAllocator::add_block(VkDeviceSize size, uint32_t type, bool linear, MemoryKind kind)
+{
+    VkMemoryAllocateFlagsInfo flags { VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO };
+    flags.flags = linear ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0u;
+    VkMemoryAllocateInfo info { VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags };
+    info.allocationSize = size;
+    info.memoryTypeIndex = type;
+    MemoryBlock block;
+    if (const VkResult result = vkAllocateMemory(device_.handle, &info, nullptr, &block.memory); result < 0)
+        throw FatalError(fmt::format("out of memory on {}: {} MiB for {} not to be had; lower the resolution or "
+                                     "pt_view_scale",
+            device_.properties.deviceName, size >> 20, describe(kind)));
+    block.size = size;
+    block.type = type;
+    block.linear = linear;
+    block.free[0] = size;
+    if (device_.memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) {
+        void* mapped = nullptr;
+        VKPT_CHECK(vkMapMemory(device_.handle, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped));
+        block.mapped = static_cast<std::byte*>(mapped);
+    }
+    return blocks_.emplace_back(std::move(block));
+}
+
+void MemoryAllocator::release(Allocation& allocation)
+{
+    MemoryBlock& block = *allocation.block_;
+    in_use_[size_t(allocation.kind_)] -= allocation.size_;
+    auto [range, inserted] = block.free.emplace(allocation.offset_, allocation.size_);
+    if (auto next = std::next(range); next != block.free.end() && range->first + range->second == next->first) {
+        range->second += next->second;
+        block.free.erase(next);
+    }
+    if (range != block.free.begin())
+        if (auto previous = std::prev(range); previous->first + previous->second == range->first) {
+            previous->second += range->second;
+            block.free.erase(range);
+        }
+    allocation.allocator_ = nullptr;
+    if (block.free.size() == 1 && block.free.begin()->second == block.size) {
+        vkFreeMemory(device_.handle, block.memory, nullptr);
+        blocks_.remove_if([&](const MemoryBlock& candidate) { return &candidate == &block; });
+    }
+}
+
+} // namespace vkpt

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Device memory in large blocks, cut up first-fit: drivers allow only a few thousand allocations, a mod has more pictures.
+#pragma once
+
+#include "ref_vkpt/vulkan/device.hpp"
+
+#include <array>
+#include <cstdint>
+#include <list>
+#include <map>
+
+namespace vkpt {
+
+// What memory is used for; `pt_info` lists the sums.
+enum class MemoryKind { textures, geometry, acceleration, lights, images, staging, count };
+
+class MemoryAllocator;
+
+// A piece of a block; gives itself back.
+class Allocation {
+public:
+    Allocation() = default;
+    Allocation(Allocation&& other) noexcept { swap(other); }
+    Allocation& operator=(Allocation&& other) noexcept
+    {
+        swap(other);
+        return *this;
+    }
+    ~Allocation();
+
+    VkDeviceMemory memory() const;
+    VkDeviceSize offset() const { return offset_; }
+    VkDeviceSize size() const { return size_; }
+    void* mapped() const; // nullptr unless host-visible
+
+private:
+    friend class MemoryAllocator;
+    void swap(Allocation& other) noexcept;
+
+    MemoryAllocator* allocator_ = nullptr;
+    struct MemoryBlock* block_ = nullptr;
+    VkDeviceSize offset_ = 0, size_ = 0;
+    MemoryKind kind_ = MemoryKind::count;
+};
+
+struct MemoryBlock {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize size = 0;
+    uint32_t type = 0;
+    bool linear = true; // buffers; images live in blocks of their own (bufferImageGranularity)
+    std::byte* mapped = nullptr;
+    std::map<VkDeviceSize, VkDeviceSize> free; // offset -> size
+};
+
+class MemoryAllocator {
+public:
+    explicit MemoryAllocator(const Device& device) : device_(device) {}
+    ~MemoryAllocator();
+    MemoryAllocator(const MemoryAllocator&) = delete;
+    MemoryAllocator& operator=(const MemoryAllocator&) = delete;
+
+    // Throws FatalError: out of memory, naming kind and size.
+    Allocation allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
+        VkMemoryPropertyFlags preferred, bool linear, MemoryKind kind);
+    uint64_t bytes_in_use(MemoryKind kind) const { return in_use_[size_t(kind)]; }
+
+private:
+    friend class Allocation;
+    MemoryBlock& add_block(VkDeviceSize size, uint32_t type, bool linear, MemoryKind kind);
+    void release(Allocation& allocation);
+
+    const Device& device_;
+    std::list<MemoryBlock> blocks_;
+    std::array<uint64_t, size_t(MemoryKind::count)> in_use_ {};
+};
+
+} // namespace vkpt

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/vulkan/resources.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace vkpt {
+
+Buffer::Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind kind, std::string_view name)
+    : device_(gpu.device.handle), size_(std::max<VkDeviceSize>(bytes, 1))
+{
+    VkBufferCreateInfo info { VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO };
+    info.size = size_;
+    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
+        | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT
+        | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    VKPT_CHECK(vkCreateBuffer(device_, &info, nullptr, &handle_));
+    try {
+        VkMemoryRequirements requirements;
+        vkGetBufferMemoryRequirements(device_, handle_, &requirements);
+        constexpr VkMemoryPropertyFlags mappable
+            = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+        const VkMemoryPropertyFlags required
+            = home == BufferHome::device ? VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) : mappable;
+        const VkMemoryPropertyFlags preferred = home == BufferHome::upload ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
+            : home == BufferHome::readback                                 ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
+                                                                           : 0u;
+        allocation_ = gpu.memory.allocate(requirements, required, required | preferred, true, kind);
+        VKPT_CHECK(vkBindBufferMemory(device_, handle_, allocation_.memory(), allocation_.offset()));
+    } catch (...) {
+        vkDestroyBuffer(device_, handle_, nullptr);
+        throw;
+    }
+    VkBufferDeviceAddressInfo address { VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO };
+    address.buffer = handle_;
+    address_ = vkGetBufferDeviceAddress(device_, &address);
+    gpu.device.name_object(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(handle_), name);
+}
+
+Buffer::~Buffer()
+{
+    if (handle_)
+        vkDestroyBuffer(device_, handle_, nullptr);
+}
+
+void Buffer::swap(Buffer& other) noexcept
+{
+    std::swap(device_, other.device_);
+    std::swap(handle_, other.handle_);
+    std::swap(size_, other.size_);
+    std::swap(address_, other.address_);
+    std::swap(allocation_, other.allocation_);
+}
+
+Image::Image(const Gpu& gpu, const ImageSettings& settings, std::string_view name)
+    : device_(gpu.device.handle), settings_(settings)
+{
+    const VkFormat view_format = settings.view_format == VK_FORMAT_UNDEFINED ? settings.format : settings.view_format;
+    VkImageCreateInfo info { VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO };
+    info.flags = view_format != settings.format ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0u;
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = settings.format;
+    info.extent = { settings.width, settings.height, 1 };
+    info.mipLevels = settings.mip_levels;
+    info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = settings.usage;
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VKPT_CHECK(vkCreateImage(device_, &info, nullptr, &handle_));
+    try {
+        VkMemoryRequirements requirements;
+        vkGetImageMemoryRequirements(device_, handle_, &requirements);
+        constexpr VkMemoryPropertyFlags home = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+        allocation_ = gpu.memory.allocate(requirements, home, home, false, settings.kind);
+        VKPT_CHECK(vkBindImageMemory(device_, handle_, allocation_.memory(), allocation_.offset()));
+        VkImageViewCreateInfo view { VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO };
+        view.image = handle_;
+        view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+        view.format = view_format;
+        view.subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, settings.mip_levels, 0, 1 };
+        VKPT_CHECK(vkCreateImageView(device_, &view, nullptr, &view_));
+    } catch (...) {
+        vkDestroyImage(device_, handle_, nullptr);
+        throw;
+    }
+    gpu.device.name_object(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(handle_), name);
+}
+
+Image::~Image()
+{
+    if (!handle_)
+        return;
+    vkDestroyImageView(device_, view_, nullptr);
+    vkDestroyImage(device_, handle_, nullptr);
+}
+
+void Image::swap(Image& other) noexcept
+{
+    std::swap(device_, other.device_);
+    std::swap(handle_, other.handle_);
+    std::swap(view_, other.view_);
+    std::swap(settings_, other.settings_);
+    std::swap(allocation_, other.allocation_);
+}
+
+void record_barrier(VkCommandBuffer commands, const ImageBarrier& b)
+{
+    VkImageMemoryBarrier barrier { VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER };
+    barrier.srcAccessMask = b.from_access;
+    barrier.dstAccessMask = b.to_access;
+    barrier.oldLayout = b.from;
+    barrier.newLayout = b.to;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = b.image;
+    barrier.subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, b.first_mip, b.mip_count, 0, 1 };
+    vkCmdPipelineBarrier(commands, b.from_stage, b.to_stage, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+}
+
+void record_memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags from_stage, VkAccessFlags from_access,
+    VkPipelineStageFlags to_stage, VkAccessFlags to_access)
+{
+    VkMemoryBarrier barrier { VK_STRUCTURE_TYPE_MEMORY_BARRIER };
+    barrier.srcAccessMask = from_access;
+    barrier.dstAccessMask = to_access;
+    vkCmdPipelineBarrier(commands, from_stage, to_stage, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+} // namespace vkpt

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/vulkan/uploader.hpp"
+
+#include <algorithm>
+
+namespace vkpt {
+
+namespace {
+
+// So much staging memory makes a flush of its own, lest a mod's pictures fill the memory twice.
+constexpr VkDeviceSize staging_limit = 64u << 20;
+
+void blit_mip(VkCommandBuffer commands, const Image& image, uint32_t mip)
+{
+    const auto extent = [&](uint32_t level) {
+        return VkOffset3D { int32_t(std::max(image.width() >> level, 1u)), int32_t(std::max(image.height() >> level, 1u)),
+            1 };
+    };
+    VkImageBlit region {};
+    region.srcSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, 1 };
+    region.srcOffsets[1] = extent(mip - 1);
+    region.dstSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1 };
+    region.dstOffsets[1] = extent(mip);
+    vkCmdBlitImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.handle(),
+        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
+}
+
+} // namespace
+
+Uploader::Uploader(const Gpu& gpu) : gpu_(gpu)
+{
+    VkCommandPoolCreateInfo pool { VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO };
+    pool.queueFamilyIndex = gpu.device.queue_family;
+    VKPT_CHECK(vkCreateCommandPool(gpu.device.handle, &pool, nullptr, &pool_));
+    VkCommandBufferAllocateInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO };
+    info.commandPool = pool_;
+    info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    info.commandBufferCount = 1;
+    VKPT_CHECK(vkAllocateCommandBuffers(gpu.device.handle, &info, &commands_));
+}
+
+Uploader::~Uploader()
+{
+    vkDeviceWaitIdle(gpu_.device.handle);
+    vkDestroyCommandPool(gpu_.device.handle, pool_, nullptr);
+}
+
+VkCommandBuffer Uploader::begin()
+{
+    if (!recording_) {
+        VkCommandBufferBeginInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
+        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        VKPT_CHECK(vkBeginCommandBuffer(commands_, &info));
+        recording_ = true;
+    }
+    return commands_;
+}
+
+Buffer& Uploader::stage(std::span<const std::byte> bytes)
+{
+    if (staged_bytes_ + bytes.size() > staging_limit)
+        flush();
+    Buffer& staging = staging_.emplace_back(gpu_, bytes.size(), BufferHome::upload, MemoryKind::staging, "staging");
+    if (!bytes.empty())
+        std::memcpy(staging.mapped(), bytes.data(), bytes.size());
+    staged_bytes_ += bytes.size();
+    return staging;
+}
+
+Buffer Uploader::make_buffer(std::span<const std::byte> bytes, MemoryKind kind, std::string_view name)
+{
+    Buffer buffer(gpu_, bytes.size(), BufferHome::device, kind, name);
+    if (bytes.empty())
+        return buffer;
+    const Buffer& staging = stage(bytes);
+    const VkBufferCopy region { 0, 0, bytes.size() };
+    vkCmdCopyBuffer(begin(), staging.handle(), buffer.handle(), 1, &region);
+    return buffer;
+}
+
+void Uploader::fill_image(const Image& image, std::span<const std::byte> pixels)
+{
+    const Buffer& staging = stage(pixels);
+    const VkCommandBuffer commands = begin();
+    constexpr VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    record_barrier(commands,
+        { image.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, transfer, transfer, 0,
+            VK_ACCESS_TRANSFER_WRITE_BIT });
+    VkBufferImageCopy region {};
+    region.imageSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 };
+    region.imageExtent = { image.width(), image.height(), 1 };
+    vkCmdCopyBufferToImage(
+        commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    for (uint32_t mip = 0; mip < image.mip_levels(); mip++) {
+        if (mip > 0)
+            blit_mip(commands, image, mip);
+        record_barrier(commands,
+            { image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, transfer,
+                transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, mip, 1 });
+    }
+    record_barrier(commands,
+        { image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, transfer,
+            VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_TRANSFER_READ_BIT, VK_ACCESS_SHADER_READ_BIT });
+}
+
+void Uploader::flush()
+{
+    if (!recording_)
+        return;
+    record_memory_barrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+        VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT);
+    VKPT_CHECK(vkEndCommandBuffer(commands_));
+    VkSubmitInfo submit { VK_STRUCTURE_TYPE_SUBMIT_INFO };
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands_;
+    VKPT_CHECK(vkQueueSubmit(gpu_.device.queue, 1, &submit, VK_NULL_HANDLE));
+    VKPT_CHECK(vkQueueWaitIdle(gpu_.device.queue));
+    VKPT_CHECK(vkResetCommandPool(gpu_.device.handle, pool_, 0));
+    recording_ = false;
+    staging_.clear();
+    staged_bytes_ = 0;
+}
+
+} // namespace vkpt

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# shellcheck shell=bash
+# Messages, long steps with progress, and the few facts that every script needs. Sourced, never run.
+# `root` is the checkout; the sourcing script sets it.
+
+: "${root:?common.sh is sourced by ./play, ./test and scripts/*.sh}"
+# shellcheck disable=SC2034
+build_dir=${VKPT_BUILD_DIR:-$root/build/release}
+log_dir=$root/build/log
+step_timeout_note=10 # seconds between two lines of progress where there is no terminal
+
+say() { printf '%s\n' "$*"; }
+note() { printf '   %s\n' "$*"; }
+warn() { printf 'warning: %s\n' "$*" >&2; }
+die() {
+    printf 'error: %s\n' "$*" >&2
+    exit 1
+}
+die_usage() {
+    printf '%s: %s\n' "${0##*/}" "$1" >&2
+    printf "Try './%s --help'.\n" "${0##*/}" >&2
+    exit 2
+}
+
+is_root() { [[ $(id -u) -eq 0 ]]; }
+has() { command -v "$1" >/dev/null 2>&1; }
+is_interactive() { [[ -t 0 && -t 1 && -z ${CI:-} ]]; }
+
+# ask QUESTION: true for yes. Without a terminal the answer is yes: whoever starts a script unattended wants it done.
+ask() {
+    local answer
+    is_interactive || return 0
+    read -r -p "$1 [Y/n] " answer || return 1
+    [[ -z $answer || $answer == [yY]* ]]
+}
+
+# The last non-empty line of a log without control codes, cut to the terminal.
+last_line() {
+    local columns=${COLUMNS:-$(tput cols 2>/dev/null || echo 80)}
+    tail -c 4000 "$1" 2>/dev/null | tr '\r' '\n' | sed -e 's/\x1b\[[0-9;]*[A-Za-z]//g' -e '/^[[:space:]]*$/d' | tail -n 1 \
+        | cut -c "1-$((columns > 30 ? columns - 14 : 60))"
+}
+
+# watch_step PID TITLE PROGRESS...: shows what PROGRESS prints until PID has ended; returns its status.
+watch_step() {
+    local pid=$1 title=$2 start=$SECONDS shown=$SECONDS line=
+    shift 2
+    say "-- $title"
+    while kill -0 "$pid" 2>/dev/null; do
+        sleep 0.2
+        if [[ -t 1 ]]; then
+            line=$("$@")
+            printf '\r\033[K   %3d s  %s' $((SECONDS - start)) "$line"
+        elif ((SECONDS - shown >= step_timeout_note)); then
+            shown=$SECONDS
+            printf '   %3d s  %s\n' $((SECONDS - start)) "$("$@")"
+        fi
+    done
+    [[ -t 1 ]] && printf '\r\033[K'
+    local status=0
+    wait "$pid" || status=$?
+    ((status == 0)) && note "done in $((SECONDS - start)) s"
+    return "$status"
+}
+
+# run_step NAME TITLE COMMAND...: the output goes to build/log/NAME.log, its last line is the progress.
+run_step() {
+    local name=$1 title=$2 log
+    shift 2
+    mkdir -p "$log_dir" || die "cannot write to $log_dir"
+    log=$log_dir/$name.log
+    "$@" >"$log" 2>&1 </dev/null &
+    if ! watch_step $! "$title" last_line "$log"; then
+        tail -n 40 "$log" >&2
+        warn "$title: failed; the whole output is in ${log#"$root"/}"
+        return 1
+    fi
+}

@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Puts the picture's radiance together, and averages it with the frames before while nothing moves.
+#include "lib/frame.glsl"
+#include "lib/surfaces.glsl"
+
+void compose_pixel(uvec2 pixel, uint index)
+{
+    vec3 radiance = load_emitted(index);
+    PrimarySurface primary = load_primary_surface(index);
+    if (primary.depth >= 0.0)
+        radiance += unpack_half3(load_throughput(index))
+            * (primary.surface.albedo * load_diffuse_light(index) + load_specular_light(index));
+    // One broken path must not blacken a pixel for ever.
+    if (any(isnan(radiance)) || any(isinf(radiance)))
+        radiance = vec3(0.0);
+    store_radiance(index, radiance);
+    float share = 1.0 / float(frame.accumulated_frames + 1u);
+    vec3 before = frame.accumulated_frames > 0u ? load_accumulated(index) : vec3(0.0);
+    store_accumulated(index, before + (radiance - before) * share);
+}
+
+VKPT_RUN_OVER_PIXELS(compose_pixel)

@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Light that reaches the primary surface straight from an emitter.
+#include "lib/frame.glsl"
+#include "lib/lighting.glsl"
+
+void light_pixel(uvec2 pixel, uint index)
+{
+    ReflectedLight light = ReflectedLight(vec3(0.0), vec3(0.0));
+    PrimarySurface primary = load_primary_surface(index);
+    if (primary.depth >= 0.0) {
+        Random random = random_for_bounce(make_random(pixel, frame.frame_index, frame.seed), 1u);
+        light = sample_direct_light(primary.surface, primary.cluster, random);
+    }
+    store_diffuse_light(index, light.diffuse);
+    store_specular_light(index, light.specular);
+}
+
+VKPT_RUN_OVER_PIXELS(light_pixel)

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The one surface model: a Lambert base under a GGX layer, or a GGX metal, mixed by `metallic`.
+// Sources: Walter et al. 2007 (GGX), Heitz 2014 (height-correlated Smith), Dupuy and Benyoub 2023 (visible normals by
+// spherical caps). Directions are unit vectors that point away from the surface.
+#ifndef VKPT_LIB_BSDF
+#define VKPT_LIB_BSDF
+
+#include "../shared/functions.h"
+
+struct Surface {
+    vec3 position;
+    vec3 normal;           // shading normal, on the viewer's side
+    vec3 geometric_normal; // of the triangle, on the viewer's side: nothing comes from below it
+    vec3 view;             // towards where the ray came from
+    vec3 albedo;
+    float roughness; // GGX alpha = roughness^2
+    float metallic;
+};
+
+// Reflected radiance = (albedo * diffuse + specular) * incoming radiance. The diffuse part is kept free of the albedo so
+// that denoisers see no texture in it.
+struct BsdfValue {
+    float diffuse;
+    vec3 specular;
+};
+
+struct BsdfSample {
+    vec3 direction;
+    float pdf;       // per solid angle, of both lobes together; 0: nothing is reflected this way
+    BsdfValue value; // of evaluate_bsdf for `direction`
+    uint lobe;       // BSDF_LOBE_*
+};
+
+const uint BSDF_LOBE_DIFFUSE = 0u;
+const uint BSDF_LOBE_SPECULAR = 1u;
+
+const float bsdf_pi = 3.14159265358979f;
+const float bsdf_min_alpha = 1e-3f;    // smoother than this is for the mirror chain
+const float bsdf_dielectric_f0 = 0.04f; // index of refraction 1.5
+
+float luminance(vec3 colour)
+{
+    return dot(colour, vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+float ggx_alpha(float roughness)
+{
+    return max(roughness * roughness, bsdf_min_alpha);
+}
+
+// Interpolated and mapped normals may face away from the viewer: the view is then lifted just above their horizon.
+vec3 view_above_horizon(Surface s)
+{
+    float height = dot(s.normal, s.view);
+    const float least = 1e-3f;
+    return height >= least ? s.view : normalize(s.view + s.normal * (least - height));
+}
+
+vec3 any_tangent(vec3 normal)
+{
+    vec3 other = abs(normal.z) < 0.7f ? vec3(0.0f, 0.0f, 1.0f) : vec3(1.0f, 0.0f, 0.0f);
+    return normalize(cross(other, normal));
+}
+
+// `sine2` = squared sine between normal and half vector: it keeps the precision that 1 - cosine^2 loses on smooth surfaces.
+float ggx_distribution(float cosine, float sine2, float alpha)
+{
+    float a2 = alpha * alpha;
+    float d = cosine * cosine * a2 + sine2;
+    return a2 / (bsdf_pi * d * d);
+}
+
+float smith_root(float cosine, float alpha)
+{
+    float a2 = alpha * alpha;
+    return sqrt(a2 + (1.0f - a2) * cosine * cosine);
+}
+
+float schlick_power(float cosine)
+{
+    float m = clamp(1.0f - cosine, 0.0f, 1.0f);
+    float m2 = m * m;
+    return m2 * m2 * m;
+}
+
+vec3 specular_f0(Surface s)
+{
+    return mix(vec3(bsdf_dielectric_f0), s.albedo, s.metallic);
+}
+
+vec3 half_vector(vec3 view, vec3 light, vec3 normal)
+{
+    vec3 sum = view + light;
+    float len2 = dot(sum, sum);
+    return len2 > 1e-12f ? sum * inversesqrt(len2) : normal;
+}
+
+// The reflectance itself, without the cosine and without asking whether `light` is above the horizon.
+BsdfValue evaluate_brdf(Surface s, vec3 light)
+{
+    vec3 view = view_above_horizon(s);
+    vec3 h = half_vector(view, light, s.normal);
+    vec3 across = cross(s.normal, h);
+    float alpha = ggx_alpha(s.roughness);
+    float nv = dot(s.normal, view);
+    float nl = max(dot(s.normal, light), 1e-6f);
+    float schlick = schlick_power(dot(view, h));
+    float visibility = 0.5f / (nl * smith_root(nv, alpha) + nv * smith_root(nl, alpha));
+    float lobe = ggx_distribution(dot(s.normal, h), dot(across, across), alpha) * visibility;
+    float base_fresnel = bsdf_dielectric_f0 + (1.0f - bsdf_dielectric_f0) * schlick;
+
+    vec3 f0 = specular_f0(s);
+    BsdfValue value;
+    value.diffuse = (1.0f - s.metallic) * (1.0f - base_fresnel) / bsdf_pi;
+    value.specular = (f0 + (vec3(1.0f) - f0) * schlick) * lobe;
+    return value;
+}
+
+// Reflectance times cosine.
+BsdfValue evaluate_bsdf(Surface s, vec3 light)
+{
+    BsdfValue value;
+    value.diffuse = 0.0f;
+    value.specular = vec3(0.0f);
+    float nl = dot(s.normal, light);
+    if (nl <= 0.0f || dot(s.geometric_normal, light) <= 0.0f)
+        return value;
+    value = evaluate_brdf(s, light);
+    value.diffuse *= nl;
+    value.specular *= nl;
+    return value;
+}
+
+vec3 reflected_radiance(Surface s, BsdfValue value, vec3 incoming)
+{
+    return (s.albedo * value.diffuse + value.specular) * incoming;
+}
+
+// How often sample_bsdf takes the specular lobe: by what each lobe reflects towards this viewer.
+float specular_lobe_probability(Surface s)
+{
+    float schlick = schlick_power(dot(s.normal, view_above_horizon(s)));
+    float f0 = luminance(specular_f0(s));
+    float specular = f0 + (1.0f - f0) * schlick;
+    float diffuse = (1.0f - s.metallic) * (1.0f - bsdf_dielectric_f0) * luminance(s.albedo);
+    if (s.metallic >= 1.0f)
+        return 1.0f;
+    return clamp(specular / max(specular + diffuse, 1e-6f), 0.1f, 0.9f);
+}
+
+// Density of sample_bsdf per solid angle; over the whole sphere it integrates to 1 (the specular lobe of a rough surface
+// reaches below the horizon, where nothing is reflected).
+float pdf_bsdf(Surface s, vec3 light)
+{
+    vec3 view = view_above_horizon(s);
+    vec3 h = half_vector(view, light, s.normal);
+    float nh = dot(s.normal, h);
+    float alpha = ggx_alpha(s.roughness);
+    float nv = dot(s.normal, view);
+    vec3 across = cross(s.normal, h);
+    float specular = 0.0f;
+    if (nh > 0.0f) // visible normals: G1 D / (4 nv)
+        specular = ggx_distribution(nh, dot(across, across), alpha) * 0.5f / (nv + smith_root(nv, alpha));
+    float diffuse = max(dot(s.normal, light), 0.0f) / bsdf_pi;
+    return mix(diffuse, specular, specular_lobe_probability(s));
+}
+
+vec3 sample_cosine_direction(vec3 normal, vec2 xi)
+{
+    vec3 tangent = any_tangent(normal);
+    vec3 bitangent = cross(normal, tangent);
+    float radius = sqrt(xi.x);
+    float phi = 2.0f * bsdf_pi * xi.y;
+    float height = sqrt(max(1.0f - xi.x, 0.0f));
+    return normalize(tangent * (radius * cos(phi)) + bitangent * (radius * sin(phi)) + normal * height);
+}
+
+// A microfacet normal with density G1 D max(0, v.h) / nv.
+vec3 sample_visible_normal(vec3 normal, vec3 view, float alpha, vec2 xi)
+{
+    vec3 tangent = any_tangent(normal);
+    vec3 bitangent = cross(normal, tangent);
+    vec3 stretched
+        = normalize(vec3(alpha * dot(view, tangent), alpha * dot(view, bitangent), dot(view, normal)));
+    float phi = 2.0f * bsdf_pi * xi.x;
+    float z = (1.0f - xi.y) * (1.0f + stretched.z) - stretched.z;
+    float sine = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
+    vec3 m = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
+    return normalize(tangent * (alpha * m.x) + bitangent * (alpha * m.y) + normal * max(m.z, 1e-7f));
+}
+
+BsdfSample sample_bsdf(Surface s, vec2 xi, float xi_lobe)
+{
+    BsdfSample result;
+    if (xi_lobe < specular_lobe_probability(s)) {
+        vec3 view = view_above_horizon(s);
+        vec3 h = sample_visible_normal(s.normal, view, ggx_alpha(s.roughness), xi);
+        result.direction = normalize(h * (2.0f * dot(view, h)) - view);
+        result.lobe = BSDF_LOBE_SPECULAR;
+    } else {
+        result.direction = sample_cosine_direction(s.normal, xi);
+        result.lobe = BSDF_LOBE_DIFFUSE;
+    }
+    result.pdf = pdf_bsdf(s, result.direction);
+    result.value = evaluate_bsdf(s, result.direction);
+    return result;
+}
+
+#endif

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What every pass has: the frame's uniforms, the screen buffers, the pictures, and the walk over the screen's pixels.
+// Include this first: it enables the extensions.
+#ifndef VKPT_LIB_FRAME
+#define VKPT_LIB_FRAME
+
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+
+#include "../shared/frame.h"
+
+layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
+layout(set = 0, binding = 2) uniform sampler samplers[SAMPLER_COUNT];
+layout(set = 0, binding = 3) uniform texture2D textures[];
+
+// load_NAME(pixel index) and store_NAME(pixel index, value) for every screen buffer
+#define VKPT_SCREEN_BUFFER(type, name)                                                                                 \
+    layout(buffer_reference, scalar, buffer_reference_align = 4) buffer name##_buffer { type v[]; };                   \
+    type load_##name(uint pixel) { return name##_buffer(frame.screen.name).v[pixel]; }                                 \
+    void store_##name(uint pixel, type value) { name##_buffer(frame.screen.name).v[pixel] = value; }
+#include "../shared/screen_buffers.def"
+#undef VKPT_SCREEN_BUFFER
+
+// Where lane `lane` of 64 stands in an 8 x 8 tile: 16 neighbouring lanes (one vector of the CPU driver) cover 4 x 4 pixels.
+uvec2 pixel_in_tile(uint lane)
+{
+    return uvec2(((lane >> 4u) & 1u) * 4u + (lane & 3u), (lane >> 5u) * 4u + ((lane >> 2u) & 3u));
+}
+
+// Defines main(): calls run(pixel, index of the pixel in the screen buffers) for each pixel of the view. Workgroups walk
+// several tiles because starting one costs the CPU driver as much as a cheap pixel pass.
+#define VKPT_RUN_OVER_PIXELS(run)                                                                                      \
+    layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
+    void main()                                                                                                        \
+    {                                                                                                                  \
+        uint tiles_across = (frame.size.x + 7u) / 8u, tile_count = tiles_across * ((frame.size.y + 7u) / 8u);          \
+        [[dont_unroll]] for (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {                                            \
+            uint tile = gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP + i;                                                  \
+            uvec2 pixel = uvec2(tile % tiles_across, tile / tiles_across) * 8u                                         \
+                + pixel_in_tile(gl_LocalInvocationIndex);                                                              \
+            if (tile < tile_count && all(lessThan(pixel, frame.size)))                                                 \
+                run(pixel, pixel.y * frame.size.x + pixel.x);                                                          \
+        }                                                                                                              \
+    }
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The light lists on the GPU: which emitters can light a point. See ref_vkpt/lights/light_lists.hpp.
+#ifndef VKPT_LIB_LIGHT_LISTS
+#define VKPT_LIB_LIGHT_LISTS
+
+#include "../shared/functions.h"
+#include "../shared/scene.h"
+
+VKPT_BUFFER(EmitterBuffer, Emitter, 16);
+VKPT_BUFFER(LightListBuffer, LightList, 16);
+VKPT_BUFFER(LightIndexBuffer, uint, 4);
+VKPT_BUFFER(LightstyleBuffer, float, 4);
+VKPT_BUFFER(BspTreeBuffer, BspTreeNode, 8);
+
+// Addresses of all tables: eight bytes each in the order below, then the count.
+struct LightTables {
+    EmitterBuffer emitters;
+    LightListBuffer lists;            // one per cluster, then the one for points outside every cluster
+    LightIndexBuffer static_indices;
+    LightIndexBuffer dynamic_indices;
+    LightstyleBuffer lightstyles;     // one scale per lightstyle
+    BspTreeBuffer tree;
+    uint list_count;
+};
+
+// One list, ready to be read.
+struct LightListView {
+    LightTables tables;
+    LightList range;
+};
+
+// The PVS cluster of a point, -1 in solid.
+int find_cluster(BspTreeBuffer tree, vec3 point)
+{
+    int child = 0;
+    while (child >= 0) {
+        BspTreeNode node = tree.v[child];
+        child = dot(point, node.normal) - node.dist >= 0.0f ? node.front : node.back;
+    }
+    return -(child + 2);
+}
+
+LightListView open_light_list(LightTables tables, int cluster)
+{
+    uint outside = tables.list_count - 1u;
+    LightListView list;
+    list.tables = tables;
+    list.range = tables.lists.v[cluster < 0 ? outside : min(uint(cluster), outside)];
+    return list;
+}
+
+uint light_count(LightListView list)
+{
+    return list.range.static_count + list.range.dynamic_count;
+}
+
+// The emitter index at a position of the list; ascending.
+uint light_at(LightListView list, uint position)
+{
+    if (position < list.range.static_count)
+        return list.tables.static_indices.v[list.range.first_static + position];
+    return list.tables.dynamic_indices.v[list.range.first_dynamic + position - list.range.static_count];
+}
+
+// Where an emitter stands in the list, -1: nowhere.
+int find_light(LightListView list, uint emitter)
+{
+    uint low = 0u;
+    uint high = light_count(list);
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (light_at(list, middle) < emitter)
+            low = middle + 1u;
+        else
+            high = middle;
+    }
+    return low < light_count(list) && light_at(list, low) == emitter ? int(low) : -1;
+}
+
+// With its lightstyle applied.
+Emitter load_emitter(LightListView list, uint emitter)
+{
+    Emitter e = list.tables.emitters.v[emitter];
+    e.radiance *= list.tables.lightstyles.v[e.lightstyle];
+    return e;
+}
+
+#endif

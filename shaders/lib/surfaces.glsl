@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From what a ray hit to a surface that can be shaded.
+#ifndef VKPT_LIB_SURFACES
+#define VKPT_LIB_SURFACES
+
+#include "bsdf.glsl"
+#include "light_lists.glsl"
+#include "packing.glsl"
+#include "sky.glsl"
+#include "trace.glsl"
+
+struct HitSurface {
+    Surface surface;
+    vec3 emission; // radiance towards the viewer
+    float opacity;
+    uint flags;    // MATERIAL_*
+    int emitter;   // >= 0: its emission is in the light lists
+    int cluster;   // -1: outside of the map
+    float front;   // 1: met from its front
+};
+
+// A little off the surface, so that rays leaving it do not meet it again: more where coordinates are coarser.
+vec3 leave_surface(vec3 position, vec3 normal)
+{
+    vec3 size = abs(position);
+    return position + normal * (0.02 + 4e-6 * max(size.x, max(size.y, size.z)));
+}
+
+LightTables light_tables()
+{
+    return LightTables(EmitterBuffer(frame.scene.emitters), LightListBuffer(frame.scene.light_lists),
+        LightIndexBuffer(frame.scene.static_light_indices), LightIndexBuffer(frame.scene.dynamic_light_indices),
+        LightstyleBuffer(frame.scene.lightstyles), BspTreeBuffer(frame.scene.bsp_tree), frame.scene.light_list_count);
+}
+
+float lightstyle_scale(uint lightstyle) { return LightstyleBuffer(frame.scene.lightstyles).v[lightstyle]; }
+
+// Ray cones (Akenine-Moeller et al., Ray Tracing Gems, chapter 20): the mip whose texel is as large as the ray's footprint.
+float choose_mip(Triangle triangle, vec2 picture_size, float cone_width, float cosine)
+{
+    vec3 e1 = triangle.positions[1] - triangle.positions[0], e2 = triangle.positions[2] - triangle.positions[0];
+    vec2 t1 = (triangle.uvs[1] - triangle.uvs[0]) * picture_size, t2 = (triangle.uvs[2] - triangle.uvs[0]) * picture_size;
+    float texels = abs(t1.x * t2.y - t1.y * t2.x), area = length(cross(e1, e2));
+    float footprint = cone_width / max(abs(cosine), 0.1);
+    return 0.5 * log2(max(texels / max(area, 1e-12), 1e-12)) + log2(max(footprint, 1e-6));
+}
+
+// Liquids wobble: the picture is displaced along each axis by a sine of the other.
+vec2 warp_uv(vec2 uv)
+{
+    const float amplitude = 0.0625, cycles = 6.2831853 * 2.0, speed = 1.0;
+    return uv + amplitude * sin(uv.yx * cycles * 0.5 + frame.time * speed);
+}
+
+// `cone_width`: the ray's footprint there, in units. `view`: unit, towards the ray's origin.
+HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width)
+{
+    Triangle triangle = TriangleBuffer(frame.scene.triangles).v[hit.triangle];
+    Material material = MaterialBuffer(frame.scene.materials).v[triangle.material];
+    vec2 b = hit.barycentrics;
+    float b0 = 1.0 - b.x - b.y;
+
+    HitSurface result;
+    Surface s;
+    // From the corners, not along the ray: the error then does not grow with the distance.
+    s.position = triangle.positions[0] * b0 + triangle.positions[1] * b.x + triangle.positions[2] * b.y;
+    s.view = -ray.direction;
+    s.geometric_normal = normalize(
+        cross(triangle.positions[1] - triangle.positions[0], triangle.positions[2] - triangle.positions[0]));
+    result.front = hit.front != 0u ? 1.0 : 0.0;
+    float facing = hit.front != 0u ? 1.0 : -1.0;
+    s.geometric_normal *= facing;
+    s.normal = normalize(unpack_direction(triangle.normals[0]) * b0 + unpack_direction(triangle.normals[1]) * b.x
+                   + unpack_direction(triangle.normals[2]) * b.y)
+        * facing;
+
+    vec2 uv = interpolate_uv(triangle, b) + material.uv_scroll;
+    if ((material.flags & MATERIAL_WARP) != 0u)
+        uv = warp_uv(uv);
+    uint slot = nonuniformEXT(material.texture);
+    vec2 picture_size = vec2(textureSize(sampler2D(textures[nonuniformEXT(slot)], samplers[SAMPLER_REPEAT]), 0));
+    float mip = choose_mip(triangle, picture_size, cone_width, dot(s.geometric_normal, s.view));
+    vec4 picture = textureLod(sampler2D(textures[nonuniformEXT(slot)], samplers[SAMPLER_REPEAT]), uv, mip);
+
+    s.albedo = clamp(picture.rgb * material.tint, 0.0, 1.0);
+    s.roughness = material.roughness;
+    s.metallic = material.metallic;
+    result.surface = s;
+    result.emission = material.emission * picture.rgb * lightstyle_scale(material.lightstyle) * result.front;
+    result.opacity = material.opacity;
+    result.flags = material.flags;
+    result.emitter = triangle.emitter;
+    result.cluster = triangle.cluster >= 0
+        ? triangle.cluster
+        : find_cluster(BspTreeBuffer(frame.scene.bsp_tree), leave_surface(s.position, s.geometric_normal));
+    return result;
+}
+
+// What the light passes read back of the primary surface.
+void store_surface(uint pixel, HitSurface hit)
+{
+    Surface s = hit.surface;
+    store_normals(pixel, uvec2(pack_direction(s.normal), pack_direction(s.geometric_normal)));
+    store_surface(pixel,
+        uvec4(packHalf2x16(s.albedo.xy), packHalf2x16(vec2(s.albedo.z, s.roughness)),
+            packHalf2x16(vec2(s.metallic, 0.0)) | (uint(hit.cluster + 1) << 16u), pack_direction(s.view)));
+}
+
+struct PrimarySurface {
+    Surface surface;
+    float depth; // < 0: no surface
+    int cluster;
+};
+
+PrimarySurface load_primary_surface(uint pixel)
+{
+    PrimarySurface result;
+    vec4 position = load_position(pixel);
+    uvec2 normals = load_normals(pixel);
+    uvec4 bits = load_surface(pixel);
+    vec2 blue_roughness = unpackHalf2x16(bits.y);
+    result.depth = position.w;
+    result.cluster = int(bits.z >> 16u) - 1;
+    result.surface.position = position.xyz;
+    result.surface.normal = unpack_direction(normals.x);
+    result.surface.geometric_normal = unpack_direction(normals.y);
+    result.surface.view = unpack_direction(bits.w);
+    result.surface.albedo = vec3(unpackHalf2x16(bits.x), blue_roughness.x);
+    result.surface.roughness = blue_roughness.y;
+    result.surface.metallic = unpackHalf2x16(bits.z & 0xffffu).x;
+    return result;
+}
+
+#endif

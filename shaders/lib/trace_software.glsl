@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Ray tracing in plain compute: walks the 8-wide BVH that ref_vkpt/trace/bvh.cpp builds (layout described there).
+//
+// One ray per lane. Measured against the alternatives on the CPU driver: 64-bit loads through buffer_reference become one
+// hardware gather each, where a storage buffer's become branches (half the speed); a stack in global memory beats private and
+// shared arrays by 10..30 % on incoherent rays; integer min/max on the float bits spares the driver's NaN handling.
+//
+// The including shader enables nothing itself: the extensions are enabled here, so include this before any statement.
+#ifndef VKPT_LIB_TRACE_SOFTWARE_GLSL
+#define VKPT_LIB_TRACE_SOFTWARE_GLSL
+
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+
+#include "../shared/trace.h"
+
+struct RawHit {
+    uint triangle;     // id, or TRACE_MISS
+    float t;           // distance in lengths of `direction`; of a miss: the distance up to which nothing was met
+    vec2 barycentrics; // weights of the triangle's second and third corner
+    uint front;        // 1: the ray came from the side that cross(p1 - p0, p2 - p0) points to
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer BvhWords64 { uint64_t words[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhWords32 { uint words[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhViews { BvhView views[]; };
+
+// `lane` counts over all lanes that are in flight together (for instance the index of the invocation in the dispatch).
+uint64_t software_stack(uint64_t stack_buffer, uint lane)
+{
+    uint group = lane / TRACE_STACK_INTERLEAVE, place = lane % TRACE_STACK_INTERLEAVE;
+    return stack_buffer + uint64_t(group) * (TRACE_STACK_BYTES_PER_LANE * TRACE_STACK_INTERLEAVE) + uint64_t(place * 8u);
+}
+
+// What to start a sequence of software_trace() calls with.
+RawHit software_miss(float t_max) { return RawHit(TRACE_MISS, t_max, vec2(0.0), 0u); }
+
+// A child's key is its entry distance with its index in the lowest bits: keys of positive floats sort as integers.
+const int bvh_key_none = 0x7f7fffff; // above every distance: the largest finite float
+const int bvh_key_child_mask = 7;
+const uint bvh_stack_stride = TRACE_STACK_INTERLEAVE * 8u;
+
+void bvh_order(inout int a, inout int b)
+{
+    int low = min(a, b);
+    b = max(a, b);
+    a = low;
+}
+
+// Ascending; a network of 19 exchanges in 6 steps (Batcher's odd-even merge sort).
+void bvh_sort(inout int key[8])
+{
+    bvh_order(key[0], key[1]), bvh_order(key[2], key[3]), bvh_order(key[4], key[5]), bvh_order(key[6], key[7]);
+    bvh_order(key[0], key[2]), bvh_order(key[1], key[3]), bvh_order(key[4], key[6]), bvh_order(key[5], key[7]);
+    bvh_order(key[1], key[2]), bvh_order(key[5], key[6]), bvh_order(key[0], key[4]), bvh_order(key[3], key[7]);
+    bvh_order(key[1], key[5]), bvh_order(key[2], key[6]);
+    bvh_order(key[1], key[4]), bvh_order(key[3], key[6]);
+    bvh_order(key[2], key[4]), bvh_order(key[3], key[5]);
+    bvh_order(key[3], key[4]);
+}
+
+// A ray in the grid's coordinates, and where a node keeps the planes it enters and leaves by.
+struct BvhRay {
+    vec3 origin, inverse;
+    uvec3 near_offset, far_offset; // bytes from a node's start
+    int t_min;                     // float bits, >= 0
+};
+
+BvhRay bvh_ray(BvhView bvh, vec3 origin, vec3 direction, int t_min)
+{
+    // A tiny slope for none keeps the slabs' distances finite; the boxes' margin (bvh.cpp) covers the difference.
+    vec3 slope = mix(direction, vec3(1e-18), lessThan(abs(direction), vec3(1e-18)));
+    vec3 inverse = 1.0 / (slope * bvh.grid_scale);
+    uvec3 low = uvec3(0u, 32u, 64u), backwards = uvec3(floatBitsToInt(inverse) >> 31) & 16u;
+    return BvhRay((origin - bvh.grid_origin) * bvh.grid_scale, inverse, low + backwards, low + (16u - backwards), t_min);
+}
+
+void bvh_load_planes(uint64_t address, out uvec2 planes[2])
+{
+    BvhWords64 source = BvhWords64(address);
+    planes[0] = unpack32(source.words[0]);
+    planes[1] = unpack32(source.words[1]);
+}
+
+// The two 16-bit planes in a word. Through int: the driver has no quick way from unsigned to float.
+vec2 bvh_plane_pair(uvec2 planes[2], int pair)
+{
+    uint word = planes[pair >> 1][pair & 1];
+    return vec2(ivec2(word & 0xffffu, word >> 16));
+}
+
+ivec2 bvh_slab(vec2 plane, float origin, float inverse) { return floatBitsToInt((plane - origin) * inverse); }
+
+// Entry distances of the children that the ray meets before t_max, ascending.
+void bvh_test_node(BvhRay ray, uint64_t node, int t_max, out int key[8])
+{
+    uvec2 near_x[2], near_y[2], near_z[2], far_x[2], far_y[2], far_z[2];
+    bvh_load_planes(node + uint64_t(ray.near_offset.x), near_x);
+    bvh_load_planes(node + uint64_t(ray.near_offset.y), near_y);
+    bvh_load_planes(node + uint64_t(ray.near_offset.z), near_z);
+    bvh_load_planes(node + uint64_t(ray.far_offset.x), far_x);
+    bvh_load_planes(node + uint64_t(ray.far_offset.y), far_y);
+    bvh_load_planes(node + uint64_t(ray.far_offset.z), far_z);
+    // Negative floats are negative integers, so the comparison with t_min >= 0 and the final one hold for them as well; what a
+    // NaN gives is either a miss or a needless visit.
+    [[unroll]] for (int pair = 0; pair < 4; pair++) {
+        ivec2 enter = max(max(bvh_slab(bvh_plane_pair(near_x, pair), ray.origin.x, ray.inverse.x),
+                              bvh_slab(bvh_plane_pair(near_y, pair), ray.origin.y, ray.inverse.y)),
+                          max(bvh_slab(bvh_plane_pair(near_z, pair), ray.origin.z, ray.inverse.z), ivec2(ray.t_min)));
+        ivec2 leave = min(min(bvh_slab(bvh_plane_pair(far_x, pair), ray.origin.x, ray.inverse.x),
+                              bvh_slab(bvh_plane_pair(far_y, pair), ray.origin.y, ray.inverse.y)),
+                          min(bvh_slab(bvh_plane_pair(far_z, pair), ray.origin.z, ray.inverse.z), ivec2(t_max)));
+        key[pair * 2] = enter.x <= leave.x ? (enter.x & ~bvh_key_child_mask) | (pair * 2) : bvh_key_none;
+        key[pair * 2 + 1] = enter.y <= leave.y ? (enter.y & ~bvh_key_child_mask) | (pair * 2 + 1) : bvh_key_none;
+    }
+    bvh_sort(key);
+}
+
+// Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), two-sided, with the division put off until
+// the hit is sure. t in (t_min, t_max), edges inclusive.
+bool bvh_test_triangle(uint64_t address, vec3 origin, vec3 direction, int t_min, int t_max, uint ray_mask, inout RawHit hit)
+{
+    BvhWords64 source = BvhWords64(address);
+    vec2 a = uintBitsToFloat(unpack32(source.words[0])), b = uintBitsToFloat(unpack32(source.words[1]));
+    vec2 c = uintBitsToFloat(unpack32(source.words[2])), d = uintBitsToFloat(unpack32(source.words[3]));
+    uvec2 e = unpack32(source.words[4]);
+    vec3 v0 = vec3(a, b.x), e1 = vec3(b.y, c), e2 = vec3(d, uintBitsToFloat(e.x));
+
+    vec3 p = cross(direction, e2), s = origin - v0, q = cross(s, e1);
+    // Fold the determinant's sign into the rest, so that both sides compare against a positive area.
+    int det = floatBitsToInt(dot(e1, p)), sign = det & 0x80000000;
+    float area = intBitsToFloat(det ^ sign), distance = intBitsToFloat(floatBitsToInt(dot(e2, q)) ^ sign);
+    vec2 uv = intBitsToFloat(floatBitsToInt(vec2(dot(s, p), dot(direction, q))) ^ sign);
+    bool met = uv.x >= 0.0 && uv.y >= 0.0 && uv.x + uv.y <= area && distance > intBitsToFloat(t_min) * area
+        && distance < intBitsToFloat(t_max) * area && ((e.y >> BVH_RAY_MASK_SHIFT) & ray_mask) != 0u;
+    if (met) {
+        float scale = 1.0 / area;
+        hit = RawHit(e.y & BVH_ID_MASK, distance * scale, uv * scale, sign == 0 ? 1u : 0u);
+    }
+    return met;
+}
+
+#define BVH_PUSH(k)                                                                                                           \
+    {                                                                                                                         \
+        BvhWords64(stack + uint64_t(top)).words[0]                                                                            \
+            = pack64(uvec2(uint(key[k]), child_words + uint(key[k] & bvh_key_child_mask) * 4u));                              \
+        top += bvh_stack_stride;                                                                                              \
+    }
+
+// Replaces `hit` by the tree's nearest triangle with t in (t_min, hit.t) and (mask & ray_mask) != 0, if there is one; with
+// `any_hit` by the first such triangle found. Call it for one tree after the other to search several; for a short compile, in a
+// loop, so that the generated code has it once (software_trace_all). Every ray ends: zero, infinite and NaN ones meet nothing or
+// something, and read nothing outside the tree. `stack`: software_stack() of this lane.
+void software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, inout RawHit hit, uint ray_mask, bool any_hit,
+    uint64_t stack)
+{
+    BvhRay ray = bvh_ray(bvh, origin, direction, max(floatBitsToInt(t_min), 0));
+    int t_max = min(floatBitsToInt(hit.t), bvh_key_none & ~bvh_key_child_mask);
+    uint current = 0u, top = 0u;
+    for (;;) {
+        if (int(current) >= 0) {
+            uint child_words = current * BVH_NODE_BYTES + BVH_CHILD_WORDS_OFFSET;
+            int key[8];
+            bvh_test_node(ray, bvh.nodes + uint64_t(current * BVH_NODE_BYTES), t_max, key);
+            // Farthest first. Nested, because most nodes have few children in the way and the lanes then skip the rest at once.
+            if (key[1] < bvh_key_none) {
+                if (key[2] < bvh_key_none) {
+                    if (key[3] < bvh_key_none) {
+                        if (key[4] < bvh_key_none) {
+                            if (key[5] < bvh_key_none) {
+                                if (key[6] < bvh_key_none) {
+                                    if (key[7] < bvh_key_none)
+                                        BVH_PUSH(7)
+                                    BVH_PUSH(6)
+                                }
+                                BVH_PUSH(5)
+                            }
+                            BVH_PUSH(4)
+                        }
+                        BVH_PUSH(3)
+                    }
+                    BVH_PUSH(2)
+                }
+                BVH_PUSH(1)
+            }
+            if (key[0] < bvh_key_none)
+                current = BvhWords32(bvh.nodes + uint64_t(child_words + uint(key[0] & bvh_key_child_mask) * 4u)).words[0];
+            else
+                current = BVH_NO_CHILD;
+        }
+        if (int(current) < 0 && current != BVH_NO_CHILD) {
+            uint64_t triangle = bvh.triangles + uint64_t((current & BVH_LEAF_FIRST_MASK) * BVH_TRIANGLE_BYTES);
+            if (bvh_test_triangle(triangle, origin, direction, ray.t_min, t_max, ray_mask, hit)) {
+                t_max = floatBitsToInt(hit.t);
+                if (any_hit)
+                    break;
+            }
+            bool more = (current & BVH_LEAF_COUNT_MASK) != 0u;
+            current = more ? current - (1u << BVH_LEAF_COUNT_SHIFT) + 1u : BVH_NO_CHILD;
+        }
+        if (current == BVH_NO_CHILD) {
+            if (top == 0u)
+                break;
+            top -= bvh_stack_stride;
+            uvec2 entry = unpack32(BvhWords64(stack + uint64_t(top)).words[0]);
+            if (int(entry.x) < t_max)
+                current = BvhWords32(bvh.nodes + uint64_t(entry.y)).words[0];
+        }
+    }
+}
+
+// The nearest hit (with `any_hit`: some hit) over `tree_count` trees whose BvhView stand in a row at `trees`.
+RawHit software_trace_all(uint64_t trees, uint tree_count, vec3 origin, vec3 direction, float t_min, float t_max,
+    uint ray_mask, bool any_hit, uint64_t stack)
+{
+    RawHit hit = software_miss(t_max);
+    [[dont_unroll]] for (uint tree = 0u; tree < tree_count; tree++) {
+        software_trace(BvhViews(trees).views[tree], origin, direction, t_min, hit, ray_mask, any_hit, stack);
+        if (any_hit && hit.triangle != TRACE_MISS)
+            break;
+    }
+    return hit;
+}
+
+#undef BVH_PUSH
+
+#endif

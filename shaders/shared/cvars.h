@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The console variables that shaders see, as one struct for both sides (scalar layout). Rows: cvars.def.
+#ifndef VKPT_SHARED_CVARS_H
+#define VKPT_SHARED_CVARS_H
+
+#include "language.h"
+
+VKPT_SHARED_BEGIN
+
+#define VKPT_SHADER_INT(name, initial, lowest, highest, keep, help) int name;
+#define VKPT_SHADER_FLOAT(name, initial, lowest, highest, keep, help) float name;
+#define VKPT_SHADER_CHOICE(name, initial, choices, keep, help) int name;
+struct ShaderCvars {
+#include "cvars.def"
+};
+
+// Places in the choices of pt_tone_map and pt_debug_view; cvars.cpp asserts that they agree with the rows.
+VKPT_CONST int TONE_MAP_NONE = 0;
+VKPT_CONST int TONE_MAP_FILMIC = 1;
+
+VKPT_CONST int DEBUG_VIEW_OFF = 0;
+VKPT_CONST int DEBUG_VIEW_ALBEDO = 1;
+VKPT_CONST int DEBUG_VIEW_NORMAL = 2;
+VKPT_CONST int DEBUG_VIEW_DEPTH = 3;
+VKPT_CONST int DEBUG_VIEW_EMISSION = 4;
+VKPT_CONST int DEBUG_VIEW_CLUSTER = 5;
+VKPT_CONST int DEBUG_VIEW_LIST_LENGTH = 6;
+VKPT_CONST int DEBUG_VIEW_IRRADIANCE = 7;
+VKPT_CONST int DEBUG_VIEW_ROUGHNESS = 8;
+VKPT_CONST int DEBUG_VIEW_MOTION = 9;
+VKPT_CONST int DEBUG_VIEW_TRIANGLE = 10;
+VKPT_CONST int DEBUG_VIEW_LIGHT = 11;
+
+VKPT_SHARED_END
+
+#endif

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What every pass of a frame knows. One uniform buffer, written once per 3D view.
+#ifndef VKPT_SHARED_FRAME_H
+#define VKPT_SHARED_FRAME_H
+
+#include "language.h"
+#include "scene.h"
+#include "cvars.h"
+#include "trace.h"
+
+VKPT_SHARED_BEGIN
+
+VKPT_CONST uint SAMPLER_REPEAT = 0u;
+VKPT_CONST uint SAMPLER_CLAMP = 1u;
+VKPT_CONST uint SAMPLER_REPEAT_NEAREST = 2u;
+VKPT_CONST uint SAMPLER_CLAMP_NEAREST = 3u;
+VKPT_CONST uint SAMPLER_COUNT = 4u;
+
+// Passes over the screen: 64 lanes walk PIXEL_TILES_PER_GROUP tiles of 8 x 8 pixels one after the other.
+VKPT_CONST uint PIXEL_GROUP_SIZE = 64u;
+VKPT_CONST uint PIXEL_TILES_PER_GROUP = 8u;
+
+VKPT_CONST uint FRAME_ALPHA_TEST = 1u;  // the scene has alpha-tested triangles
+VKPT_CONST uint FRAME_NO_WORLD = 2u;    // a view of models alone (menus): lit by a fixed light, no sky
+VKPT_CONST uint FRAME_UNDERWATER = 4u;  // the eye is in a liquid
+VKPT_CONST uint FRAME_PROBES = 8u;      // surfaces come from a list of points, not from the camera
+
+VKPT_CONST uint FRAME_JITTER = 16u;     // camera rays spread over the pixel: accumulation smooths edges
+
+// Automatic exposure's memory.
+struct ExposureState {
+    float exposure; // what radiance is multiplied with
+    float adapted_log2;
+    uint valid; // 0: no frame seen yet
+};
+
+struct ScreenBuffers {
+#define VKPT_SCREEN_BUFFER(type, name) uint64_t name;
+#include "screen_buffers.def"
+#undef VKPT_SCREEN_BUFFER
+};
+
+struct Camera {
+    vec3 eye;
+    vec3 forward;
+    vec3 right; // scaled by tan(fov_x / 2)
+    vec3 up;    // scaled by tan(fov_y / 2)
+};
+
+// Six pictures, their directions turned by `rotation` (columns: sky space axes in the world).
+struct Sky {
+    vec3 rotation[3];
+    uint textures[6]; // on +x, -x, +y, -y, +z, -z; files named rt, lf, bk, ft, up, dn
+    vec3 radiance;    // multiplies the pictures
+    uint present;     // 0: `radiance` alone is the sky
+};
+
+// Addresses of the scene's tables. Triangle ids and emitter indices: first the map's, then those of this frame's moving things.
+struct SceneView {
+    BvhView trees[2]; // world, moving things
+    uint64_t trace_stack;
+    uint64_t triangles;
+    uint64_t materials;
+    uint64_t emitters;
+    uint64_t light_lists;
+    uint64_t static_light_indices;
+    uint64_t dynamic_light_indices;
+    uint64_t lightstyles; // a float each
+    uint64_t bsp_tree;
+    uint light_list_count; // clusters + 1
+    uint tree_count;       // 1: nothing moves
+    Sky sky;
+};
+
+struct FrameUniforms {
+    Camera camera;
+    SceneView scene;
+    ScreenBuffers screen;
+    uint64_t exposure; // ExposureState
+    uint64_t probes;   // IrradianceProbe list where FRAME_PROBES
+    uint probe_count;
+    uvec2 size;          // pixels rendered
+    uvec2 output_origin; // where the view lies in the picture
+    uvec2 output_size;
+    float time;          // seconds of the game
+    float frame_seconds; // wall time since the last view
+    uint frame_index;    // seeds the random numbers
+    uint seed;
+    uint accumulated_frames; // frames already in `accumulated`
+    uint flags;              // FRAME_*
+    vec4 blend;              // the engine's screen blend, sRGB-encoded, alpha
+    float gamma;             // vid_gamma
+    ShaderCvars cvars;
+};
+
+VKPT_SHARED_END
+
+#endif

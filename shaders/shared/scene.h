@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the rays meet: triangles, materials, emitters, light lists. One definition for both sides.
+// Space: Quake world units. Radiance: linear RGB, where a diffuse white surface under a lightmap value of 128 has radiance 1.
+#ifndef VKPT_SHARED_SCENE_H
+#define VKPT_SHARED_SCENE_H
+
+#include "language.h"
+
+VKPT_SHARED_BEGIN
+
+// Ray masks: a ray meets a triangle if (ray mask & triangle mask) != 0.
+VKPT_CONST uint MASK_OPAQUE = 1u;       // solid world and models
+VKPT_CONST uint MASK_TRANSLUCENT = 2u;  // water, glass, translucent models: let shadow rays pass
+VKPT_CONST uint MASK_ALPHA_TEST = 4u;   // opaque where the picture's alpha is >= 0.5
+VKPT_CONST uint MASK_VIEW_WEAPON = 8u;  // seen by camera rays only
+VKPT_CONST uint MASK_OWN_BODY = 16u;    // the player's own model: seen by all but camera rays
+VKPT_CONST uint MASK_SKY = 32u;         // sky faces
+VKPT_CONST uint MASK_ALL = 0xffu;
+
+// One entry per triangle id (the id that a trace returns).
+struct Triangle {
+    vec3 positions[3]; // cross(p1 - p0, p2 - p0) points to the front
+    vec2 uvs[3];       // picture coordinates, 1 = one picture width
+    uint normals[3];   // shading normals, octahedral, 2 x 16 bit snorm
+    uint material;     // index into the material table
+    int emitter;       // index into the emitter table, -1: emits nothing or is not in the light lists
+    int cluster;       // PVS cluster if all of it lies in one, else -1: look it up by position
+};
+VKPT_ASSERT_SIZE(Triangle, 84);
+
+VKPT_CONST uint MATERIAL_SKY = 1u;         // radiance comes from the sky
+VKPT_CONST uint MATERIAL_WARP = 2u;        // liquid: turbulent texture, refracting surface
+VKPT_CONST uint MATERIAL_TRANSLUCENT = 4u; // `opacity` < 1
+VKPT_CONST uint MATERIAL_ALPHA_TEST = 8u;
+VKPT_CONST uint MATERIAL_FULLBRIGHT = 16u; // shown as its picture, unlit
+
+struct Material {
+    vec3 tint;            // multiplies the picture
+    float opacity;        // 1 opaque
+    vec3 emission;        // radiance = emission * picture colour
+    float roughness;      // GGX alpha = roughness^2
+    float metallic;
+    uint texture;         // bindless index
+    uint flags;           // MATERIAL_*
+    vec2 uv_scroll;       // added to uv, already multiplied by time
+    uint lightstyle;      // scales emission
+};
+VKPT_ASSERT_SIZE(Material, 56);
+
+VKPT_CONST uint EMITTER_TRIANGLE = 0u; // one-sided, front as in Triangle
+VKPT_CONST uint EMITTER_SPHERE = 1u;   // p0 centre, p1.x radius
+VKPT_CONST uint EMITTER_SKY = 2u;      // triangle whose radiance is the sky's in the ray's direction; `radiance` is the average
+
+struct Emitter {
+    vec3 p0;
+    uint type;       // EMITTER_*
+    vec3 p1;
+    uint lightstyle; // scales radiance; lightstyle 0 is the steady one
+    vec3 p2;
+    float area;      // triangle: area; sphere: 4 pi r^2
+    vec3 radiance;   // average over the emitter, before lightstyle
+    float reach;     // no light farther than this from p0 (engine dlights); 0: no limit
+};
+VKPT_ASSERT_SIZE(Emitter, 64);
+
+// The light list of a cluster is the concatenation of two ranges, ascending by emitter index and free of duplicates over both:
+// static_indices[first_static .. + static_count) and dynamic_indices[first_dynamic .. + dynamic_count).
+struct LightList {
+    uint first_static;
+    uint static_count;
+    uint first_dynamic;
+    uint dynamic_count;
+};
+VKPT_ASSERT_SIZE(LightList, 16);
+
+// BSP tree for finding a point's cluster. child >= 0: node; < 0: cluster -(child + 2), where -1 stands for solid (cluster -1).
+struct BspTreeNode {
+    vec3 normal;
+    float dist;
+    int front, back;
+};
+VKPT_ASSERT_SIZE(BspTreeNode, 24);
+
+VKPT_SHARED_END
+
+#endif

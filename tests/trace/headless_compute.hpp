@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// As much Vulkan as a test of a compute shader needs: one device, mapped buffers, one dispatch at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+#include <vulkan/vulkan.h>
+
+namespace vkpt::tests {
+
+// No Vulkan device with what the software backend needs: a reason to skip, not to fail.
+struct NoDevice : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+class HeadlessCompute {
+public:
+    struct Buffer {
+        VkBuffer buffer = VK_NULL_HANDLE;
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        VkDeviceAddress address = 0;
+        std::byte* mapped = nullptr;
+        size_t size = 0;
+    };
+    struct Pipeline {
+        VkShaderModule module = VK_NULL_HANDLE;
+        VkPipelineLayout layout = VK_NULL_HANDLE;
+        VkPipeline pipeline = VK_NULL_HANDLE;
+        uint32_t push_bytes = 0;
+    };
+
+    enum class Validation { off, on };
+
+    // Takes the first device. With validation (core and synchronization), messages() has what the layer said.
+    // Throws NoDevice, or std::runtime_error naming the call that failed.
+    explicit HeadlessCompute(Validation validation);
+    ~HeadlessCompute();
+    HeadlessCompute(const HeadlessCompute&) = delete;
+    HeadlessCompute& operator=(const HeadlessCompute&) = delete;
+
+    // Host-visible; they live as long as this.
+    Buffer create_buffer(size_t bytes);
+    Buffer create_buffer(std::span<const std::byte> content);
+    template <class T> Buffer create_buffer_of(std::span<const T> items) { return create_buffer(std::as_bytes(items)); }
+
+    // Entry point main; `specialization` sets the constants 0, 1, 2, ...
+    Pipeline create_pipeline(std::span<const uint32_t> spirv, uint32_t push_bytes, std::span<const uint32_t> specialization);
+
+    // Seconds from submission to completion.
+    double dispatch(const Pipeline& pipeline, const void* push, uint32_t groups);
+
+    const std::string& device_name() const { return device_name_; }
+    const std::vector<std::string>& messages() const { return messages_; }
+
+private:
+    void create_instance(Validation validation);
+    void choose_device();
+    void create_device();
+    void destroy();
+
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+    VkDevice device_ = VK_NULL_HANDLE;
+    uint32_t queue_family_ = 0;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    VkFence fence_ = VK_NULL_HANDLE;
+    std::vector<Buffer> buffers_;
+    std::vector<Pipeline> pipelines_;
+    std::string device_name_;
+    std::vector<std::string> messages_;
+};
+
+} // namespace vkpt::tests

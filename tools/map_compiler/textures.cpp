@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "tools/map_compiler/textures.hpp"
+
+#include "formats/bsp.hpp"
+#include "tools/map_compiler/map_source.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+namespace vkpt::tools {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct ToolTexture {
+    std::string_view name;
+    uint32_t flags, contents;
+};
+
+// The names under which editors' texture sets carry them.
+constexpr ToolTexture tool_textures[] = {
+    {"clip", 0, formats::CONTENTS_PLAYERCLIP | formats::CONTENTS_MONSTERCLIP},
+    {"trigger", formats::SURF_NODRAW, 0},
+    {"origin", 0, contents_origin},
+    {"hint", formats::SURF_HINT, 0},
+    {"skip", formats::SURF_SKIP, 0},
+    {"nodraw", formats::SURF_NODRAW, 0},
+    {"caulk", formats::SURF_NODRAW, 0},
+    {"sky", formats::SURF_SKY, 0},
+    {"areaportal", 0, formats::CONTENTS_AREAPORTAL},
+};
+
+std::string lower(std::string text)
+{
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
+
+} // namespace
+
+std::vector<std::byte> read_file(const fs::path& path)
+{
+    std::ifstream stream(path, std::ios::binary | std::ios::ate);
+    const auto size = stream ? std::streamoff(stream.tellg()) : std::streamoff(-1);
+    std::error_code error;
+    if (size < 0 || !fs::is_regular_file(path, error))
+        throw MapError(path.string(), 0, "cannot be read; check the name and the permissions");
+    std::vector<std::byte> bytes(static_cast<size_t>(size));
+    stream.seekg(0);
+    stream.read(reinterpret_cast<char*>(bytes.data()), size);
+    if (!stream)
+        throw MapError(path.string(), 0, "reading failed before the file's end");
+    return bytes;
+}
+
+TextureLibrary::TextureLibrary(fs::path folder) : folder_(std::move(folder))
+{
+    if (folder_.empty())
+        return;
+    if (!fs::is_directory(folder_))
+        throw MapError(folder_.string(), 0, "is not a folder; give --textures the folder that holds the .wal files");
+    const fs::path colormap = folder_ / ".." / "pics" / "colormap.pcx";
+    if (fs::exists(colormap))
+        palette_ = formats::read_pcx_palette(read_file(colormap), colormap.string());
+}
+
+const TextureInfo& TextureLibrary::find(const std::string& name)
+{
+    const auto [it, is_new] = textures_.try_emplace(name);
+    if (is_new)
+        it->second = load(name);
+    return it->second;
+}
+
+TextureInfo TextureLibrary::load(const std::string& name)
+{
+    TextureInfo info;
+    const std::string base = lower(name.substr(name.find_last_of('/') + 1));
+    const auto tool = std::ranges::find(tool_textures, std::string_view(base), &ToolTexture::name);
+    if (tool != std::end(tool_textures)) {
+        info.tool_flags = tool->flags;
+        info.tool_contents = tool->contents;
+    }
+    if (folder_.empty())
+        return info;
+    fs::path path = folder_ / (name + ".wal");
+    if (!fs::exists(path))
+        path = folder_ / (lower(name) + ".wal");
+    if (!fs::exists(path)) {
+        if (tool == std::end(tool_textures))
+            missing_.push_back(name);
+        return info;
+    }
+    const std::vector<std::byte> file = read_file(path);
+    const formats::WallInfo wall = formats::read_wal_info(file, path.string());
+    info.found = true;
+    info.flags = wall.flags;
+    info.contents = wall.contents;
+    info.value = wall.value;
+    info.next_animation = wall.next_animation;
+    if (palette_)
+        info.mean_colour = read_mean_colour(file, path.string());
+    return info;
+}
+
+glm::dvec3 TextureLibrary::read_mean_colour(formats::Bytes file, const std::string& name) const
+{
+    const formats::Image image = formats::read_wal(file, name, *palette_);
+    glm::dvec3 sum(0);
+    for (const formats::Rgba8& pixel : image.pixels)
+        sum += glm::dvec3(pixel.r, pixel.g, pixel.b);
+    return image.pixels.empty() ? glm::dvec3(0.5) : sum / (255.0 * double(image.pixels.size()));
+}
+
+} // namespace vkpt::tools
