@@ -156,7 +156,7 @@ struct Bsp {
     std::vector<BspAreaPortal> area_portals;
     int cluster_count = 0; // 0: the map was compiled without visibility; then everything sees everything
 
-    // The face's outline in order, counter-clockwise seen from the face's front... as the map compiler wrote it.
+    // The face's outline, counter-clockwise seen from its front. (On disk it is clockwise.)
     std::vector<glm::vec3> face_polygon(size_t face) const;
     glm::vec3 face_normal(size_t face) const;
     // Texel coordinates (not divided by the picture's size).
@@ -169,11 +169,13 @@ struct Bsp {
     LightmapExtent lightmap_extent(size_t face) const;
     size_t find_leaf(glm::vec3 p, int head_node = 0) const;
     int find_cluster(glm::vec3 p) const; // -1 in solid
-    // What `cluster` can see (decompressed; always contains itself). cluster -1: an empty set.
+    // What `cluster` can see (decompressed; always contains itself). cluster -1: an empty set. Without visibility: the set
+    // holds, and is as long as, all clusters that leaves name, which are then not limited by cluster_count.
     ClusterSet pvs(int cluster) const;
 };
 
-// Throws FormatError naming lump, offset and reason.
+// Throws FormatError naming lump, offset and reason. Two things are mended instead: a face whose light samples are not in the
+// file gets light_offset -1, and a texinfo chain that never returns to its start is cut where it enters the ring.
 Bsp read_bsp(Bytes file, std::string_view name);
 // The inverse, for the map compiler and the tests. `visibility` and `lighting` are written as they stand.
 std::vector<std::byte> write_bsp(const Bsp& bsp);

@@ -17,7 +17,12 @@ bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) &&
 
 class Checker {
 public:
-    Checker(Bsp& bsp, const Directory& directory, std::string_view file) : bsp_(bsp), directory_(directory), file_(file) {}
+    Checker(Bsp& bsp, const Directory& directory, std::string_view file)
+        : bsp_(bsp)
+        , directory_(directory)
+        , file_(file)
+    {
+    }
 
     void check_all()
     {
@@ -49,11 +54,13 @@ private:
     {
         if (first < 0 || count < 0 || first + count > int64_t(size))
             fail(lump, size_t(&record - records.data()), sizeof(T),
-                std::string(what) + " " + std::to_string(first) + " + " + std::to_string(count) + " of " + std::to_string(size));
+                std::string(what) + " " + std::to_string(first) + " + " + std::to_string(count) + " of "
+                    + std::to_string(size));
     }
 
     template <class T>
-    void check_index(Lump lump, const std::vector<T>& records, const T& record, int64_t index, size_t size, const char* what) const
+    void check_index(
+        Lump lump, const std::vector<T>& records, const T& record, int64_t index, size_t size, const char* what) const
     {
         if (index < 0 || index >= int64_t(size))
             fail(lump, size_t(&record - records.data()), sizeof(T),
@@ -75,7 +82,8 @@ private:
                 fail(Vertices, i, sizeof(glm::vec3), "not a finite position");
         for (size_t i = 0; i < bsp_.planes.size(); i++) {
             const BspPlane& plane = bsp_.planes[i];
-            const float squared = plane.normal.x * plane.normal.x + plane.normal.y * plane.normal.y + plane.normal.z * plane.normal.z;
+            const float squared
+                = plane.normal.x * plane.normal.x + plane.normal.y * plane.normal.y + plane.normal.z * plane.normal.z;
             if (!std::isfinite(plane.dist) || !(squared > 0.9f && squared < 1.1f))
                 fail(Planes, i, sizeof(BspPlane), "not a plane with a unit normal");
         }
@@ -90,7 +98,8 @@ private:
     {
         for (size_t i = 0; i < bsp_.texinfos.size(); i++) {
             const BspTexinfo& t = bsp_.texinfos[i];
-            if (!is_finite(t.s_axis) || !is_finite(t.t_axis) || !std::isfinite(t.s_offset) || !std::isfinite(t.t_offset))
+            if (!is_finite(t.s_axis) || !is_finite(t.t_axis) || !std::isfinite(t.s_offset)
+                || !std::isfinite(t.t_offset))
                 fail(Texinfos, i, sizeof(TexinfoRecord), "texture axes are not finite");
             if (t.next < -1 || t.next >= int32_t(bsp_.texinfos.size()))
                 fail(Texinfos, i, sizeof(TexinfoRecord), "next frame " + std::to_string(t.next) + " does not exist");
@@ -127,7 +136,8 @@ private:
         for (const BspFace& face : bsp_.faces) {
             check_index(Faces, bsp_.faces, face, face.plane, bsp_.planes.size(), "plane");
             check_index(Faces, bsp_.faces, face, face.texinfo, bsp_.texinfos.size(), "texinfo");
-            check_run(Faces, bsp_.faces, face, face.first_edge, face.edge_count, bsp_.surface_edges.size(), "surface edges");
+            check_run(
+                Faces, bsp_.faces, face, face.first_edge, face.edge_count, bsp_.surface_edges.size(), "surface edges");
             if (face.edge_count < 3)
                 fail(Faces, size_t(&face - bsp_.faces.data()), sizeof(BspFace), "fewer than three edges");
         }
@@ -139,12 +149,15 @@ private:
             check_index(LeafFaces, bsp_.leaf_faces, face, face, bsp_.faces.size(), "face");
         for (const uint16_t& brush : bsp_.leaf_brushes)
             check_index(LeafBrushes, bsp_.leaf_brushes, brush, brush, bsp_.brushes.size(), "brush");
-        // Without visibility the clusters' numbers are whatever the compiler left; they only must not be negative indices.
-        const size_t clusters = bsp_.visibility.empty() ? size_t(INT16_MAX) + 1 : size_t(std::max(bsp_.cluster_count, 0));
+        // Without visibility the clusters' numbers are whatever the compiler left; they only must not be negative
+        // indices.
+        const size_t clusters
+            = bsp_.visibility.empty() ? size_t(INT16_MAX) + 1 : size_t(std::max(bsp_.cluster_count, 0));
         for (const BspLeaf& leaf : bsp_.leaves) {
-            check_run(Leaves, bsp_.leaves, leaf, leaf.first_leaf_face, leaf.leaf_face_count, bsp_.leaf_faces.size(), "leaf faces");
-            check_run(
-                Leaves, bsp_.leaves, leaf, leaf.first_leaf_brush, leaf.leaf_brush_count, bsp_.leaf_brushes.size(), "leaf brushes");
+            check_run(Leaves, bsp_.leaves, leaf, leaf.first_leaf_face, leaf.leaf_face_count, bsp_.leaf_faces.size(),
+                "leaf faces");
+            check_run(Leaves, bsp_.leaves, leaf, leaf.first_leaf_brush, leaf.leaf_brush_count, bsp_.leaf_brushes.size(),
+                "leaf brushes");
             if (leaf.cluster != -1)
                 check_index(Leaves, bsp_.leaves, leaf, leaf.cluster, clusters, "cluster");
             if (leaf.area != -1)
@@ -177,7 +190,8 @@ private:
         for (size_t i = 0; i < bsp_.nodes.size(); i++)
             for (const int32_t child : bsp_.nodes[i].children)
                 if (child >= 0 && std::exchange(has_parent[size_t(child)], uint8_t(1)))
-                    fail(Nodes, i, sizeof(BspNode), "its child " + std::to_string(child) + " has another parent already");
+                    fail(Nodes, i, sizeof(BspNode),
+                        "its child " + std::to_string(child) + " has another parent already");
         size_t visited = 0;
         std::vector<std::pair<int32_t, int>> open; // node, depth
         for (size_t root = 0; root < bsp_.nodes.size(); root++) {
@@ -189,7 +203,8 @@ private:
                 open.pop_back();
                 visited++;
                 if (depth > max_tree_depth)
-                    fail(Nodes, size_t(node), sizeof(BspNode), "the tree is deeper than " + std::to_string(max_tree_depth));
+                    fail(Nodes, size_t(node), sizeof(BspNode),
+                        "the tree is deeper than " + std::to_string(max_tree_depth));
                 for (const int32_t child : bsp_.nodes[size_t(node)].children)
                     if (child >= 0)
                         open.emplace_back(child, depth + 1);
@@ -212,7 +227,8 @@ private:
     void check_brushes() const
     {
         for (const BspBrush& brush : bsp_.brushes)
-            check_run(Brushes, bsp_.brushes, brush, brush.first_side, brush.side_count, bsp_.brush_sides.size(), "sides");
+            check_run(
+                Brushes, bsp_.brushes, brush, brush.first_side, brush.side_count, bsp_.brush_sides.size(), "sides");
         for (const BspBrushSide& side : bsp_.brush_sides) {
             check_index(BrushSides, bsp_.brush_sides, side, side.plane, bsp_.planes.size(), "plane");
             if (side.texinfo != -1)
@@ -223,8 +239,8 @@ private:
     void check_areas() const
     {
         for (const BspArea& area : bsp_.areas)
-            check_run(
-                Areas, bsp_.areas, area, area.first_area_portal, area.area_portal_count, bsp_.area_portals.size(), "area portals");
+            check_run(Areas, bsp_.areas, area, area.first_area_portal, area.area_portal_count, bsp_.area_portals.size(),
+                "area portals");
         for (const BspAreaPortal& portal : bsp_.area_portals)
             check_index(AreaPortals, bsp_.area_portals, portal, portal.other_area, bsp_.areas.size(), "area");
     }
@@ -254,7 +270,8 @@ private:
         for (size_t i = 0; i < bsp_.faces.size(); i++) {
             BspFace& face = bsp_.faces[i];
             const Bsp::LightmapExtent extent = bsp_.lightmap_extent(i);
-            const auto styles = std::find(std::begin(face.styles), std::end(face.styles), uint8_t(255)) - std::begin(face.styles);
+            const auto styles
+                = std::find(std::begin(face.styles), std::end(face.styles), uint8_t(255)) - std::begin(face.styles);
             const int64_t bytes = int64_t(extent.size.x) * extent.size.y * 3 * styles;
             if (face.light_offset < 0 || face.light_offset + bytes > int64_t(bsp_.lighting.size()))
                 face.light_offset = -1;

@@ -34,9 +34,9 @@ enum Lump {
     LumpCount,
 };
 
-inline constexpr std::array<const char*, LumpCount> lump_names { "entities", "planes", "vertices", "visibility", "nodes",
-    "texinfos", "faces", "lighting", "leaves", "leaf faces", "leaf brushes", "edges", "surface edges", "models", "brushes",
-    "brush sides", "pop", "areas", "area portals" };
+inline constexpr std::array<const char*, LumpCount> lump_names { "entities", "planes", "vertices", "visibility",
+    "nodes", "texinfos", "faces", "lighting", "leaves", "leaf faces", "leaf brushes", "edges", "surface edges",
+    "models", "brushes", "brush sides", "pop", "areas", "area portals" };
 
 struct LumpEntry {
     uint32_t offset, size;

@@ -37,7 +37,10 @@ template <class T> std::vector<T> read_lump(ByteReader& reader, const Directory&
     return reader.read_array<T>(offset, size / sizeof(T), lump_names[lump]);
 }
 
-std::string text_until_zero(const char* data, size_t size) { return std::string(data, std::find(data, data + size, '\0')); }
+std::string text_until_zero(const char* data, size_t size)
+{
+    return std::string(data, std::find(data, data + size, '\0'));
+}
 
 std::vector<BspTexinfo> convert_texinfos(const std::vector<TexinfoRecord>& records)
 {

@@ -86,7 +86,10 @@ size_t Bsp::find_leaf(glm::vec3 p, int head_node) const
     return size_t(-(int64_t(at) + 1));
 }
 
-int Bsp::find_cluster(glm::vec3 p) const { return leaves[find_leaf(p, models.empty() ? 0 : models[0].head_node)].cluster; }
+int Bsp::find_cluster(glm::vec3 p) const
+{
+    return leaves[find_leaf(p, models.empty() ? 0 : models[0].head_node)].cluster;
+}
 
 ClusterSet Bsp::pvs(int cluster) const
 {

@@ -12,8 +12,8 @@ TexinfoRecord to_record(const BspTexinfo& texinfo)
 {
     if (texinfo.texture.size() >= texture_name_size)
         throw std::invalid_argument("texture name \"" + texinfo.texture + "\" is longer than 31 bytes");
-    TexinfoRecord record { texinfo.s_axis, texinfo.s_offset, texinfo.t_axis, texinfo.t_offset, texinfo.flags, texinfo.value,
-        {}, texinfo.next };
+    TexinfoRecord record { texinfo.s_axis, texinfo.s_offset, texinfo.t_axis, texinfo.t_offset, texinfo.flags,
+        texinfo.value, {}, texinfo.next };
     std::copy(texinfo.texture.begin(), texinfo.texture.end(), record.texture.begin());
     return record;
 }

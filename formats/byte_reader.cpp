@@ -26,7 +26,8 @@ void ByteReader::seek(size_t offset)
 Bytes ByteReader::take(size_t count)
 {
     if (count > remaining())
-        fail("the file ends here: " + std::to_string(count) + " bytes wanted, " + std::to_string(remaining()) + " left");
+        fail(
+            "the file ends here: " + std::to_string(count) + " bytes wanted, " + std::to_string(remaining()) + " left");
     const Bytes view = bytes_.subspan(position_, count);
     position_ += count;
     return view;
@@ -45,7 +46,8 @@ void ByteReader::check_range(size_t offset, size_t count, size_t item_size, std:
 {
     // Divided, not multiplied: a hostile count must not overflow.
     if (offset > bytes_.size() || count > (bytes_.size() - offset) / item_size)
-        fail_at(offset, std::string(what) + ": " + std::to_string(count) + " records of " + std::to_string(item_size)
+        fail_at(offset,
+            std::string(what) + ": " + std::to_string(count) + " records of " + std::to_string(item_size)
                 + " bytes reach past the end of the file (" + std::to_string(bytes_.size()) + " bytes)");
 }
 

@@ -36,8 +36,8 @@ public:
     void write_string(std::string_view text, size_t field_size)
     {
         if (text.size() >= field_size)
-            throw std::invalid_argument(
-                "\"" + std::string(text) + "\" is longer than the " + std::to_string(field_size - 1) + " bytes it has room for");
+            throw std::invalid_argument("\"" + std::string(text) + "\" is longer than the "
+                + std::to_string(field_size - 1) + " bytes it has room for");
         const size_t start = bytes_.size();
         bytes_.resize(start + field_size, std::byte { 0 });
         std::memcpy(bytes_.data() + start, text.data(), text.size());
@@ -50,7 +50,10 @@ public:
         std::memcpy(bytes_.data() + offset, &value, sizeof(T));
     }
 
-    void align(size_t boundary) { bytes_.resize((bytes_.size() + boundary - 1) / boundary * boundary, std::byte { 0 }); }
+    void align(size_t boundary)
+    {
+        bytes_.resize((bytes_.size() + boundary - 1) / boundary * boundary, std::byte { 0 });
+    }
 
     std::vector<std::byte> take() { return std::move(bytes_); }
 

@@ -36,7 +36,11 @@ struct Token {
 
 class Tokenizer {
 public:
-    Tokenizer(std::string_view text, std::string_view file) : text_(text), file_(file) {}
+    Tokenizer(std::string_view text, std::string_view file)
+        : text_(text)
+        , file_(file)
+    {
+    }
 
     Token next()
     {
@@ -68,8 +72,8 @@ private:
     Token word()
     {
         const size_t start = position_;
-        while (position_ < text_.size() && !is_space(text_[position_]) && text_[position_] != '{' && text_[position_] != '}'
-            && text_[position_] != '"')
+        while (position_ < text_.size() && !is_space(text_[position_]) && text_[position_] != '{'
+            && text_[position_] != '}' && text_[position_] != '"')
             position_++;
         return { Token::Text, text_.substr(start, position_ - start), start };
     }
@@ -160,7 +164,8 @@ std::vector<EntityText> parse_entities(std::string_view text, std::string_view f
         if (token.kind == Token::End)
             return entities;
         if (token.kind != Token::Open)
-            tokens.fail(token.offset, "entities: '{' expected, found \"" + std::string(token.text.substr(0, 40)) + "\"");
+            tokens.fail(
+                token.offset, "entities: '{' expected, found \"" + std::string(token.text.substr(0, 40)) + "\"");
         entities.push_back(parse_entity(tokens, token.offset));
     }
 }

@@ -72,13 +72,15 @@ std::vector<uint8_t> unpack_pcx(ByteReader& data, size_t size)
 bool ends_with(std::string_view name, std::string_view ending)
 {
     const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? char(a - 'A' + 'a') : a) == b; };
-    return name.size() >= ending.size() && std::equal(ending.rbegin(), ending.rend(), name.rbegin(), [&](char b, char a) { return same(a, b); });
+    return name.size() >= ending.size()
+        && std::equal(ending.rbegin(), ending.rend(), name.rbegin(), [&](char b, char a) { return same(a, b); });
 }
 
 // The colour of an opaque neighbour, so that filtering at a cut-out's rim does not bleed.
 Rgba8 rim_colour(const IndexedImage& indexed, const Palette& palette, int x, int y)
 {
-    constexpr int steps[8][2] = { { 0, -1 }, { 0, 1 }, { -1, 0 }, { 1, 0 }, { -1, -1 }, { 1, -1 }, { -1, 1 }, { 1, 1 } };
+    constexpr int steps[8][2]
+        = { { 0, -1 }, { 0, 1 }, { -1, 0 }, { 1, 0 }, { -1, -1 }, { 1, -1 }, { -1, 1 }, { 1, 1 } };
     for (const auto& [dx, dy] : steps) {
         const int nx = x + dx, ny = y + dy;
         if (nx < 0 || ny < 0 || nx >= indexed.width || ny >= indexed.height)
@@ -116,7 +118,8 @@ IndexedImage read_pcx(Bytes file, std::string_view name)
     image.pixels = unpack_pcx(data, stride * height);
     if (stride > width)
         for (size_t y = 1; y < height; y++)
-            std::copy_n(image.pixels.begin() + ptrdiff_t(y * stride), width, image.pixels.begin() + ptrdiff_t(y * width));
+            std::copy_n(
+                image.pixels.begin() + ptrdiff_t(y * stride), width, image.pixels.begin() + ptrdiff_t(y * width));
     image.pixels.resize(width * height);
     return image;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // PNG and JPG by stb; PFM.
 #include "formats/byte_writer.hpp"
+#include "formats/image_jpg_check.hpp"
 #include "formats/image_size.hpp"
 #include "formats/image_tga.hpp"
 
@@ -56,13 +57,14 @@ size_t unpacked_png_size(Bytes file, std::string_view name, size_t width, size_t
 // Refuses a picture that the file is too small to hold, before memory is taken for it.
 void check_density(Bytes file, std::string_view name, size_t width, size_t height)
 {
-    constexpr size_t deflate_limit = 1040;    // bytes out of one byte in, 1032 by the format
+    constexpr size_t deflate_limit = 1040; // bytes out of one byte in, 1032 by the format
     constexpr size_t jpg_pixels_per_byte = 1024; // one bit for a block of 8 x 8, halved for reserve
     const bool too_dense = starts_with(file, png_signature)
         ? unpacked_png_size(file, name, width, height) / deflate_limit > file.size()
         : width * height / jpg_pixels_per_byte > file.size();
     if (too_dense)
-        throw FormatError(name, 0, "too little data for a picture of " + std::to_string(width) + " x " + std::to_string(height));
+        throw FormatError(
+            name, 0, "too little data for a picture of " + std::to_string(width) + " x " + std::to_string(height));
 }
 
 Image read_by_stb(Bytes file, std::string_view name)
@@ -70,8 +72,11 @@ Image read_by_stb(Bytes file, std::string_view name)
     const auto* data = reinterpret_cast<const stbi_uc*>(file.data());
     if (file.size() > size_t(INT32_MAX))
         throw FormatError(name, 0, "the file is larger than 2 GiB");
+    if (starts_with(file, jpg_signature))
+        check_huffman_tables(file, name);
     int width = 0, height = 0, channels = 0;
-    const auto fail = [&] { throw FormatError(name, 0, std::string("not a readable picture: ") + stbi_failure_reason()); };
+    const auto fail
+        = [&] { throw FormatError(name, 0, std::string("not a readable picture: ") + stbi_failure_reason()); };
     if (!stbi_info_from_memory(data, int(file.size()), &width, &height, &channels))
         fail();
     check_image_size(ByteReader(file, name), 0, width, height);
@@ -109,9 +114,10 @@ std::vector<std::byte> write_png(const Image& image)
 std::vector<std::byte> write_pfm(int width, int height, std::span<const float> rgb)
 {
     if (width < 1 || height < 1 || rgb.size() != size_t(width) * size_t(height) * 3)
-        throw std::invalid_argument("write_pfm: " + std::to_string(width) + " x " + std::to_string(height) + " pixels from "
-            + std::to_string(rgb.size()) + " numbers");
-    const std::string header = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n"; // little-endian
+        throw std::invalid_argument("write_pfm: " + std::to_string(width) + " x " + std::to_string(height)
+            + " pixels from " + std::to_string(rgb.size()) + " numbers");
+    const std::string header
+        = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n"; // little-endian
     ByteWriter writer;
     writer.write_bytes(std::as_bytes(std::span(header)));
     const size_t row = size_t(width) * 3;

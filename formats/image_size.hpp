@@ -16,8 +16,8 @@ inline void check_written_image(int width, int height, size_t pixel_count)
 {
     if (width < 1 || height < 1 || width > max_image_size || height > max_image_size
         || pixel_count != size_t(width) * size_t(height))
-        throw std::invalid_argument("cannot write a picture of " + std::to_string(width) + " x " + std::to_string(height)
-            + " with " + std::to_string(pixel_count) + " pixels");
+        throw std::invalid_argument("cannot write a picture of " + std::to_string(width) + " x "
+            + std::to_string(height) + " with " + std::to_string(pixel_count) + " pixels");
 }
 
 } // namespace formats

@@ -43,13 +43,15 @@ Rgba8 read_colour(ByteReader& reader, int bits)
 
 class Decoder {
 public:
-    Decoder(Bytes file, std::string_view name) : reader_(file, name), header_(reader_.read<Header>())
+    Decoder(Bytes file, std::string_view name)
+        : reader_(file, name)
+        , header_(reader_.read<Header>())
     {
         kind_ = Kind(header_.type & ~type_run_length);
         if (!is_known())
             reader_.fail_at(2,
-                "not a picture that can be read (neither PNG nor JPG; as TGA: type " + std::to_string(header_.type) + ", "
-                    + std::to_string(header_.bits) + " bits)");
+                "not a picture that can be read (neither PNG nor JPG; as TGA: type " + std::to_string(header_.type)
+                    + ", " + std::to_string(header_.bits) + " bits)");
         check_image_size(reader_, 12, number(header_.width), number(header_.height));
         reader_.take(header_.id_size);
         read_map();
@@ -102,7 +104,10 @@ private:
         }
     }
 
-    Rgba8 read_pixel() { return kind_ == ColourMapped ? map_[reader_.read<uint8_t>()] : read_colour(reader_, header_.bits); }
+    Rgba8 read_pixel()
+    {
+        return kind_ == ColourMapped ? map_[reader_.read<uint8_t>()] : read_colour(reader_, header_.bits);
+    }
 
     void read_packet(std::vector<Rgba8>& pixels, size_t count)
     {

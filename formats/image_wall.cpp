@@ -18,7 +18,7 @@ constexpr int32_t m8_version = 2, m32_version = 4;
 struct WallHeader {
     WallInfo info;
     size_t first_level = 0; // byte offset
-    Palette palette;        // M8 only
+    Palette palette; // M8 only
 };
 
 void read_size(ByteReader& reader, WallInfo& info, uint32_t width, uint32_t height)
@@ -53,7 +53,8 @@ WallHeader read_m8_header(ByteReader& reader)
     check_version(reader, m8_version, "M8");
     WallHeader header;
     header.info.name = reader.read_string(m8_name_size);
-    const auto widths = reader.read<std::array<uint32_t, m8_mips>>(), heights = reader.read<std::array<uint32_t, m8_mips>>();
+    const auto widths = reader.read<std::array<uint32_t, m8_mips>>(),
+               heights = reader.read<std::array<uint32_t, m8_mips>>();
     read_size(reader, header.info, widths[0], heights[0]);
     header.first_level = reader.read<std::array<uint32_t, m8_mips>>()[0];
     header.info.next_animation = reader.read_string(m8_name_size);
@@ -75,7 +76,8 @@ WallHeader read_m32_header(ByteReader& reader)
     reader.take(m32_name_size); // a substitute picture
     header.info.next_animation = reader.read_string(m32_name_size);
     reader.take(m32_name_size); // the damaged picture
-    const auto widths = reader.read<std::array<uint32_t, m32_mips>>(), heights = reader.read<std::array<uint32_t, m32_mips>>();
+    const auto widths = reader.read<std::array<uint32_t, m32_mips>>(),
+               heights = reader.read<std::array<uint32_t, m32_mips>>();
     read_size(reader, header.info, widths[0], heights[0]);
     header.first_level = reader.read<std::array<uint32_t, m32_mips>>()[0];
     header.info.flags = reader.read<uint32_t>();

@@ -18,7 +18,7 @@ struct Md2Model {
         std::string name;
         std::vector<glm::vec3> positions; // one per vertex, model space
         std::vector<glm::vec3> normals;   // unit, from the format's table of 162 directions
-        glm::vec3 mins, maxs;
+        glm::vec3 mins { 0 }, maxs { 0 }; // hold all positions, with room to spare; write_md2 finds them where they do not
     };
     int skin_width = 0, skin_height = 0;
     std::vector<std::string> skins;            // paths as stored

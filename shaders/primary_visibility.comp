@@ -52,6 +52,7 @@ struct Path {
     float path_length;
     uint mask;
     bool in_water;
+    float unlit_depth; // DEPTH_*: what the path ended on without a surface
     bool reached_surface;
     HitSurface hit;
 };
@@ -118,6 +119,7 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
     }
     if ((hit.flags & MATERIAL_FULLBRIGHT) != 0u) {
         path.emitted += path.throughput * s.albedo;
+        path.unlit_depth = DEPTH_UNLIT;
         return false;
     }
     path.emitted += path.throughput * hit.emission;
@@ -143,6 +145,7 @@ void see_pixel(uvec2 pixel, uint index)
     path.mask = mask_camera;
     path.in_water = (frame.flags & FRAME_UNDERWATER) != 0u;
     path.reached_surface = false;
+    path.unlit_depth = DEPTH_NOTHING;
     float cone_spread = 2.0 * length(frame.camera.right) / float(frame.size.x);
 
     [[dont_unroll]] for (uint segment = 0u; segment < max_specular_segments; segment++)
@@ -152,7 +155,7 @@ void see_pixel(uvec2 pixel, uint index)
     store_emitted(index, path.emitted);
     store_throughput(index, pack_half3(path.throughput));
     if (!path.reached_surface) {
-        store_position(index, vec4(path.ray.direction, -1.0));
+        store_position(index, vec4(path.ray.direction, path.unlit_depth));
         return;
     }
     store_position(index, vec4(path.hit.surface.position, path.path_length));

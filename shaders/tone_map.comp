@@ -52,10 +52,9 @@ vec3 debug_colour(int view, uint index)
     return vec3(0.0);
 }
 
-vec3 shown_colour(uvec2 pixel)
+// `pixel` of the window, `index` of the rendered pixel there.
+vec3 shown_colour(uvec2 pixel, uint index)
 {
-    uvec2 source = min(pixel * frame.size / frame.output_size, frame.size - 1u);
-    uint index = source.y * frame.size.x + source.x;
     if (frame.cvars.pt_debug_view != DEBUG_VIEW_OFF)
         return encode_srgb(clamp(debug_colour(frame.cvars.pt_debug_view, index), 0.0, 1.0));
     vec3 exposed = load_accumulated(index) * ExposureBuffer(frame.exposure).v.exposure;
@@ -73,7 +72,13 @@ void main()
     for (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {
         uint tile = gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP + i;
         uvec2 pixel = uvec2(tile % tiles_across, tile / tiles_across) * 8u + pixel_in_tile(gl_LocalInvocationIndex);
-        if (tile < tile_count && all(lessThan(pixel, frame.output_size)))
-            imageStore(picture, ivec2(frame.output_origin + pixel), vec4(shown_colour(pixel), 1.0));
+        if (tile >= tile_count || any(greaterThanEqual(pixel, frame.output_size)))
+            continue;
+        uvec2 source = min(pixel * frame.size / frame.output_size, frame.size - 1u);
+        uint index = source.y * frame.size.x + source.x;
+        // Views without a world stand before what 2D has drawn.
+        if ((frame.flags & FRAME_NO_WORLD) != 0u && load_position(index).w == DEPTH_NOTHING)
+            continue;
+        imageStore(picture, ivec2(frame.output_origin + pixel), vec4(shown_colour(pixel, index), 1.0));
     }
 }

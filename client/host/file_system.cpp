@@ -16,79 +16,77 @@ namespace fs = std::filesystem;
 
 namespace {
 
-    std::string lower_case(std::string_view text)
-    {
-        std::string lower(text);
-        for (char& c : lower)
-            c = c >= 'A' && c <= 'Z' ? char(c + ('a' - 'A')) : c == '\\' ? '/' : c;
-        return lower;
-    }
+std::string lower_case(std::string_view text)
+{
+    std::string lower(text);
+    for (char& c : lower)
+        c = c >= 'A' && c <= 'Z' ? char(c + ('a' - 'A')) : c == '\\' ? '/' : c;
+    return lower;
+}
 
-    std::string index_key(std::string_view game_path)
-    {
-        std::string key = lower_case(game_path);
-        key.erase(0, std::min(key.find_first_not_of('/'), key.size()));
-        return key;
-    }
+std::string index_key(std::string_view game_path)
+{
+    std::string key = lower_case(game_path);
+    key.erase(0, std::min(key.find_first_not_of('/'), key.size()));
+    return key;
+}
 
-    const char* last_error()
-    {
-        return PHYSFS_getErrorByCode(PHYSFS_getLastErrorCode());
-    }
+const char* last_error() { return PHYSFS_getErrorByCode(PHYSFS_getLastErrorCode()); }
 
-    std::vector<fs::path> usual_places()
-    {
-        std::error_code ignored;
-        std::vector<fs::path> places;
-        if (const char* named = std::getenv("VKPT_BASEDIR"))
-            places.emplace_back(named);
-        places.emplace_back(".");
-        const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-        places.push_back(program);
-        places.push_back(program.parent_path());
-        if (const char* home = std::getenv("HOME"))
-            places.push_back(fs::path(home) / ".yq2");
-        places.emplace_back("/usr/share/games/quake2");
-        return places;
-    }
+std::vector<fs::path> usual_places()
+{
+    std::error_code ignored;
+    std::vector<fs::path> places;
+    if (const char* named = std::getenv("VKPT_BASEDIR"))
+        places.emplace_back(named);
+    places.emplace_back(".");
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    places.push_back(program);
+    places.push_back(program.parent_path());
+    if (const char* home = std::getenv("HOME"))
+        places.push_back(fs::path(home) / ".yq2");
+    places.emplace_back("/usr/share/games/quake2");
+    return places;
+}
 
-    fs::path find_base()
-    {
-        std::error_code ignored;
-        std::string looked;
-        for (const fs::path& place : usual_places()) {
-            if (fs::is_directory(place / "baseq2", ignored))
-                return place;
-            looked += "\n  " + (place / "baseq2").string();
-        }
-        throw Failure("no game data found; looked for" + looked + "\nName the folder that holds \"baseq2\" with --basedir DIR.");
+fs::path find_base()
+{
+    std::error_code ignored;
+    std::string looked;
+    for (const fs::path& place : usual_places()) {
+        if (fs::is_directory(place / "baseq2", ignored))
+            return place;
+        looked += "\n  " + (place / "baseq2").string();
     }
+    throw Failure(
+        "no game data found; looked for" + looked + "\nName the folder that holds \"baseq2\" with --basedir DIR.");
+}
 
-    bool is_archive(const fs::path& file)
-    {
-        static constexpr std::string_view endings[] = { ".pak", ".pk2", ".pk3", ".zip", ".pkz" };
-        return std::ranges::find(endings, lower_case(file.extension().string())) != std::end(endings);
-    }
+bool is_archive(const fs::path& file)
+{
+    static constexpr std::string_view endings[] = { ".pak", ".pk2", ".pk3", ".zip", ".pkz" };
+    return std::ranges::find(endings, lower_case(file.extension().string())) != std::end(endings);
+}
 
-    // pak0.pak .. pak9.pak: these come below all other archives.
-    bool is_numbered(const fs::path& file)
-    {
-        const std::string name = lower_case(file.filename().string());
-        return name.size() == 8 && name.starts_with("pak") && name[3] >= '0' && name[3] <= '9' && name.ends_with(".pak");
-    }
+// pak0.pak .. pak9.pak: these come below all other archives.
+bool is_numbered(const fs::path& file)
+{
+    const std::string name = lower_case(file.filename().string());
+    return name.size() == 8 && name.starts_with("pak") && name[3] >= '0' && name[3] <= '9' && name.ends_with(".pak");
+}
 
-    // Strongest first.
-    std::vector<fs::path> find_archives(const fs::path& folder)
-    {
-        std::vector<fs::path> archives;
-        for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-            if (entry.is_regular_file() && is_archive(entry.path()))
-                archives.push_back(entry.path());
-        std::ranges::sort(archives, [](const fs::path& a, const fs::path& b) {
-            return is_numbered(a) != is_numbered(b) ? is_numbered(b) : lower_case(a.string()) > lower_case(b.string());
-        });
-        return archives;
-    }
+// Strongest first.
+std::vector<fs::path> find_archives(const fs::path& folder)
+{
+    std::vector<fs::path> archives;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (entry.is_regular_file() && is_archive(entry.path()))
+            archives.push_back(entry.path());
+    std::ranges::sort(archives, [](const fs::path& a, const fs::path& b) {
+        return is_numbered(a) != is_numbered(b) ? is_numbered(b) : lower_case(a.string()) > lower_case(b.string());
+    });
+    return archives;
+}
 
 } // namespace
 
@@ -114,8 +112,8 @@ FileSystem::~FileSystem() { PHYSFS_deinit(); }
 void FileSystem::mount(const fs::path& folder)
 {
     if (!fs::is_directory(folder))
-        throw Failure(fmt::format("no folder {}: name the folder that holds \"baseq2\" (and the game) with --basedir DIR",
-            folder.string()));
+        throw Failure(fmt::format(
+            "no folder {}: name the folder that holds \"baseq2\" (and the game) with --basedir DIR", folder.string()));
     std::vector<fs::path> places = find_archives(folder);
     places.push_back(folder);
     for (const fs::path& place : places) {
@@ -181,7 +179,8 @@ std::optional<std::vector<std::byte>> FileSystem::read(std::string_view game_pat
     const PHYSFS_sint64 got = PHYSFS_readBytes(file, bytes.data(), bytes.size());
     PHYSFS_close(file);
     if (got != PHYSFS_sint64(bytes.size()))
-        throw Failure(fmt::format("cannot read {} in {}: {}", game_path, PHYSFS_getRealDir(found->second.c_str()), last_error()));
+        throw Failure(
+            fmt::format("cannot read {} in {}: {}", game_path, PHYSFS_getRealDir(found->second.c_str()), last_error()));
     return bytes;
 }
 

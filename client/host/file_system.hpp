@@ -14,8 +14,8 @@ namespace vkpt::client {
 
 class FileSystem {
 public:
-    // base: the folder that holds "baseq2", empty: the first of the usual places that does. game: a folder beside baseq2, empty: none.
-    // One FileSystem at a time. Throws Failure where no such folder is.
+    // base: the folder that holds "baseq2", empty: the first of the usual places that does. game: a folder beside
+    // baseq2, empty: none. One FileSystem at a time. Throws Failure where no such folder is.
     FileSystem(const std::filesystem::path& base, const std::string& game);
     ~FileSystem();
     FileSystem(const FileSystem&) = delete;

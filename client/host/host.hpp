@@ -25,8 +25,8 @@ struct HostOptions {
 // One at a time: the refresh API has no place for a context pointer.
 class Host {
 public:
-    // Loads and starts the module. files: nullptr where nothing but facts about the module is wanted; must outlive the host.
-    // Throws Failure with the module's own words, WrongUse for a cvar that the module does not know.
+    // Loads and starts the module. files: nullptr where nothing but facts about the module is wanted; must outlive the
+    // host. Throws Failure with the module's own words, WrongUse for a cvar that the module does not know.
     Host(const HostOptions& options, FileSystem* files);
     ~Host();
     Host(const Host&) = delete;

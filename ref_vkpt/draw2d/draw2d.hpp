@@ -16,7 +16,8 @@ struct Rectangle {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-// How the player wants 2D pictures sampled; from the cvars r_2D_unfiltered, r_videos_unfiltered, r_nolerp_list, r_lerp_list.
+// How the player wants 2D pictures sampled; from the cvars r_2D_unfiltered, r_videos_unfiltered, r_nolerp_list,
+// r_lerp_list.
 struct Filtering {
     bool unfiltered_pictures = false;
     bool unfiltered_videos = false;
@@ -76,13 +77,12 @@ private:
 
     void create_render_pass();
     void create_pipeline(Pipelines& pipelines);
-    void destroy();
     uint32_t choose_sampler(const Texture& texture) const;
     void add_quad(const Texture& texture, glm::vec2 low, glm::vec2 high, uint32_t color = 0xffffffff);
     size_t prepare_raw_picture(int columns, int rows);
     VkDeviceAddress upload_quads();
     void record_raw_copies(VkCommandBuffer commands);
-    void record_quads(VkCommandBuffer commands, VkDeviceAddress address);
+    void record_quads(VkCommandBuffer commands, VkDeviceAddress address) const;
 
     Gpu gpu_;
     Bindings& bindings_;

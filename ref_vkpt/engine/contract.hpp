@@ -73,12 +73,12 @@ enum ErrorLevel : int32_t {
 // First argument of Imports::execute_text.
 enum ExecuteWhen : int32_t { EXEC_NOW = 0, EXEC_INSERT = 1, EXEC_APPEND = 2 };
 
-// Argument of Imports::request_restart.
+// Argument of Imports::request_restart: what the engine does before its next frame.
 enum class Restart : int32_t {
-    undefined = 0,
+    undefined = 0, // where it starts: the engine restarts by itself when vid_fullscreen is marked as modified
     none = 1,
-    full = 2, // vid_restart: the module is loaded anew
-    partial = 3, // the window's own settings changed
+    full = 2, // as vid_restart: the module is loaded anew
+    partial = 3, // the map is registered anew
 };
 
 // The engine's qboolean. It is an int, except where 8.50 was built as C23: then it is one byte, and the rest of the
@@ -212,7 +212,8 @@ struct Exports8 {
     void (*draw_tile_clear)(int x, int y, int width, int height, const char* name);
     void (*draw_fill)(int x, int y, int width, int height, int palette_index);
     void (*draw_fade_screen)();
-    void (*draw_stretch_raw)(int x, int y, int width, int height, int columns, int rows, const uint8_t* pixels, int bits);
+    void (*draw_stretch_raw)(
+        int x, int y, int width, int height, int columns, int rows, const uint8_t* pixels, int bits);
     void (*set_palette)(const uint8_t* rgb);
     void (*begin_frame)(float camera_separation);
     void (*end_frame)();
@@ -245,6 +246,7 @@ static_assert(sizeof(RefDef) == 136 && offsetof(RefDef, view_origin) == 24 && of
     && offsetof(RefDef, dlights) == 112 && offsetof(RefDef, particles) == 128);
 static_assert(sizeof(Imports) == 19 * sizeof(void*));
 static_assert(export_struct_bytes(5) == 208 && export_struct_bytes(6) == 216 && export_struct_bytes(7) == 216
-    && export_struct_bytes(8) == sizeof(Exports8) && sizeof(Exports8) == 224 && export_struct_bytes(4) == 0 && export_struct_bytes(9) == 0);
+    && export_struct_bytes(8) == sizeof(Exports8) && sizeof(Exports8) == 224 && export_struct_bytes(4) == 0
+    && export_struct_bytes(9) == 0);
 
 } // namespace vkpt::engine

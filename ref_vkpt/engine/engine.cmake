@@ -2,20 +2,22 @@
 # The engine's side of the module. ref_vkpt/CMakeLists.txt includes this and calls vkpt_add_engine(ref_vkpt).
 find_package(fmt REQUIRED)
 
+set(vkpt_engine_folder ${CMAKE_CURRENT_LIST_DIR})
+cmake_path(GET vkpt_engine_folder PARENT_PATH vkpt_module_folder)
 set(vkpt_engine_sources
-    ${CMAKE_SOURCE_DIR}/ref_vkpt/cvars.cpp
-    ${CMAKE_SOURCE_DIR}/ref_vkpt/engine/engine.cpp
-    ${CMAKE_SOURCE_DIR}/ref_vkpt/engine/exports.cpp)
+    ${vkpt_module_folder}/cvars.cpp
+    ${vkpt_engine_folder}/engine.cpp
+    ${vkpt_engine_folder}/exports.cpp)
 
 # Gives a MODULE library the engine's entry points. Only GetRefAPI and vkpt_extension leave it, whatever its libraries show; and
 # nothing may stay unresolved.
 function(vkpt_add_engine target)
     target_sources(${target} PRIVATE ${vkpt_engine_sources})
     # GetRefAPI returns a C++ class on purpose (see ReturnedTable).
-    set_source_files_properties(${CMAKE_SOURCE_DIR}/ref_vkpt/engine/exports.cpp PROPERTIES
+    set_source_files_properties(${vkpt_engine_folder}/exports.cpp PROPERTIES
         COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:Clang>:-Wno-return-type-c-linkage>")
     target_link_libraries(${target} PRIVATE vkpt_build vkpt_formats fmt::fmt-header-only ${CMAKE_DL_LIBS})
-    set(map ${CMAKE_SOURCE_DIR}/ref_vkpt/engine/exports.map)
+    set(map ${vkpt_engine_folder}/exports.map)
     target_link_options(${target} PRIVATE "LINKER:--version-script=${map}" "LINKER:-z,defs")
     set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${map})
 endfunction()

@@ -314,6 +314,11 @@ public:
     {
         engine::attach(imports);
         const int api = guard_or("GetRefAPI", 0, detect_api);
+        // Until it hears of restarts, the engine itself watches vid_fullscreen, and restarts once right after the start
+        // because the variable is new. From here on vid_restart works, and a change of the variable waits for it, as
+        // with gl3.
+        if (api)
+            engine::request_restart(engine::Restart::none);
         const ExportTable table = make_table(api);
         const size_t bytes = api ? engine::export_struct_bytes(api) : engine::export_common_bytes;
         // Volatile: the compiler must not conclude from our own size how much lies behind the pointer.

@@ -7,5 +7,5 @@ add_library(vkpt_lights STATIC
     ${CMAKE_CURRENT_LIST_DIR}/point_lights.cpp
     ${CMAKE_CURRENT_LIST_DIR}/triangulate.cpp)
 find_package(fmt REQUIRED)
-target_link_libraries(vkpt_lights PUBLIC vkpt_formats PRIVATE vkpt_build fmt::fmt)
-target_include_directories(vkpt_lights PUBLIC ${CMAKE_SOURCE_DIR})
+target_link_libraries(vkpt_lights PUBLIC vkpt_formats PRIVATE vkpt_build fmt::fmt-header-only)
+target_include_directories(vkpt_lights PUBLIC ${CMAKE_CURRENT_LIST_DIR}/../..)

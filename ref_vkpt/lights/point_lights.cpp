@@ -25,22 +25,17 @@ constexpr float least_radius = 0.5f;
 constexpr float farthest_rescue = 16; // how far a light inside a wall may be moved to come out of it, units
 constexpr int lightstyle_count = 256;
 
-bool is_solid(const Bsp& bsp, glm::vec3 p)
-{
-    return bsp.leaves[bsp.find_leaf(p, find_world_root(bsp))].contents & formats::CONTENTS_SOLID;
-}
-
 // The nearest free place around a light whose origin lies in a wall.
 std::optional<glm::vec3> find_free_place(const Bsp& bsp, glm::vec3 origin)
 {
-    if (!is_solid(bsp, origin))
+    if (!(bsp.leaves[bsp.find_leaf(origin, find_world_root(bsp))].contents & formats::CONTENTS_SOLID))
         return origin;
     for (float step = 1; step <= farthest_rescue; step *= 2)
         for (int z = -1; z <= 1; z++)
             for (int y = -1; y <= 1; y++)
                 for (int x = -1; x <= 1; x++) {
                     const glm::vec3 place = origin + step * glm::vec3(x, y, z);
-                    if (!is_solid(bsp, place))
+                    if (!touches_solid(bsp, place, least_radius))
                         return place;
                 }
     return std::nullopt;

@@ -15,7 +15,8 @@
 
 namespace vkpt {
 
-// The engine holds pointers to these and sorts entities by them: addresses are stable and ascend in the order of loading.
+// The engine holds pointers to these and sorts entities by them: addresses are stable and ascend in the order of
+// loading.
 struct Texture {
     std::string name; // as asked for
     std::string path; // of the original picture: "textures/e1u1/floor.wal"
@@ -39,8 +40,8 @@ public:
     TextureStore(const TextureStore&) = delete;
     TextureStore& operator=(const TextureStore&) = delete;
 
-    // Names as in TextureUse. Loads what is not there yet and marks it used. A wall that is not found is a grey picture of
-    // 64 x 64, named on the console once per map; anything else that is not found is nullptr.
+    // Names as in TextureUse. Loads what is not there yet and marks it used. A wall that is not found is a grey picture
+    // of 64 x 64, named on the console once per map; anything else that is not found is nullptr.
     const Texture* find(std::string_view name, TextureUse use);
     // The six sides in the order of shared::Sky (rt, bk, lf, ft, up, dn); nullptr where a side is missing.
     std::array<const Texture*, 6> find_sky(std::string_view name);
@@ -59,6 +60,8 @@ public:
     // Before a frame is submitted that may show newly found pictures.
     void flush_if_needed();
 
+    // How many are loaded.
+    size_t count() const;
     // For the console command `imagelist`.
     void print_list() const;
 

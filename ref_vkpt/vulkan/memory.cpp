@@ -95,7 +95,8 @@ Allocation MemoryAllocator::allocate(const VkMemoryRequirements& requirements, V
 MemoryBlock& MemoryAllocator::add_block(VkDeviceSize size, uint32_t type, bool linear, MemoryKind kind)
 {
     VkMemoryAllocateFlagsInfo flags { VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO };
-    flags.flags = linear ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0u;
+    if (linear)
+        flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     VkMemoryAllocateInfo info { VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags };
     info.allocationSize = size;
     info.memoryTypeIndex = type;

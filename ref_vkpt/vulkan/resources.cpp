@@ -22,9 +22,11 @@ Buffer::Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind k
             = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
         const VkMemoryPropertyFlags required
             = home == BufferHome::device ? VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) : mappable;
-        const VkMemoryPropertyFlags preferred = home == BufferHome::upload ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
-            : home == BufferHome::readback                                 ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
-                                                                           : 0u;
+        VkMemoryPropertyFlags preferred = 0;
+        if (home == BufferHome::upload)
+            preferred = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+        else if (home == BufferHome::readback)
+            preferred = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
         allocation_ = gpu.memory.allocate(requirements, required, required | preferred, true, kind);
         VKPT_CHECK(vkBindBufferMemory(device_, handle_, allocation_.memory(), allocation_.offset()));
     } catch (...) {
@@ -57,7 +59,8 @@ Image::Image(const Gpu& gpu, const ImageSettings& settings, std::string_view nam
 {
     const VkFormat view_format = settings.view_format == VK_FORMAT_UNDEFINED ? settings.format : settings.view_format;
     VkImageCreateInfo info { VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO };
-    info.flags = view_format != settings.format ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0u;
+    if (view_format != settings.format)
+        info.flags = VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = settings.format;
     info.extent = { settings.width, settings.height, 1 };

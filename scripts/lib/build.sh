@@ -3,9 +3,7 @@
 # shellcheck disable=SC2154  # root, build_dir: see common.sh
 # Configuring and building the preset `release`.
 
-build_is_current() { ninja -C "$build_dir" -n "$@" 2>/dev/null | grep -q 'no work to do'; }
-
-# build_targets TARGET...: configures where that was never done, builds what changed, says nothing where nothing did.
+# build_targets TARGET...: configures where that was never done, builds what changed, is silent where nothing did.
 build_targets() {
     if [[ -e $build_dir && ! -w $build_dir ]]; then
         die "$build_dir belongs to $(stat -c %U "$build_dir") (an earlier run as another user). Remove it: sudo rm -r $build_dir"
@@ -13,7 +11,6 @@ build_targets() {
     if [[ ! -e $build_dir/build.ninja ]]; then
         run_step configure "Configuring (cmake --preset release)" cmake --preset release -S "$root" -B "$build_dir" || die "cmake failed"
     fi
-    build_is_current "$@" && return 0
     run_step build "Building ref_vkpt and its game data (the first time takes minutes)" \
         cmake --build "$build_dir" --parallel "$(nproc)" --target "$@" || die "the build failed"
 }

@@ -7,7 +7,7 @@
 # shellcheck disable=SC2034
 build_dir=${VKPT_BUILD_DIR:-$root/build/release}
 log_dir=$root/build/log
-step_timeout_note=10 # seconds between two lines of progress where there is no terminal
+seconds_between_lines=10 # of progress, where there is no terminal
 
 say() { printf '%s\n' "$*"; }
 note() { printf '   %s\n' "$*"; }
@@ -41,25 +41,31 @@ last_line() {
         | cut -c "1-$((columns > 30 ? columns - 14 : 60))"
 }
 
-# watch_step PID TITLE PROGRESS...: shows what PROGRESS prints until PID has ended; returns its status.
+# watch_step PID TITLE PROGRESS...: shows what PROGRESS prints until PID has ended; returns its status. Silent where
+# the step is over at once.
 watch_step() {
-    local pid=$1 title=$2 start=$SECONDS shown=$SECONDS line=
+    local pid=$1 title=$2 start=$SECONDS shown=$SECONDS tick announced=no
     shift 2
-    say "-- $title"
-    while kill -0 "$pid" 2>/dev/null; do
-        sleep 0.2
-        if [[ -t 1 ]]; then
-            line=$("$@")
-            printf '\r\033[K   %3d s  %s' $((SECONDS - start)) "$line"
-        elif ((SECONDS - shown >= step_timeout_note)); then
+    for ((tick = 0;; tick++)); do
+        kill -0 "$pid" 2>/dev/null || break
+        sleep 0.1
+        ((tick >= 7)) || continue
+        if [[ $announced == no ]]; then
+            say "-- $title"
+            announced=yes
+        elif [[ -t 1 ]]; then
+            printf '\r\033[K   %3d s  %s' $((SECONDS - start)) "$("$@")"
+        elif ((SECONDS - shown >= seconds_between_lines)); then
             shown=$SECONDS
             printf '   %3d s  %s\n' $((SECONDS - start)) "$("$@")"
         fi
     done
-    [[ -t 1 ]] && printf '\r\033[K'
     local status=0
     wait "$pid" || status=$?
-    ((status == 0)) && note "done in $((SECONDS - start)) s"
+    if [[ $announced == yes ]]; then
+        [[ -t 1 ]] && printf '\r\033[K'
+        ((status == 0)) && note "done in $((SECONDS - start)) s"
+    fi
     return "$status"
 }
 

@@ -6,7 +6,7 @@
 # The engine opens ref_NAME.so in the directory of its own executable (after symbolic links), so the run directory holds
 # a copy of the engine and links to everything else. The installed engine is never touched.
 
-run_dir=$root/build/run
+run_dir=${VKPT_RUN_DIR:-$root/build/run}
 xvfb_pid=
 engine_pid=
 
@@ -36,6 +36,22 @@ choose_player() {
         player_uid=$(id -u nobody 2>/dev/null || echo 65534)
         player_gid=$(id -g nobody 2>/dev/null || echo 65534)
     fi
+}
+
+# With sudo, or as root in somebody's checkout: all that follows the set-up is done as the checkout's owner, so that what
+# is built belongs to them. Starts the calling script anew; returns where nothing is to be changed.
+continue_as_owner() {
+    local owner group groups=--clear-groups home
+    is_root || return 0
+    owner=$(stat -c %u "$root")
+    group=$(stat -c %g "$root")
+    ((owner != 0)) || return 0
+    if [[ -e $build_dir && $(stat -c %u "$build_dir") -ne $owner ]]; then return 0; fi
+    mkdir -p "$log_dir" && chown "$owner:$group" "$root/build" && chown -R "$owner:$group" "$log_dir"
+    home=$(getent passwd "$owner" | cut -d: -f6)
+    [[ -n $home ]] && groups=--init-groups
+    [[ -n $home && -d $home ]] || home=$root/build
+    exec setpriv --reuid "$owner" --regid "$group" "$groups" -- env HOME="$home" "$root/${0##*/}" --no-setup "$@"
 }
 
 # The groups that own the GPU's device files: an unprivileged user needs them, or sees the CPU driver only.
@@ -105,7 +121,7 @@ link_game() {
     fi
 }
 
-# prepare_run_dir HOME_NAME: sets home_dir and engine_binary.
+# prepare_run_dir HOME_NAME: sets home_dir, cache_dir and engine_binary.
 prepare_run_dir() {
     local engine engine_dir file
     engine=$(find_engine) || die "Yamagi Quake II is not installed (package yamagi-quake2); VKPT_ENGINE=PATH names one elsewhere"
@@ -118,14 +134,16 @@ prepare_run_dir() {
     for file in "$engine_dir"/ref_*.so; do
         [[ -e $file ]] && ln -sfn "$file" "$run_dir/${file##*/}"
     done
-    [[ -e $build_dir/ref_vkpt/ref_vkpt.so ]] || die "$build_dir/ref_vkpt/ref_vkpt.so is missing; build first: cmake --build --preset release"
-    provide "$build_dir/ref_vkpt/ref_vkpt.so" "$run_dir/ref_vkpt.so"
+    [[ -e $build_dir/bin/ref_vkpt.so ]] \
+        || die "$build_dir/bin/ref_vkpt.so is missing; build first: cmake --build --preset release"
+    provide "$build_dir/bin/ref_vkpt.so" "$run_dir/ref_vkpt.so"
     link_game baseq2 "$engine_dir"
     [[ ${game_name:-baseq2} == baseq2 ]] || link_game "$game_name" "$engine_dir"
     home_dir=$run_dir/$1
-    mkdir -p "$home_dir/.yq2/${game_name:-baseq2}" "$home_dir/.cache" "$home_dir/.local/share"
+    cache_dir=${VKPT_CACHE_DIR:-$run_dir/cache}
+    mkdir -p "$home_dir/.yq2/${game_name:-baseq2}" "$home_dir/.local/share" "$cache_dir"
     if is_root; then
-        chown -R "$player_uid:$player_gid" "$home_dir"
+        chown -R "$player_uid:$player_gid" "$home_dir" "$cache_dir"
     fi
     [[ -w $home_dir ]] || die "$home_dir belongs to another user (an earlier run); remove it: sudo rm -r $home_dir"
 }
@@ -191,9 +209,9 @@ exec_engine() {
     local data=$1
     shift
     cd "$run_dir" || exit 1
-    export HOME=$home_dir XDG_CACHE_HOME=$home_dir/.cache
+    export HOME=$home_dir XDG_CACHE_HOME=$cache_dir
     unset XDG_DATA_HOME XDG_CONFIG_HOME
-    exec_as_player "$engine_binary" -datadir "$data" +set vid_renderer vkpt +set logfile 2 +set allow_download 0 "$@"
+    exec_as_player "$engine_binary" -datadir "$data" +set vid_renderer "${VKPT_RENDERER:-vkpt}" +set logfile 2 +set allow_download 0 "$@"
 }
 
 # Why the engine did not keep our module, from its console; nothing where it did.

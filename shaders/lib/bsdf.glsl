@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The one surface model: a Lambert base under a GGX layer, or a GGX metal, mixed by `metallic`.
+// The one surface model: a diffuse base under a GGX layer, or a GGX metal, mixed by `metallic`.
 // Sources: Walter et al. 2007 (GGX), Heitz 2014 (height-correlated Smith), Dupuy and Benyoub 2023 (visible normals by
-// spherical caps). Directions are unit vectors that point away from the surface.
+// spherical caps), Kelemen and Szirmay-Kalos 2001 (a base that reflects what the layer lets through). Directions are unit vectors that point away from the surface.
 #ifndef VKPT_LIB_BSDF
 #define VKPT_LIB_BSDF
 
@@ -13,7 +13,7 @@ struct Surface {
     vec3 geometric_normal; // of the triangle, on the viewer's side: nothing comes from below it
     vec3 view;             // towards where the ray came from
     vec3 albedo;
-    float roughness; // GGX alpha = roughness^2
+    float roughness; // GGX alpha = roughness^2; 1 and not metallic: matte, exactly Lambert
     float metallic;
 };
 
@@ -83,9 +83,34 @@ float schlick_power(float cosine)
     return m2 * m2 * m;
 }
 
-vec3 specular_f0(Surface s)
+// The layer over the diffuse base fades out towards roughness 1: matte surfaces have none.
+float layer_strength(Surface s)
 {
-    return mix(vec3(bsdf_dielectric_f0), s.albedo, s.metallic);
+    return clamp(5.0f * (1.0f - s.roughness), 0.0f, 1.0f);
+}
+
+// Schlick's approximation; `power` = schlick_power of the cosine.
+float dielectric_fresnel(Surface s, float power)
+{
+    return layer_strength(s) * (bsdf_dielectric_f0 + (1.0f - bsdf_dielectric_f0) * power);
+}
+
+vec3 specular_fresnel(Surface s, float power)
+{
+    vec3 metal = s.albedo + (vec3(1.0f) - s.albedo) * power;
+    return mix(vec3(dielectric_fresnel(s, power)), metal, s.metallic);
+}
+
+// What passes the layer inwards, reflects, and passes it outwards, so that base and layer together never reflect more
+// than they receive: (1 - F(l)) (1 - F(v)) / (1 - mean F), 1 / pi without a layer. F is the share that the layer reflects
+// in all; towards grazing angles that rises less the rougher it is (the factor is fitted to the furnace).
+float coupled_diffuse(Surface s, float nl, float nv)
+{
+    float rise = 1.0f - 0.9f * s.roughness * s.roughness;
+    float mean = dielectric_fresnel(s, rise / 21.0f);
+    float passed = (1.0f - dielectric_fresnel(s, rise * schlick_power(nl)))
+        * (1.0f - dielectric_fresnel(s, rise * schlick_power(nv)));
+    return (1.0f - s.metallic) * passed / ((1.0f - mean) * bsdf_pi);
 }
 
 vec3 half_vector(vec3 view, vec3 light, vec3 normal)
@@ -107,12 +132,10 @@ BsdfValue evaluate_brdf(Surface s, vec3 light)
     float schlick = schlick_power(dot(view, h));
     float visibility = 0.5f / (nl * smith_root(nv, alpha) + nv * smith_root(nl, alpha));
     float lobe = ggx_distribution(dot(s.normal, h), dot(across, across), alpha) * visibility;
-    float base_fresnel = bsdf_dielectric_f0 + (1.0f - bsdf_dielectric_f0) * schlick;
 
-    vec3 f0 = specular_f0(s);
     BsdfValue value;
-    value.diffuse = (1.0f - s.metallic) * (1.0f - base_fresnel) / bsdf_pi;
-    value.specular = (f0 + (vec3(1.0f) - f0) * schlick) * lobe;
+    value.diffuse = coupled_diffuse(s, nl, nv);
+    value.specular = specular_fresnel(s, schlick) * lobe;
     return value;
 }
 
@@ -139,12 +162,13 @@ vec3 reflected_radiance(Surface s, BsdfValue value, vec3 incoming)
 // How often sample_bsdf takes the specular lobe: by what each lobe reflects towards this viewer.
 float specular_lobe_probability(Surface s)
 {
-    float schlick = schlick_power(dot(s.normal, view_above_horizon(s)));
-    float f0 = luminance(specular_f0(s));
-    float specular = f0 + (1.0f - f0) * schlick;
-    float diffuse = (1.0f - s.metallic) * (1.0f - bsdf_dielectric_f0) * luminance(s.albedo);
     if (s.metallic >= 1.0f)
         return 1.0f;
+    if (s.metallic <= 0.0f && s.roughness >= 1.0f)
+        return 0.0f;
+    float power = schlick_power(dot(s.normal, view_above_horizon(s)));
+    float specular = luminance(specular_fresnel(s, power));
+    float diffuse = (1.0f - s.metallic) * (1.0f - dielectric_fresnel(s, power)) * luminance(s.albedo);
     return clamp(specular / max(specular + diffuse, 1e-6f), 0.1f, 0.9f);
 }
 

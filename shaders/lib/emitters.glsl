@@ -17,10 +17,8 @@ struct EmitterSample {
 };
 
 const float emitter_pi = 3.14159265358979f;
-// Between these solid angles triangles are sampled by solid angle; below, float rounding would show, and area sampling
-// is as good; above, the receiver nearly touches the triangle.
+// Triangles are sampled by solid angle from here on; below, float rounding would show, and area sampling is as good.
 const float least_spherical_angle = 3e-4f;
-const float greatest_spherical_angle = 6.2f;
 const float least_contribution = 1e-30f;    // the weight of what is possible but predicted to be nothing
 const float greatest_contribution = 1e20f;  // keeps sums of weights finite
 const float prediction_roughness = 0.35f;   // no lobe narrower than this guides the choice of lights
@@ -73,7 +71,7 @@ TriangleAspect view_triangle(Emitter e, vec3 receiver)
 
 bool uses_spherical_sampling(TriangleAspect t)
 {
-    return t.solid_angle >= least_spherical_angle && t.solid_angle <= greatest_spherical_angle;
+    return t.solid_angle >= least_spherical_angle;
 }
 
 // Arvo 1995: first the sub-triangle (a, b, c') that has the share xi.x of the solid angle, c' on the arc from a to c; then

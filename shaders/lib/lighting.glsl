@@ -34,7 +34,7 @@ ReflectedLight sample_direct_light(Surface s, int cluster, INOUT(Random) random)
         return result;
     vec3 radiance = point.radiance;
     if (emitter.type == EMITTER_SKY)
-        radiance = sky_radiance(point.direction) * lightstyle_scale(emitter.lightstyle);
+        radiance = sky_radiance(point.direction);
     // Up to shortly before the emitter: its own surface must not shadow it.
     vec3 origin = leave_surface(s.position, s.geometric_normal);
     vec3 to_light = point.point - origin;

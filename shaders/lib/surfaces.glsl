@@ -106,6 +106,10 @@ void store_surface(uint pixel, HitSurface hit)
             packHalf2x16(vec2(s.metallic, 0.0)) | (uint(hit.cluster + 1) << 16u), pack_direction(s.view)));
 }
 
+// position.w of pixels without a surface to light.
+const float DEPTH_NOTHING = -1.0;  // sky, or outside of everything
+const float DEPTH_UNLIT = -2.0;    // a picture that is shown as it is
+
 struct PrimarySurface {
     Surface surface;
     float depth; // < 0: no surface

@@ -43,6 +43,7 @@ RawHit software_miss(float t_max) { return RawHit(TRACE_MISS, t_max, vec2(0.0), 
 // A child's key is its entry distance with its index in the lowest bits: keys of positive floats sort as integers.
 const int bvh_key_none = 0x7f7fffff; // above every distance: the largest finite float
 const int bvh_key_child_mask = 7;
+const float bvh_edge_slack = 2.4e-7; // two units in the last place of 1
 const uint bvh_stack_stride = TRACE_STACK_INTERLEAVE * 8u;
 
 void bvh_order(inout int a, inout int b)
@@ -121,28 +122,35 @@ void bvh_test_node(BvhRay ray, uint64_t node, int t_max, out int key[8])
     bvh_sort(key);
 }
 
-// Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (1997), two-sided, with the division put off until
-// the hit is sure. t in (t_min, t_max), edges inclusive.
+// Pluecker coordinates (Shevtsov et al., "Ray-Triangle Intersection Algorithm for Modern CPU Architectures", 2007, have the
+// family): an edge's sign depends on nothing but its two corners and the ray, and comes out exactly opposite in the triangle
+// that shares it, so no ray passes between two triangles. The comparison by Moeller and Trumbore, 2 % faster, let 2.6 % of the
+// rays through that are aimed at edges. Two-sided, t in (t_min, t_max), edges inclusive.
 bool bvh_test_triangle(uint64_t address, vec3 origin, vec3 direction, int t_min, int t_max, uint ray_mask, inout RawHit hit)
 {
     BvhWords64 source = BvhWords64(address);
     vec2 a = uintBitsToFloat(unpack32(source.words[0])), b = uintBitsToFloat(unpack32(source.words[1]));
     vec2 c = uintBitsToFloat(unpack32(source.words[2])), d = uintBitsToFloat(unpack32(source.words[3]));
     uvec2 e = unpack32(source.words[4]);
-    vec3 v0 = vec3(a, b.x), e1 = vec3(b.y, c), e2 = vec3(d, uintBitsToFloat(e.x));
+    vec3 p0 = vec3(a, b.x) - origin, p1 = vec3(b.y, c) - origin, p2 = vec3(d, uintBitsToFloat(e.x)) - origin;
 
-    vec3 p = cross(direction, e2), s = origin - v0, q = cross(s, e1);
-    // Fold the determinant's sign into the rest, so that both sides compare against a positive area.
-    int det = floatBitsToInt(dot(e1, p)), sign = det & 0x80000000;
-    float area = intBitsToFloat(det ^ sign), distance = intBitsToFloat(floatBitsToInt(dot(e2, q)) ^ sign);
-    vec2 uv = intBitsToFloat(floatBitsToInt(vec2(dot(s, p), dot(direction, q))) ^ sign);
-    bool met = uv.x >= 0.0 && uv.y >= 0.0 && uv.x + uv.y <= area && distance > intBitsToFloat(t_min) * area
-        && distance < intBitsToFloat(t_max) * area && ((e.y >> BVH_RAY_MASK_SHIFT) & ray_mask) != 0u;
-    if (met) {
-        float scale = 1.0 / area;
-        hit = RawHit(e.y & BVH_ID_MASK, distance * scale, uv * scale, sign == 0 ? 1u : 0u);
-    }
-    return met;
+    // Each the weight of the corner opposite the edge, times `area`; all of one sign inside.
+    vec3 weights = vec3(dot(cross(p1 - p2, p1 + p2), direction), dot(cross(p2 - p0, p2 + p0), direction),
+        dot(cross(p0 - p1, p0 + p1), direction));
+    float area = weights.x + weights.y + weights.z;
+    int sign = floatBitsToInt(area) & 0x80000000;
+    float least = min(min(intBitsToFloat(floatBitsToInt(weights.x) ^ sign), intBitsToFloat(floatBitsToInt(weights.y) ^ sign)),
+        intBitsToFloat(floatBitsToInt(weights.z) ^ sign));
+    // The slack is for rays at a corner, where the signs of several edges must agree.
+    if (!(least >= -bvh_edge_slack * abs(area)) || ((e.y >> BVH_RAY_MASK_SHIFT) & ray_mask) == 0u)
+        return false;
+    vec3 normal = cross(p2 - p0, p0 - p1);
+    float slope = dot(normal, direction);
+    float t = dot(normal, p0) / slope;
+    if (floatBitsToInt(t) <= t_min || floatBitsToInt(t) >= t_max) // NaN is above every t_max or below zero
+        return false;
+    hit = RawHit(e.y & BVH_ID_MASK, t, weights.yz / area, slope < 0.0 ? 1u : 0u);
+    return true;
 }
 
 #define BVH_PUSH(k)                                                                                                           \

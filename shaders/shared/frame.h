@@ -78,6 +78,7 @@ struct FrameUniforms {
     ScreenBuffers screen;
     uint64_t exposure; // ExposureState
     uint64_t probes;   // IrradianceProbe list where FRAME_PROBES
+    uint64_t light_level; // one float, written by light_level.comp
     uint probe_count;
     uvec2 size;          // pixels rendered
     uvec2 output_origin; // where the view lies in the picture

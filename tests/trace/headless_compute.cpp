@@ -18,8 +18,8 @@ void require(VkResult result, const char* call)
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 
-// The CPU driver reads these when it loads. Its disk cache does not know the vector width, so a cache filled at another width
-// would undo the choice.
+// The CPU driver reads these when it loads. Its disk cache does not know the vector width, so a cache filled at another
+// width would undo the choice.
 void set_driver_environment()
 {
     if (__builtin_cpu_supports("avx512f"))
@@ -169,8 +169,7 @@ HeadlessCompute::Buffer HeadlessCompute::create_buffer(size_t bytes)
     vkGetBufferMemoryRequirements(device_, buffer.buffer, &needed);
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory);
-    constexpr VkMemoryPropertyFlags wanted
-        = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags wanted = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     uint32_t type = 0;
     while (type < memory.memoryTypeCount
         && (!(needed.memoryTypeBits >> type & 1) || (memory.memoryTypes[type].propertyFlags & wanted) != wanted))
@@ -256,6 +255,15 @@ double HeadlessCompute::dispatch(const Pipeline& pipeline, const void* push, uin
     return seconds;
 }
 
+void HeadlessCompute::free_buffers()
+{
+    for (const Buffer& buffer : buffers_) {
+        vkDestroyBuffer(device_, buffer.buffer, nullptr);
+        vkFreeMemory(device_, buffer.memory, nullptr);
+    }
+    buffers_.clear();
+}
+
 void HeadlessCompute::destroy()
 {
     for (const Pipeline& pipeline : pipelines_) {
@@ -263,10 +271,7 @@ void HeadlessCompute::destroy()
         vkDestroyPipelineLayout(device_, pipeline.layout, nullptr);
         vkDestroyShaderModule(device_, pipeline.module, nullptr);
     }
-    for (const Buffer& buffer : buffers_) {
-        vkDestroyBuffer(device_, buffer.buffer, nullptr);
-        vkFreeMemory(device_, buffer.memory, nullptr);
-    }
+    free_buffers();
     if (device_) {
         vkDestroyFence(device_, fence_, nullptr);
         vkDestroyCommandPool(device_, pool_, nullptr);

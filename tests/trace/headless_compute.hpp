@@ -42,13 +42,16 @@ public:
     HeadlessCompute(const HeadlessCompute&) = delete;
     HeadlessCompute& operator=(const HeadlessCompute&) = delete;
 
-    // Host-visible; they live as long as this.
+    // Host-visible; they live until free_buffers().
     Buffer create_buffer(size_t bytes);
     Buffer create_buffer(std::span<const std::byte> content);
     template <class T> Buffer create_buffer_of(std::span<const T> items) { return create_buffer(std::as_bytes(items)); }
 
+    void free_buffers();
+
     // Entry point main; `specialization` sets the constants 0, 1, 2, ...
-    Pipeline create_pipeline(std::span<const uint32_t> spirv, uint32_t push_bytes, std::span<const uint32_t> specialization);
+    Pipeline create_pipeline(
+        std::span<const uint32_t> spirv, uint32_t push_bytes, std::span<const uint32_t> specialization);
 
     // Seconds from submission to completion.
     double dispatch(const Pipeline& pipeline, const void* push, uint32_t groups);

@@ -25,8 +25,8 @@ struct TestHit {
 VKPT_ASSERT_SIZE(TestHit, 24);
 
 struct TraceRaysPush {
-    uint64_t rays;  // TestRay
-    uint64_t hits;  // TestHit
+    uint64_t rays; // TestRay
+    uint64_t hits; // TestHit
     uint64_t trees; // BvhView
     uint64_t stack;
     uint ray_count;
@@ -34,8 +34,8 @@ struct TraceRaysPush {
     uint ray_mask;
 };
 
-VKPT_CONST uint TRACE_RAYS_GROUP = 64u;           // lanes
-VKPT_CONST uint TRACE_RAYS_PER_GROUP = 64u * 8u;  // every lane traces 8 rays: fewer lanes, fewer stacks
+VKPT_CONST uint TRACE_RAYS_GROUP = 64u; // lanes
+VKPT_CONST uint TRACE_RAYS_PER_GROUP = 64u * 8u; // every lane traces 8 rays: fewer lanes, fewer stacks
 
 VKPT_SHARED_END
 

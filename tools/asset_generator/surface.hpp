@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

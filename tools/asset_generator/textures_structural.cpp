@@ -207,7 +207,7 @@ namespace {
             = text_shape(label, { 0.5f - text_width(label, height) * 0.5f, 0.5f - height * 0.5f }, height, 0.03f);
         return [=](glm::vec2 uv) {
             Surface s = base(uv);
-            if (text(uv) < 0 && fractal_noise(uv, 32, 3, seed + 5) < 0.62f)
+            if (text(uv) < 0 && fractal_noise(uv, 32, 3, seed + 5) < 0.7f)
                 s.colour = glm::mix(s.colour, glm::vec3(0.9f, 0.88f, 0.8f), 0.8f);
             for (int i = 0; i < 2; i++) { // two rulers above and below the label
                 const float line = std::abs(uv.y - (i ? 0.68f : 0.32f));

@@ -100,17 +100,23 @@ TextureInfo TextureLibrary::load(const std::string& name)
     info.value = wall.value;
     info.next_animation = wall.next_animation;
     if (palette_)
-        info.mean_colour = read_mean_colour(file, path.string());
+        info.reflectivity = read_reflectivity(file, path.string());
     return info;
 }
 
-glm::dvec3 TextureLibrary::read_mean_colour(formats::Bytes file, const std::string& name) const
+// The picture's mean colour as stored (not linearised), scaled until its largest part is 1, or, for dark pictures, until
+// it is 2 m (m: the largest part before): the classic tool's answer to the game's dim textures.
+glm::dvec3 TextureLibrary::read_reflectivity(formats::Bytes file, const std::string& name) const
 {
     const formats::Image image = formats::read_wal(file, name, *palette_);
     glm::dvec3 sum(0);
     for (const formats::Rgba8& pixel : image.pixels)
         sum += glm::dvec3(pixel.r, pixel.g, pixel.b);
-    return image.pixels.empty() ? glm::dvec3(0.5) : sum / (255.0 * double(image.pixels.size()));
+    const glm::dvec3 mean = sum / (255.0 * double(std::max<size_t>(1, image.pixels.size())));
+    const double largest = std::max({mean.x, mean.y, mean.z});
+    if (!(largest > 0))
+        return glm::dvec3(0);
+    return mean / largest * (largest < 0.5 ? 2 * largest : 1.0);
 }
 
 } // namespace vkpt::tools

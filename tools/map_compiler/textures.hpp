@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the compiler wants to know of a texture: flags from its .wal, or from its name where it is one of the editors'
-// tool textures, and its mean colour for the light.
+// tool textures, and its colour for the light.
 #pragma once
 
 #include "formats/image.hpp"
@@ -21,7 +21,7 @@ struct TextureInfo {
     uint32_t flags = 0, contents = 0;
     int value = 0;
     std::string next_animation;
-    glm::dvec3 mean_colour{0.5}; // 0..1, as stored (not linearised): the classic light tool's view of it
+    glm::dvec3 reflectivity{0.5}; // 0..1, as the classic light tool sees it; see read_reflectivity
     bool found = false;
     // By the name: or-ed in even where the map or the .wal gives its own.
     uint32_t tool_flags = 0, tool_contents = 0;
@@ -38,7 +38,7 @@ public:
 
 private:
     TextureInfo load(const std::string& name);
-    glm::dvec3 read_mean_colour(formats::Bytes file, const std::string& name) const;
+    glm::dvec3 read_reflectivity(formats::Bytes file, const std::string& name) const;
 
     std::filesystem::path folder_;
     std::optional<formats::Palette> palette_;

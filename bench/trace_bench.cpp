@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How fast the software backend traces a map's rays, per core, next to Embree tracing one ray at a time.
+// Time is the process's CPU time, so that a driver with several threads and Embree's one thread compare; rounds
+// alternate between the two, and the ratio is the median over rounds, so that other load on the machine matters little.
+#include "tests/trace/gpu_tracer.hpp"
+#include "tests/trace/scenes.hpp"
+
+#include "shaders/shared/trace.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <string>
+#ifdef VKPT_HAVE_EMBREE
+#include <embree3/rtcore.h>
+#endif
+
+namespace vkpt::tests {
+namespace {
+
+using namespace shared;
+
+constexpr uint32_t all_rays = 0xff;
+constexpr float far_away = 1e5f;
+
+struct Options {
+    std::string map;
+    uint32_t width = 640, height = 360;
+    int rounds = 15;
+};
+
+// Tiles of 8 x 8 pixels in blocks of 4 x 4: the 16 lanes of a vector look in nearly one direction.
+glm::uvec2 pixel_of(uint32_t index, uint32_t width)
+{
+    uint32_t tile = index / 64, in_tile = index % 64, tiles_across = width / 8;
+    uint32_t x = tile % tiles_across * 8 + in_tile / 16 % 2 * 4 + in_tile % 4;
+    uint32_t y = tile / tiles_across * 8 + in_tile / 32 * 4 + in_tile / 4 % 4;
+    return { x, y };
+}
+
+std::vector<TestRay> camera_rays(const MapScene& scene, const Options& options)
+{
+    float yaw = glm::radians(scene.yaw), aspect = float(options.height) / float(options.width);
+    glm::vec3 forward(std::cos(yaw), std::sin(yaw), 0), right(std::sin(yaw), -std::cos(yaw), 0), up(0, 0, 1);
+    std::vector<TestRay> rays;
+    for (uint32_t i = 0; i < options.width * options.height; i++) {
+        glm::vec2 at
+            = (glm::vec2(pixel_of(i, options.width)) + 0.5f) / glm::vec2(float(options.width), float(options.height));
+        glm::vec3 direction = forward + right * (2.0f * at.x - 1.0f) + up * ((1.0f - 2.0f * at.y) * aspect);
+        rays.push_back({ scene.eye, 0.0f, glm::normalize(direction), far_away });
+    }
+    return rays;
+}
+
+struct SurfacePoint {
+    glm::vec3 position, normal; // the normal on the ray's side; the position a little off the surface
+};
+
+SurfacePoint surface_point(const MapScene& scene, const TestRay& ray, const TestHit& hit)
+{
+    const auto& p = scene.triangles[hit.triangle].positions;
+    glm::vec3 normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+    if (!hit.front)
+        normal = -normal;
+    return { ray.origin + ray.direction * hit.t + normal * 0.0625f, normal };
+}
+
+TestRay bounce_ray(Random& random, const SurfacePoint& from)
+{
+    glm::vec3 direction = from.normal + random_direction(random); // cosine-distributed
+    return { from.position, 0.01f, glm::normalize(direction + from.normal * 1e-3f), far_away };
+}
+
+TestRay shadow_ray(Random& random, const MapScene& scene, const SurfacePoint& from)
+{
+    size_t light
+        = scene.lights.empty() ? random() % scene.triangles.size() : scene.lights[random() % scene.lights.size()];
+    const auto& p = scene.triangles[light].positions;
+    float a = std::sqrt(uniform(random, 0, 1)), b = uniform(random, 0, 1) * a;
+    glm::vec3 way = p[0] * (1.0f - a) + p[1] * (a - b) + p[2] * b - from.position;
+    float distance = std::max(glm::length(way), 1.0f);
+    return { from.position, 0.01f, way / distance, distance - 0.25f };
+}
+
+double cpu_seconds()
+{
+    timespec time {};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return double(time.tv_sec) + double(time.tv_nsec) * 1e-9;
+}
+
+double cpu_seconds_of(const std::function<void()>& work)
+{
+    double start = cpu_seconds();
+    work();
+    return cpu_seconds() - start;
+}
+
+double median(std::vector<double> values)
+{
+    auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+#ifdef VKPT_HAVE_EMBREE
+class EmbreeScene {
+public:
+    explicit EmbreeScene(std::span<const BvhTriangle> triangles)
+        : device_(rtcNewDevice("threads=1"))
+        , scene_(rtcNewScene(device_))
+    {
+        rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
+        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* corners = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), triangles.size() * 3));
+        auto* indices = static_cast<uint32_t*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles.size()));
+        for (size_t i = 0; i < triangles.size() * 3; i++) {
+            corners[i] = triangles[i / 3].positions[i % 3];
+            indices[i] = uint32_t(i);
+        }
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene_, geometry);
+        rtcReleaseGeometry(geometry);
+        rtcCommitScene(scene_);
+    }
+    ~EmbreeScene()
+    {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+    }
+    EmbreeScene(const EmbreeScene&) = delete;
+    EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+    // How many rays met something.
+    size_t trace(std::span<const TestRay> rays, bool any_hit) const
+    {
+        size_t met = 0;
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        for (const TestRay& ray : rays) {
+            RTCRayHit query {};
+            query.ray = { ray.origin.x, ray.origin.y, ray.origin.z, ray.t_min, ray.direction.x, ray.direction.y,
+                ray.direction.z, 0.0f, ray.t_max, ~0u, 0, 0 };
+            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            if (any_hit)
+                rtcOccluded1(scene_, &context, &query.ray);
+            else
+                rtcIntersect1(scene_, &context, &query);
+            met += any_hit ? query.ray.tfar < 0.0f : query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+        }
+        return met;
+    }
+
+private:
+    RTCDevice device_;
+    RTCScene scene_;
+};
+#endif
+
+struct RaySet {
+    const char* name;
+    bool any_hit;
+    std::vector<TestRay> rays;
+};
+
+// Where a camera ray meets nothing, the other two sets have no ray.
+std::vector<RaySet> make_ray_sets(const MapScene& scene, std::vector<TestRay> primary, std::span<const TestHit> hits)
+{
+    RaySet bounce { "bounce", false, {} }, shadow { "shadow", true, {} };
+    Random random(1);
+    for (size_t i = 0; i < primary.size(); i++) {
+        if (hits[i].triangle == TRACE_MISS)
+            continue;
+        SurfacePoint point = surface_point(scene, primary[i], hits[i]);
+        bounce.rays.push_back(bounce_ray(random, point));
+        shadow.rays.push_back(shadow_ray(random, scene, point));
+    }
+    return { { "primary", false, std::move(primary) }, std::move(bounce), std::move(shadow) };
+}
+
+void report_build(std::span<const BvhTriangle> triangles)
+{
+    for (auto [name, quality] : { std::pair("best", BvhQuality::best), std::pair("fast", BvhQuality::fast) }) {
+        std::vector<double> times;
+        Bvh bvh;
+        for (int i = 0; i < 9; i++)
+            times.push_back(cpu_seconds_of([&] { bvh = build_bvh(triangles, quality); }));
+        std::printf("build %s: %.2f ms, %.2f M triangles/s, %u nodes, depth %u\n", name, median(times) * 1e3,
+            double(triangles.size()) * 1e-6 / median(times), bvh.node_count, bvh.max_depth);
+    }
+}
+
+void run(const Options& options)
+{
+    MapScene scene = load_map(options.map);
+    std::printf(
+        "%s: %zu triangles, %zu of them lights\n", options.map.c_str(), scene.triangles.size(), scene.lights.size());
+    report_build(scene.triangles);
+    HeadlessCompute device(HeadlessCompute::Validation::off);
+    std::printf("device: %s\n", device.device_name().c_str());
+    auto pipelines = create_trace_pipelines(device);
+    Bvh tree = build_bvh(scene.triangles, BvhQuality::best);
+    std::vector<TestRay> primary = camera_rays(scene, options);
+    GpuTracer camera(device, std::span(&tree, 1), primary, all_rays);
+    camera.run(pipelines[0]);
+#ifdef VKPT_HAVE_EMBREE
+    EmbreeScene embree(scene.triangles);
+    std::printf("M rays/s per core      ours    Embree   ratio (median of rounds)\n");
+#else
+    std::printf("M rays/s per core      ours    (built without Embree)\n");
+#endif
+    for (const RaySet& set : make_ray_sets(scene, std::move(primary), camera.hits())) {
+        GpuTracer tracer(device, std::span(&tree, 1), set.rays, all_rays);
+        const auto& pipeline = pipelines[set.any_hit];
+        tracer.run(pipeline); // compiles
+        std::vector<double> ours, theirs, ratios;
+        for (int round = 0; round < options.rounds; round++) {
+            ours.push_back(cpu_seconds_of([&] { tracer.run(pipeline); }));
+#ifdef VKPT_HAVE_EMBREE
+            theirs.push_back(cpu_seconds_of([&] { embree.trace(set.rays, set.any_hit); }));
+            ratios.push_back(theirs.back() / ours.back());
+#endif
+        }
+        double millions = double(set.rays.size()) * 1e-6;
+        std::printf("%-20s %6.2f", set.name, millions / median(ours));
+        if (!ratios.empty())
+            std::printf("    %6.2f    %5.2f", millions / median(theirs), median(ratios));
+        std::printf("\n");
+    }
+}
+
+} // namespace
+} // namespace vkpt::tests
+
+int main(int argc, char** argv)
+{
+    vkpt::tests::Options options;
+    CLI::App app { "Rays per second of the software trace backend on a map" };
+    app.add_option("map", options.map, "BSP file")->required()->check(CLI::ExistingFile);
+    app.add_option("--width", options.width, "pixels, a multiple of 8")
+        ->check(CLI::Range(8, 8192))
+        ->capture_default_str();
+    app.add_option("--height", options.height, "pixels, a multiple of 8")
+        ->check(CLI::Range(8, 8192))
+        ->capture_default_str();
+    app.add_option("--rounds", options.rounds)->check(CLI::Range(1, 1000))->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+    options.width &= ~7u;
+    options.height &= ~7u;
+    try {
+        vkpt::tests::run(options);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "vkpt_trace_bench: %s\n", error.what());
+        return 1;
+    }
+    return 0;
+}

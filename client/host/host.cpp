@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "client/host/host.hpp"
+
+#include "client/host/errors.hpp"
+#include "client/host/imports.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+namespace vkpt::client {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr size_t kept_console_lines = 100;
+constexpr const char* played_version = "8.70 vkpt";
+
+fs::path find_module(const fs::path& wanted)
+{
+    if (!wanted.empty())
+        return wanted;
+    if (const char* named = std::getenv("VKPT_MODULE"); named && *named)
+        return named;
+    std::error_code ignored;
+    const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+    const fs::path places[] = { here / "ref_vkpt.so", here.parent_path() / "ref_vkpt" / "ref_vkpt.so" };
+    std::string looked;
+    for (const fs::path& place : places) {
+        if (fs::exists(place, ignored))
+            return place;
+        looked += "\n  " + place.string();
+    }
+    throw Failure(
+        "no refresh module found; looked for" + looked + "\nBuild it, or name it with --module PATH or $VKPT_MODULE.");
+}
+
+// Where the module may keep its caches.
+fs::path make_write_folder()
+{
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    std::error_code error;
+    fs::path folder = cache && *cache ? fs::path(cache) : home && *home ? fs::path(home) / ".cache" : fs::path();
+    if (!folder.empty() && (fs::create_directories(folder / "vkpt", error) || fs::is_directory(folder / "vkpt", error)))
+        return folder / "vkpt";
+    folder = fs::temp_directory_path() / "vkpt";
+    fs::create_directories(folder, error);
+    return folder;
+}
+
+// Words of a console line; "..." is one word.
+std::vector<std::string> split_words(std::string_view line)
+{
+    std::vector<std::string> words;
+    for (size_t at = 0; (at = line.find_first_not_of(" \t\r", at)) < line.size();) {
+        const bool is_quoted = line[at] == '"';
+        at += is_quoted;
+        const size_t end = std::min(line.find_first_of(is_quoted ? "\"" : " \t\r", at), line.size());
+        words.emplace_back(line.substr(at, end - at));
+        at = end + is_quoted;
+    }
+    return words;
+}
+
+} // namespace
+
+Host::Host(const HostOptions& options, FileSystem* files)
+    : options_(options)
+    , files_(files)
+    , write_folder_(make_write_folder())
+    , write_folder_text_(write_folder_.string())
+{
+    HostImports::bind(this);
+    try {
+        load_module(options.module);
+        start_module();
+        check_wanted_cvars();
+    } catch (...) {
+        if (is_started_)
+            exports_.shutdown();
+        HostImports::bind(nullptr);
+        throw;
+    }
+}
+
+Host::~Host()
+{
+    try {
+        exports_.shutdown();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "vkpt: while the module shut down: %s\n", error.what());
+    }
+    HostImports::bind(nullptr);
+}
+
+void Host::load_module(const fs::path& wanted)
+{
+    module_path_ = fs::absolute(find_module(wanted));
+    library_ = dlopen(module_path_.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!library_)
+        throw Failure(fmt::format("cannot load the refresh module: {}", dlerror()));
+    const auto get_extension = reinterpret_cast<GetExtension>(dlsym(library_, "vkpt_extension"));
+    extension_ = get_extension ? get_extension(extension_version) : nullptr;
+    if (!extension_)
+        throw Failure(fmt::format(
+            "{} is not a ref_vkpt of this program's version: build both from one source tree", module_path_.string()));
+    using GetRefApi = engine::Exports8 (*)(engine::Imports);
+    const auto get_ref_api = reinterpret_cast<GetRefApi>(dlsym(library_, "GetRefAPI"));
+    if (!get_ref_api)
+        throw Failure(fmt::format("{} has no GetRefAPI: it is no refresh module", module_path_.string()));
+    cvars_.set("version", played_version);
+    exports_ = get_ref_api(HostImports::table());
+    if (exports_.api != 8)
+        throw Failure(fmt::format("{} answered API {} to an engine of API 8", module_path_.string(), exports_.api));
+}
+
+void Host::start_module()
+{
+    cvars_.set("r_mode", "-1");
+    cvars_.set("r_customwidth", std::to_string(options_.width));
+    cvars_.set("r_customheight", std::to_string(options_.height));
+    cvars_.set("vid_fullscreen", "0");
+    cvars_.set("r_vsync", "0");
+    for (const auto& [name, text] : options_.cvars)
+        cvars_.set(name, text);
+    is_started_ = true;
+    if (!engine::is_true(exports_.init()))
+        throw Failure("the refresh module did not start; it said:\n" + console_tail());
+}
+
+void Host::check_wanted_cvars()
+{
+    for (const auto& [name, text] : options_.cvars) {
+        if (!cvars_.was_asked_for(name))
+            throw WrongUse(
+                fmt::format("--set {}={}: there is no such variable; `vkpt info --cvars` lists them", name, text));
+        if (const std::string_view used = cvars_.find(name)->text; used != text)
+            std::fprintf(stderr,
+                "vkpt: --set %s=%s: the module uses %.*s instead; `vkpt info --cvars` lists the ranges\n", name.c_str(),
+                text.c_str(), int(used.size()), used.data());
+    }
+}
+
+void Host::draw_frame(const engine::RefDef& refdef)
+{
+    run_text(std::exchange(pending_text_, {}));
+    exports_.begin_frame(0);
+    exports_.render_frame(&refdef);
+    exports_.end_frame();
+}
+
+void Host::run_text(std::string_view text)
+{
+    while (!text.empty()) {
+        const size_t end = std::min(text.find_first_of("\n;"), text.size());
+        run_line(split_words(text.substr(0, end)));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+}
+
+void Host::run_line(const std::vector<std::string>& words)
+{
+    if (words.empty())
+        return;
+    if (const auto command = commands_.find(words[0]); command != commands_.end()) {
+        arguments_ = words;
+        command->second();
+    } else if (words.size() == 3 && words[0] == "set") {
+        cvars_.set(words[1], words[2]);
+    } else if (words.size() == 2 && cvars_.find(words[0])) {
+        cvars_.set(words[0], words[1]);
+    } else {
+        add_console_text(fmt::format("unknown command \"{}\"\n", words[0]));
+    }
+}
+
+void Host::add_console_text(std::string_view text)
+{
+    for (const char c : text) {
+        if (c != '\n') {
+            console_line_ += c;
+            continue;
+        }
+        if (options_.verbose)
+            std::fprintf(stderr, "%s\n", console_line_.c_str());
+        console_.push_back(std::exchange(console_line_, {}));
+        if (console_.size() > kept_console_lines)
+            console_.pop_front();
+    }
+}
+
+std::string Host::console_tail() const
+{
+    constexpr size_t shown = 8;
+    std::string tail;
+    for (size_t i = console_.size() - std::min(console_.size(), shown); i < console_.size(); i++)
+        tail += (tail.empty() ? "  " : "\n  ") + console_[i];
+    return tail.empty() ? "  (nothing)" : tail;
+}
+
+} // namespace vkpt::client

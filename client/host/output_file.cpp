@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "client/host/output_file.hpp"
+
+#include "client/host/errors.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <unistd.h>
+
+namespace vkpt::client {
+
+namespace fs = std::filesystem;
+
+OutputFile::OutputFile(const fs::path& path)
+    : path_(path)
+{
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored))
+        throw Failure(fmt::format("cannot write {}: it is a folder; name a file", path.string()));
+    working_path_ = path.parent_path() / fmt::format(".{}.{}.part", path.filename().string(), getpid());
+    errno = 0;
+    if (!std::ofstream(working_path_, std::ios::binary))
+        fail(errno);
+}
+
+OutputFile::~OutputFile()
+{
+    std::error_code ignored;
+    if (!is_committed_)
+        fs::remove(working_path_, ignored);
+}
+
+void OutputFile::write(formats::Bytes bytes)
+{
+    errno = 0;
+    std::ofstream stream(working_path_, std::ios::binary | std::ios::trunc);
+    stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    stream.close();
+    if (!stream)
+        fail(errno);
+}
+
+void OutputFile::commit()
+{
+    std::error_code error;
+    fs::rename(working_path_, path_, error);
+    if (error)
+        fail(error.value());
+    is_committed_ = true;
+}
+
+void OutputFile::fail(int error) const
+{
+    throw Failure(fmt::format("cannot write {}: {}; name a file in a folder that exists and may be written to",
+        path_.string(), error ? std::strerror(error) : "unknown error"));
+}
+
+} // namespace vkpt::client

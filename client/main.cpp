@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// vkpt: hosts the refresh module without the engine. One file per subcommand.
+#include "client/host/errors.hpp"
+#include "client/options.hpp"
+
+#include <cstdio>
+#include <new>
+
+namespace {
+
+enum ExitStatus { done = 0, failed = 1, wrong_use = 2 };
+
+int report(ExitStatus status, const char* text)
+{
+    std::fprintf(stderr, "vkpt: %s\n", text);
+    return status;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App program(
+        "Path tracing for Quake II, without the engine: facts about the renderer, and pictures of maps.", "vkpt");
+    program.footer("Exit status: 0 done, 1 failed, 2 wrong use.");
+    program.require_subcommand(1);
+    vkpt::client::add_info_command(program);
+    vkpt::client::add_render_command(program);
+    try {
+        program.parse(argc, argv);
+        return done;
+    } catch (const CLI::ParseError& error) {
+        return program.exit(error) == 0 ? done : wrong_use;
+    } catch (const vkpt::client::WrongUse& error) {
+        return report(wrong_use, error.what());
+    } catch (const std::bad_alloc&) {
+        return report(failed, "out of memory: close other programs, or ask for a smaller --size");
+    } catch (const std::exception& error) {
+        return report(failed, error.what());
+    }
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "client/options.hpp"
+
+#include "client/host/errors.hpp"
+#include "formats/image.hpp"
+
+#include <charconv>
+#include <fmt/format.h>
+
+namespace vkpt::client {
+
+void add_module_options(CLI::App& command, ModuleOptions& options)
+{
+    command
+        .add_option(
+            "--module", options.module, "The ref_vkpt.so to use (default: $VKPT_MODULE, then beside this program)")
+        ->type_name("PATH");
+    command.add_option("--set", options.settings, "A console variable's value; may be repeated (`vkpt info --cvars`)")
+        ->type_name("NAME=VALUE")
+        ->take_all()
+        ->expected(1);
+    command.add_flag("--verbose", options.verbose, "Show the module's console on stderr");
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& options)
+{
+    command
+        .add_option("SCENE", options.scene, "maps/NAME.bsp[@x,y,z,pitch,yaw]; without a camera: the first player start")
+        ->required();
+    command.add_option("--size", options.size, "Picture size in pixels")->type_name("WxH")->capture_default_str();
+    command.add_option("--seed", options.seed, "Seed of the random numbers; 0: a new one each frame")
+        ->type_name("N")
+        ->check(CLI::Range(0, 16777215));
+    command
+        .add_option("--basedir", options.base_folder, "The folder that holds \"baseq2\" (default: the usual places)")
+        ->type_name("DIR");
+    command.add_option("--game", options.game, "A game's folder beside baseq2, searched before it")->type_name("NAME");
+}
+
+HostOptions make_host_options(const ModuleOptions& options)
+{
+    HostOptions host;
+    host.module = options.module;
+    host.verbose = options.verbose;
+    for (const std::string& setting : options.settings) {
+        const size_t equals = setting.find('=');
+        if (equals == 0 || equals == std::string::npos)
+            throw WrongUse(fmt::format("--set {}: write --set NAME=VALUE", setting));
+        host.cvars.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+    }
+    return host;
+}
+
+Size parse_size(const std::string& text)
+{
+    Size size;
+    const char* const end = text.data() + text.size();
+    const auto [x, error] = std::from_chars(text.data(), end, size.width);
+    const bool has_x = error == std::errc() && x != end && *x == 'x';
+    const auto [rest, second_error] = std::from_chars(has_x ? x + 1 : end, end, size.height);
+    const auto is_possible = [](int n) { return n >= 1 && n <= formats::max_image_size; };
+    if (!has_x || second_error != std::errc() || rest != end || !is_possible(size.width) || !is_possible(size.height))
+        throw WrongUse(
+            fmt::format("--size {}: write WIDTHxHEIGHT, each 1 to {}, e.g. 1280x720", text, formats::max_image_size));
+    return size;
+}
+
+} // namespace vkpt::client

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the subcommands of `vkpt` share on the command line.
+#pragma once
+
+#include "client/host/host.hpp"
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace vkpt::client {
+
+struct ModuleOptions {
+    std::string module;
+    std::vector<std::string> settings; // NAME=VALUE
+    bool verbose = false;
+};
+void add_module_options(CLI::App& command, ModuleOptions& options);
+
+struct SceneOptions {
+    std::string scene;
+    std::string size = "1280x720";
+    std::string base_folder, game;
+    int seed = 0;
+};
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+// Both throw WrongUse.
+HostOptions make_host_options(const ModuleOptions& options);
+struct Size {
+    int width = 0, height = 0;
+};
+Size parse_size(const std::string& text);
+
+// Each subcommand is one file: it adds itself to the program and runs as its callback.
+void add_info_command(CLI::App& program);
+void add_render_command(CLI::App& program);
+
+} // namespace vkpt::client

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// vkpt render: one picture of a map.
+#include "client/host/errors.hpp"
+#include "client/host/exr.hpp"
+#include "client/host/output_file.hpp"
+#include "client/host/scene.hpp"
+#include "client/options.hpp"
+#include "formats/image.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <unistd.h>
+
+namespace vkpt::client {
+
+namespace {
+
+constexpr float live_frame_seconds = 1.0f / 60;
+
+struct RenderOptions {
+    ModuleOptions module;
+    SceneOptions scene;
+    std::string output;
+    int samples = 64, frames = 0;
+};
+
+enum class PictureKind { png, pfm, exr };
+
+PictureKind picture_kind(const std::string& path)
+{
+    if (path.ends_with(".png"))
+        return PictureKind::png;
+    if (path.ends_with(".pfm"))
+        return PictureKind::pfm;
+    if (path.ends_with(".exr"))
+        return PictureKind::exr;
+    throw WrongUse(
+        fmt::format("-o {}: the ending says the format: .png (as shown), .pfm or .exr (linear radiance)", path));
+}
+
+// On a terminal only.
+void show_progress(int done, int total)
+{
+    if (!isatty(STDERR_FILENO))
+        return;
+    constexpr int width = 40;
+    const int filled = width * done / total;
+    std::fprintf(stderr, "\r[%s%s] %d/%d%s", std::string(size_t(filled), '#').c_str(),
+        std::string(size_t(width - filled), ' ').c_str(), done, total, done == total ? "\n" : "");
+}
+
+void write_display(const Extension& extension, OutputFile& output)
+{
+    const ImageSize size = extension.frame_size();
+    formats::Image image { size.width, size.height,
+        std::vector<formats::Rgba8>(size_t(size.width) * size_t(size.height)) };
+    if (!extension.capture_display(&image.pixels.data()->r))
+        throw Failure("the module has no finished frame to capture");
+    output.write(formats::write_png(image));
+}
+
+void write_radiance(const Extension& extension, OutputFile& output, PictureKind kind)
+{
+    const ImageSize size = extension.frame_size();
+    std::vector<float> rgb(3 * size_t(size.width) * size_t(size.height));
+    if (!extension.capture_radiance(rgb.data()))
+        throw Failure("the module has no finished 3D view to capture");
+    size_t broken = 0;
+    for (const float value : rgb)
+        broken += !std::isfinite(value);
+    if (broken)
+        std::fprintf(stderr, "vkpt: %zu of %zu values are not finite: please report this scene\n", broken, rgb.size());
+    if (kind == PictureKind::exr)
+        write_exr(output.working_path(), size.width, size.height, rgb);
+    else
+        output.write(formats::write_pfm(size.width, size.height, rgb));
+}
+
+HostOptions make_render_host(const RenderOptions& options, Size size)
+{
+    HostOptions host = make_host_options(options.module);
+    host.width = size.width;
+    host.height = size.height;
+    // Before the user's own, which win.
+    const auto set = [&](const char* name, int number) {
+        host.cvars.insert(host.cvars.begin(), { name, std::to_string(number) });
+    };
+    set("pt_accumulate", options.frames == 0);
+    set("pt_seed", options.scene.seed);
+    return host;
+}
+
+void run_render(const RenderOptions& options)
+{
+    const PictureKind kind = picture_kind(options.output);
+    const Size size = parse_size(options.scene.size);
+    const SceneName name = parse_scene_name(options.scene.scene);
+    const HostOptions host_options = make_render_host(options, size);
+    OutputFile output(options.output);
+    FileSystem files(options.scene.base_folder, options.scene.game);
+    Scene scene(files, name);
+    Host host(host_options, &files);
+    scene.register_with(host);
+    for (const std::string& note : scene.notes())
+        std::fprintf(stderr, "vkpt: %s\n", note.c_str());
+    const int frames = options.frames ? options.frames : options.samples;
+    for (int frame = 0; frame < frames; frame++) {
+        host.draw_frame(scene.view(size.width, size.height, options.frames ? float(frame) * live_frame_seconds : 0));
+        show_progress(frame + 1, frames);
+    }
+    if (kind == PictureKind::png)
+        write_display(host.extension(), output);
+    else
+        write_radiance(host.extension(), output, kind);
+    output.commit();
+}
+
+} // namespace
+
+void add_render_command(CLI::App& program)
+{
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* command
+        = program.add_subcommand("render", "Write one picture of a map: PNG (as shown), PFM or EXR (linear radiance)");
+    add_scene_options(*command, options->scene);
+    CLI::Option* samples
+        = command
+              ->add_option("--spp", options->samples, "Frames to average, one path per pixel each (converged picture)")
+              ->type_name("N")
+              ->check(CLI::Range(1, 1 << 20))
+              ->capture_default_str();
+    command
+        ->add_option(
+            "--frames", options->frames, "Instead: live frames at 60 a second as in the game; the last is written")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1 << 20))
+        ->excludes(samples);
+    command->add_option("-o,--output", options->output, "FILE.png, FILE.pfm or FILE.exr")
+        ->required()
+        ->type_name("FILE");
+    add_module_options(*command, options->module);
+    command->callback([options] { run_render(*options); });
+}
+
+} // namespace vkpt::client

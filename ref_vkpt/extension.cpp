@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/extension.hpp"
+
+#include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/engine/exports.hpp"
+#include "ref_vkpt/module.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace vkpt {
+
+namespace {
+
+constexpr const char* trace_backends[] = { "software", nullptr };
+constexpr const char* denoisers[] = { "off", nullptr };
+
+ImageSize frame_size()
+{
+    const Module* m = module();
+    const VkExtent2D size = m ? m->graphics.size() : VkExtent2D {};
+    return { int32_t(size.width), int32_t(size.height) };
+}
+
+bool capture_display(uint8_t* rgba)
+{
+    Module* m = module();
+    if (!m || m->graphics.frame_number() == 0 || m->graphics.is_recording())
+        return false;
+    const Image& output = m->graphics.screen.output();
+    const size_t bytes = size_t(output.width()) * output.height() * 4;
+    const Buffer copy(m->graphics.gpu, bytes, BufferHome::readback, MemoryKind::staging, "picture readback");
+    m->graphics.run_once([&](VkCommandBuffer commands) {
+        record_memory_barrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
+            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+        VkBufferImageCopy region {};
+        region.imageSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 };
+        region.imageExtent = { output.width(), output.height(), 1 };
+        vkCmdCopyImageToBuffer(commands, output.handle(), VK_IMAGE_LAYOUT_GENERAL, copy.handle(), 1, &region);
+        record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    });
+    std::memcpy(rgba, copy.mapped(), bytes);
+    return true;
+}
+
+bool capture_radiance(float* rgb)
+{
+    Module* m = module();
+    return m && m->frame.accumulated_frames() > 0 && !m->graphics.is_recording() && m->frame.read_radiance(rgb);
+}
+
+uint32_t accumulated_frames() { return module() ? module()->frame.accumulated_frames() : 0; }
+
+const PassTime* pass_times(size_t* count)
+{
+    Module* m = module();
+    *count = 0;
+    if (!m || m->graphics.is_recording())
+        return nullptr;
+    m->graphics.finish();
+    m->graphics.timer.read_back((m->graphics.slot() + frames_in_flight - 1) % frames_in_flight);
+    *count = m->graphics.timer.times().size();
+    return m->graphics.timer.times().data();
+}
+
+void fill_world_counts(ModuleInfo& info, const Module& m)
+{
+    const World* world = m.scene.world();
+    if (!world)
+        return;
+    info.triangles = world->models[0].triangles.size();
+    info.dynamic_triangles = m.snapshot ? m.snapshot->triangles.size() : 0;
+    info.clusters = world->light_lists.lists().size() - 1;
+    info.emitters = world->models[0].emitters.size() + (m.snapshot ? m.snapshot->emitters.size() : 0);
+    info.light_list_entries = world->light_lists.static_indices().size() + world->light_lists.dynamic_indices().size();
+}
+
+ModuleInfo module_info()
+{
+    static std::string version;
+    static std::vector<std::string> sampler_texts;
+    static std::vector<const char*> samplers;
+    sampler_texts.assign(light_sampler_names().begin(), light_sampler_names().end());
+    samplers.clear();
+    for (const std::string& name : sampler_texts)
+        samplers.push_back(name.c_str());
+    samplers.push_back(nullptr);
+
+    ModuleInfo info {};
+    info.device = info.driver = info.vulkan_version = "";
+    info.trace_backend = trace_backends[0];
+    info.trace_backends = trace_backends;
+    info.light_samplers = samplers.data();
+    info.denoisers = denoisers;
+    const int32_t apis[] = { 5, 6, 7, 8 };
+    std::ranges::copy(apis, info.api_versions);
+    info.max_entities = engine::max_entities;
+    info.max_dlights = engine::max_dlights;
+    info.max_particles = engine::max_particles;
+    const Module* m = module();
+    if (!m)
+        return info;
+    const Device& device = m->graphics.device;
+    version = describe_api_version(device.properties.apiVersion);
+    info.device = device.properties.deviceName;
+    info.driver = device.driver.c_str();
+    info.vulkan_version = version.c_str();
+    info.max_image_size = int32_t(device.properties.limits.maxImageDimension2D);
+    fill_world_counts(info, *m);
+    info.textures = m->textures.count();
+    const MemoryAllocator& memory = m->graphics.memory;
+    info.texture_bytes = memory.bytes_in_use(MemoryKind::textures);
+    info.geometry_bytes = memory.bytes_in_use(MemoryKind::geometry);
+    info.acceleration_bytes = memory.bytes_in_use(MemoryKind::acceleration);
+    info.light_bytes = memory.bytes_in_use(MemoryKind::lights);
+    info.image_bytes = memory.bytes_in_use(MemoryKind::images);
+    info.staging_bytes = memory.bytes_in_use(MemoryKind::staging);
+    return info;
+}
+
+bool measure_irradiance(const IrradianceProbe* probes, size_t count, uint32_t samples, float* rgb)
+{
+    Module* m = module();
+    if (!m || !m->snapshot || m->graphics.is_recording())
+        return false;
+    if (count > 0)
+        m->frame.measure_irradiance({ probes, count }, samples, *m->snapshot, m->gpu_world, rgb);
+    return true;
+}
+
+} // namespace
+
+const Extension& extension_table()
+{
+    static const Extension table { extension_version, sizeof(Extension), frame_size, capture_display, capture_radiance,
+        accumulated_frames, pass_times, module_info, measure_irradiance };
+    return table;
+}
+
+void print_info()
+{
+    const ModuleInfo info = module_info();
+    const auto mib = [](uint64_t bytes) { return double(bytes) / (1 << 20); };
+    engine::print("device         {}", info.device);
+    engine::print("driver         {}", info.driver);
+    engine::print("Vulkan         {}", info.vulkan_version);
+    engine::print("trace backend  {}", info.trace_backend);
+    engine::print("map            {} triangles, {} moving, {} clusters, {} emitters, {} light list entries", info.triangles,
+        info.dynamic_triangles, info.clusters, info.emitters, info.light_list_entries);
+    engine::print("textures       {}, {:.1f} MiB", info.textures, mib(info.texture_bytes));
+    engine::print("memory (MiB)   geometry {:.1f}, acceleration {:.1f}, lights {:.1f}, images {:.1f}, staging {:.1f}",
+        mib(info.geometry_bytes), mib(info.acceleration_bytes), mib(info.light_bytes), mib(info.image_bytes),
+        mib(info.staging_bytes));
+    size_t count = 0;
+    const PassTime* times = pass_times(&count);
+    for (size_t i = 0; i < count; i++)
+        engine::print("{:22} {:8.3f} ms", times[i].name, times[i].milliseconds);
+}
+
+} // namespace vkpt

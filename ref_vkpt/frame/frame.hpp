@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The frame: from a scene and a camera to the picture, as one straight list of passes (record_passes).
+#pragma once
+
+#include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/extension.hpp"
+#include "ref_vkpt/frame/graphics.hpp"
+#include "ref_vkpt/frame/uploads.hpp"
+#include "ref_vkpt/scene/snapshot.hpp"
+
+#include <chrono>
+#include <span>
+
+namespace vkpt {
+
+// A map's data that does not change, on the device.
+struct GpuWorld {
+    Buffer bvh_nodes, bvh_triangles;
+    Buffer light_indices;
+    Buffer bsp_tree;
+    uint64_t version = 0; // another for every map
+};
+// Usable after uploader.flush().
+GpuWorld upload_world(const World& world, Uploader& uploader);
+
+class Frame {
+public:
+    explicit Frame(Graphics& graphics);
+    ~Frame();
+    Frame(const Frame&) = delete;
+    Frame& operator=(const Frame&) = delete;
+
+    // After Graphics::begin_frame.
+    void begin();
+    // Records one view. `gpu_world` belongs to scene.world. `average`: go on averaging if nothing changed since the last
+    // view, else start anew.
+    void record_view(const View& view, SceneSnapshot& scene, const GpuWorld* gpu_world, bool average);
+    // Forgets what was averaged: the next view is the first.
+    void restart_accumulation() { accumulated_frames_ = 0; }
+    uint32_t accumulated_frames() const { return accumulated_frames_; }
+
+    // Light at the player in the newest finished frame, as radiance of a white floor.
+    float light_level() const { return light_level_; }
+
+    // The last view's accumulated radiance. The device must be idle.
+    bool read_radiance(float* rgb);
+    glm::uvec2 view_size() const { return view_size_; }
+    // Irradiance / pi at points, see Extension. Between frames.
+    void measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t samples, SceneSnapshot& scene,
+        const GpuWorld& gpu_world, float* rgb);
+
+private:
+    enum class Surfaces { camera, probes };
+    shared::FrameUniforms make_uniforms(const View& view, glm::uvec2 size);
+    void fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world);
+    uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
+    void record_passes(const shared::FrameUniforms& uniforms, Surfaces surfaces, bool world);
+    void record_pass(const char* name, uint32_t groups);
+    void record_lit_pass(const char* name, uint32_t groups);
+    void record_pipeline(const char* name, const std::string& shader, uint32_t groups);
+    static glm::uvec2 scaled_size(glm::uvec2 size); // by pt_view_scale
+    void reserve(glm::uvec2 size);
+
+    Graphics& graphics_;
+    FrameUploads uploads_;
+    PrefixedUpload triangles_, emitters_;
+    Buffer uniforms_, exposure_, readback_;
+    VkDeviceSize uniform_stride_;
+    uint32_t views_this_frame_ = 0;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+
+    View last_view_;
+    CvarValues last_cvars_;
+    glm::uvec2 view_size_ { 0 };
+    uint32_t accumulated_frames_ = 0;
+    uint32_t noise_index_ = 0;
+    float light_level_ = 0;
+    std::chrono::steady_clock::time_point last_view_time_;
+};
+
+} // namespace vkpt

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/frame/frame_timer.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace vkpt {
+
+namespace {
+
+constexpr uint32_t max_marks = 128; // beyond it a frame's further passes (many small views) are not timed
+
+} // namespace
+
+FrameTimer::FrameTimer(const Device& device) : device_(device)
+{
+    VkQueryPoolCreateInfo info { VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO };
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = max_marks;
+    for (Slot& slot : slots_)
+        VKPT_CHECK(vkCreateQueryPool(device.handle, &info, nullptr, &slot.pool));
+}
+
+FrameTimer::~FrameTimer()
+{
+    for (Slot& slot : slots_)
+        vkDestroyQueryPool(device_.handle, slot.pool, nullptr);
+}
+
+void FrameTimer::read_back(uint32_t frame_slot)
+{
+    Slot& slot = slots_[frame_slot];
+    if (slot.names.empty())
+        return;
+    std::vector<uint64_t> stamps(slot.names.size() + 1);
+    const VkResult result = vkGetQueryPoolResults(device_.handle, slot.pool, 0, uint32_t(stamps.size()),
+        stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+    if (result == VK_SUCCESS) {
+        times_.clear();
+        const double nanoseconds = device_.properties.limits.timestampPeriod;
+        for (size_t i = 0; i < slot.names.size(); i++) {
+            const std::string_view name = slot.names[i];
+            const double milliseconds = double(stamps[i + 1] - stamps[i]) * nanoseconds * 1e-6;
+            const auto row = std::ranges::find_if(times_, [&](const PassTime& time) { return name == time.name; });
+            if (row != times_.end())
+                row->milliseconds += milliseconds;
+            else
+                times_.push_back({ slot.names[i], milliseconds });
+        }
+    }
+    slot.names.clear();
+}
+
+void FrameTimer::begin_frame(VkCommandBuffer commands, uint32_t frame_slot)
+{
+    read_back(frame_slot);
+    slot_ = frame_slot;
+    vkCmdResetQueryPool(commands, slots_[slot_].pool, 0, max_marks);
+    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, slots_[slot_].pool, 0);
+}
+
+void FrameTimer::mark(VkCommandBuffer commands, const char* name)
+{
+    Slot& slot = slots_[slot_];
+    if (slot.names.size() + 1 >= max_marks)
+        return;
+    slot.names.push_back(name);
+    vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, slot.pool, uint32_t(slot.names.size()));
+}
+
+} // namespace vkpt

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// GPU time per pass, by timestamps. The full barriers between passes keep them from overlapping, so the times add up.
+#pragma once
+
+#include "ref_vkpt/extension.hpp"
+#include "ref_vkpt/vulkan/swapchain.hpp"
+
+#include <array>
+#include <vector>
+
+namespace vkpt {
+
+class FrameTimer {
+public:
+    explicit FrameTimer(const Device& device);
+    ~FrameTimer();
+    FrameTimer(const FrameTimer&) = delete;
+    FrameTimer& operator=(const FrameTimer&) = delete;
+
+    // Reads what the slot's last use measured (the device has finished it) and starts anew.
+    void begin_frame(VkCommandBuffer commands, uint32_t frame_slot);
+    // Closes the stretch since the previous mark (or begin_frame) under `name`, which lives as long as the module.
+    void mark(VkCommandBuffer commands, const char* name);
+    // Of the newest frame that has been read back; a name marked several times is one row.
+    const std::vector<PassTime>& times() const { return times_; }
+    // Reads the slot's times now; the device must have finished it.
+    void read_back(uint32_t frame_slot);
+
+private:
+    struct Slot {
+        VkQueryPool pool = VK_NULL_HANDLE;
+        std::vector<const char*> names;
+    };
+    const Device& device_;
+    std::array<Slot, frames_in_flight> slots_;
+    uint32_t slot_ = 0;
+    std::vector<PassTime> times_;
+};
+
+} // namespace vkpt

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/frame/graphics.hpp"
+
+#include "ref_vkpt/engine/errors.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace vkpt {
+
+namespace {
+
+DeviceSettings device_settings(const GraphicsSettings& settings, const Window& window)
+{
+    DeviceSettings result;
+    result.name_part = settings.device_name_part;
+    result.validation = settings.validation;
+    result.instance_extensions = window.instance_extensions();
+    result.cache_directory = settings.cache_directory;
+    // A cache that cannot be made is done without.
+    std::error_code ignored;
+    if (!settings.cache_directory.empty())
+        std::filesystem::create_directories(settings.cache_directory, ignored);
+    return result;
+}
+
+} // namespace
+
+Graphics::Graphics(const GraphicsSettings& settings)
+    : window_(settings.sdl_window)
+    , device(device_settings(settings, window_))
+    , pipelines(gpu, bindings, settings.cache_directory.empty() ? "" : settings.cache_directory + "/pipelines.bin")
+    , headless_size_(settings.size)
+    , vsync_(settings.vsync)
+{
+    if (window_)
+        swapchain_.emplace(gpu, window_);
+    for (Slot& slot : slots_)
+        create_slot(slot);
+}
+
+Graphics::~Graphics()
+{
+    vkDeviceWaitIdle(device.handle);
+    for (Slot& slot : slots_) {
+        vkDestroyFence(device.handle, slot.finished, nullptr);
+        vkDestroyCommandPool(device.handle, slot.pool, nullptr);
+    }
+}
+
+void Graphics::create_slot(Slot& slot)
+{
+    VkCommandPoolCreateInfo pool { VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO };
+    pool.queueFamilyIndex = device.queue_family;
+    VKPT_CHECK(vkCreateCommandPool(device.handle, &pool, nullptr, &slot.pool));
+    VkCommandBufferAllocateInfo commands { VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO };
+    commands.commandPool = slot.pool;
+    commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    commands.commandBufferCount = 1;
+    VKPT_CHECK(vkAllocateCommandBuffers(device.handle, &commands, &slot.commands));
+    VkFenceCreateInfo fence { VK_STRUCTURE_TYPE_FENCE_CREATE_INFO };
+    fence.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+    VKPT_CHECK(vkCreateFence(device.handle, &fence, nullptr, &slot.finished));
+}
+
+VkExtent2D Graphics::size() const
+{
+    if (screen.output())
+        return { screen.output().width(), screen.output().height() };
+    return headless_size_;
+}
+
+void Graphics::set_vsync(bool vsync)
+{
+    swapchain_outdated_ |= vsync != vsync_;
+    vsync_ = vsync;
+}
+
+void Graphics::finish() { device.wait_idle(); }
+
+// The output picture has the window's size; a minimised window keeps the last one.
+bool Graphics::follow_window()
+{
+    VkExtent2D wanted = headless_size_;
+    if (swapchain_) {
+        wanted = window_.drawable_size();
+        if (wanted.width == 0 || wanted.height == 0 || window_.is_minimised()) {
+            wanted = size();
+        } else if (swapchain_outdated_) {
+            device.wait_idle();
+            swapchain_outdated_ = !swapchain_->recreate(vsync_);
+        }
+    }
+    if (screen.output() && screen.output().width() == wanted.width && screen.output().height() == wanted.height)
+        return false;
+    device.wait_idle();
+    swapchain_outdated_ |= screen.output() && swapchain_;
+    screen.resize_output(wanted);
+    bindings.bind_output(screen.output());
+    return true;
+}
+
+void Graphics::prepare_output(bool is_new)
+{
+    const VkImage output = screen.output().handle();
+    record_barrier(commands(),
+        { output, is_new ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL,
+            VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT, VK_ACCESS_TRANSFER_WRITE_BIT });
+    const VkClearColorValue black = { { 0, 0, 0, 1 } };
+    const VkImageSubresourceRange all = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1 };
+    vkCmdClearColorImage(commands(), output, VK_IMAGE_LAYOUT_GENERAL, &black, 1, &all);
+    record_memory_barrier(commands(), VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+        VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT);
+}
+
+bool Graphics::begin_frame()
+{
+    if (recording_) // the engine left a frame by its error exit
+        end_frame();
+    Slot& slot = slots_[slot_];
+    VKPT_CHECK(vkWaitForFences(device.handle, 1, &slot.finished, VK_TRUE, UINT64_MAX));
+    const bool is_new = follow_window();
+    acquired_ = false;
+    if (swapchain_ && swapchain_->is_usable() && !swapchain_outdated_) {
+        acquired_ = swapchain_->acquire(slot_);
+        swapchain_outdated_ |= !acquired_;
+    }
+    VKPT_CHECK(vkResetCommandPool(device.handle, slot.pool, 0));
+    VkCommandBufferBeginInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    VKPT_CHECK(vkBeginCommandBuffer(slot.commands, &info));
+    recording_ = true;
+    timer.begin_frame(slot.commands, slot_);
+    prepare_output(is_new);
+    return is_new;
+}
+
+void Graphics::end_frame()
+{
+    if (!recording_)
+        return;
+    Slot& slot = slots_[slot_];
+    recording_ = false;
+    if (acquired_) {
+        record_memory_barrier(slot.commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
+            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+        swapchain_->record_copy(slot.commands, screen.output());
+        timer.mark(slot.commands, "present");
+    }
+    VKPT_CHECK(vkEndCommandBuffer(slot.commands));
+    VKPT_CHECK(vkResetFences(device.handle, 1, &slot.finished));
+    const VkPipelineStageFlags copies = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    VkSubmitInfo submit { VK_STRUCTURE_TYPE_SUBMIT_INFO };
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &slot.commands;
+    VkSemaphore acquired = VK_NULL_HANDLE, finished = VK_NULL_HANDLE;
+    if (acquired_) {
+        acquired = swapchain_->acquired(slot_);
+        finished = swapchain_->finished();
+        submit.waitSemaphoreCount = submit.signalSemaphoreCount = 1;
+        submit.pWaitSemaphores = &acquired;
+        submit.pWaitDstStageMask = &copies;
+        submit.pSignalSemaphores = &finished;
+    }
+    VKPT_CHECK(vkQueueSubmit(device.queue, 1, &submit, slot.finished));
+    if (acquired_)
+        swapchain_outdated_ |= !swapchain_->present();
+    slot_ = (slot_ + 1) % frames_in_flight;
+    frame_number_++;
+}
+
+void Graphics::run_once(const std::function<void(VkCommandBuffer)>& record)
+{
+    finish();
+    Slot& slot = slots_[slot_];
+    VKPT_CHECK(vkResetCommandPool(device.handle, slot.pool, 0));
+    VkCommandBufferBeginInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    VKPT_CHECK(vkBeginCommandBuffer(slot.commands, &info));
+    record(slot.commands);
+    VKPT_CHECK(vkEndCommandBuffer(slot.commands));
+    VkSubmitInfo submit { VK_STRUCTURE_TYPE_SUBMIT_INFO };
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &slot.commands;
+    VKPT_CHECK(vkQueueSubmit(device.queue, 1, &submit, VK_NULL_HANDLE));
+    finish();
+}
+
+} // namespace vkpt

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The device with everything that lives as long as it: memory, bindings, pipelines, the window's pictures, the frames in
+// flight.
+#pragma once
+
+#include "ref_vkpt/frame/frame_timer.hpp"
+#include "ref_vkpt/frame/screen.hpp"
+#include "ref_vkpt/vulkan/pipelines.hpp"
+#include "ref_vkpt/vulkan/swapchain.hpp"
+#include "ref_vkpt/vulkan/uploader.hpp"
+
+#include <functional>
+#include <optional>
+
+namespace vkpt {
+
+struct GraphicsSettings {
+    void* sdl_window = nullptr;      // nullptr: pictures only
+    VkExtent2D size { 640, 480 };    // of the pictures without a window
+    std::string device_name_part;
+    std::string cache_directory;
+    bool validation = false;
+    bool vsync = true;
+};
+
+class Graphics {
+public:
+    explicit Graphics(const GraphicsSettings& settings);
+    ~Graphics();
+    Graphics(const Graphics&) = delete;
+    Graphics& operator=(const Graphics&) = delete;
+
+    // Waits for the slot's last frame, follows the window's size, and starts recording. The output picture is cleared and in
+    // layout GENERAL. True: the output picture is another one than before.
+    bool begin_frame();
+    // Submits and shows. Nothing happens without a begun frame.
+    void end_frame();
+    bool is_recording() const { return recording_; }
+    VkCommandBuffer commands() const { return slots_[slot_].commands; }
+    uint32_t slot() const { return slot_; }
+    // Frames submitted since the start.
+    uint64_t frame_number() const { return frame_number_; }
+
+    void set_vsync(bool vsync);
+    bool is_vsync_active() const { return swapchain_ && swapchain_->vsync(); }
+    // The size of pictures without a window.
+    void set_size(VkExtent2D size) { headless_size_ = size; }
+    VkExtent2D size() const;
+
+    // Waits for everything submitted.
+    void finish();
+    // Records, submits and waits, between frames.
+    void run_once(const std::function<void(VkCommandBuffer)>& record);
+
+private:
+    Window window_;
+
+public:
+    Device device;
+    MemoryAllocator memory { device };
+    Gpu gpu { device, memory };
+    Uploader uploader { gpu };
+    Bindings bindings { gpu, true };
+    Pipelines pipelines;
+    Screen screen { gpu };
+    FrameTimer timer { device };
+
+private:
+    struct Slot {
+        VkCommandPool pool = VK_NULL_HANDLE;
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        VkFence finished = VK_NULL_HANDLE;
+    };
+    void create_slot(Slot& slot);
+    bool follow_window();
+    void prepare_output(bool is_new);
+
+    std::optional<Swapchain> swapchain_;
+    VkExtent2D headless_size_;
+    bool vsync_;
+    bool swapchain_outdated_ = true;
+    bool acquired_ = false;
+    bool recording_ = false;
+    Slot slots_[frames_in_flight];
+    uint32_t slot_ = 0;
+    uint64_t frame_number_ = 0;
+};
+
+} // namespace vkpt

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/frame/uploads.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace vkpt {
+
+namespace {
+
+constexpr VkDeviceSize first_size = 1u << 20;
+// Every table starts on its own cache line; more than any of our records needs.
+constexpr VkDeviceSize alignment = 64;
+
+void copy(std::byte* to, std::span<const std::byte> from)
+{
+    if (!from.empty())
+        std::memcpy(to, from.data(), from.size());
+}
+
+} // namespace
+
+void FrameUploads::begin_frame(uint32_t frame_slot)
+{
+    slot_ = frame_slot;
+    Slot& slot = slots_[slot_];
+    if (slot.buffers.size() > 1)
+        slot.buffers.clear();
+    if (slot.buffers.empty())
+        slot.buffers.emplace_back(
+            gpu_, std::max(first_size, slot.total + slot.total / 2), BufferHome::upload, kind_, "frame uploads");
+    slot.used = slot.total = 0;
+}
+
+VkDeviceAddress FrameUploads::push(std::span<const std::byte> bytes)
+{
+    Slot& slot = slots_[slot_];
+    VkDeviceSize offset = (slot.used + alignment - 1) & ~(alignment - 1);
+    if (offset + bytes.size() > slot.buffers.back().size()) {
+        slot.buffers.emplace_back(gpu_, std::max<VkDeviceSize>(first_size, bytes.size() * 2), BufferHome::upload, kind_,
+            "frame uploads");
+        offset = 0;
+    }
+    Buffer& buffer = slot.buffers.back();
+    copy(buffer.mapped() + offset, bytes);
+    slot.used = offset + bytes.size();
+    slot.total += bytes.size() + alignment;
+    return buffer.address() + offset;
+}
+
+VkDeviceAddress PrefixedUpload::update(uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version,
+    std::span<const std::byte> rest)
+{
+    Slot& slot = slots_[frame_slot];
+    const VkDeviceSize bytes = prefix.size() + rest.size();
+    if (!slot.buffer || bytes > slot.buffer.size()) {
+        slot.buffer = Buffer();
+        slot.buffer = Buffer(gpu_, bytes + bytes / 4 + 65536, BufferHome::upload, kind_, name_);
+        slot.version = 0;
+    }
+    if (slot.version != prefix_version) {
+        copy(slot.buffer.mapped(), prefix);
+        slot.version = prefix_version;
+    }
+    copy(slot.buffer.mapped() + prefix.size(), rest);
+    return slot.buffer.address();
+}
+
+} // namespace vkpt

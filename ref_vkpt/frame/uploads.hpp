@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Data that the CPU writes every frame and shaders read by address. Each frame in flight has memory of its own.
+#pragma once
+
+#include "ref_vkpt/vulkan/resources.hpp"
+#include "ref_vkpt/vulkan/swapchain.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace vkpt {
+
+// A bump allocator; grows by another buffer, which is folded into one when the frame's turn comes again.
+class FrameUploads {
+public:
+    FrameUploads(const Gpu& gpu, MemoryKind kind) : gpu_(gpu), kind_(kind) { }
+
+    // The device has finished the last frame with this slot.
+    void begin_frame(uint32_t frame_slot);
+    VkDeviceAddress push(std::span<const std::byte> bytes);
+    template <class T>
+    VkDeviceAddress push(const std::vector<T>& items)
+    {
+        return push(std::as_bytes(std::span(items)));
+    }
+
+private:
+    struct Slot {
+        std::vector<Buffer> buffers; // the last one is being filled
+        VkDeviceSize used = 0;       // of the last
+        VkDeviceSize total = 0;      // of all, for folding
+    };
+    Gpu gpu_;
+    MemoryKind kind_;
+    std::array<Slot, frames_in_flight> slots_;
+    uint32_t slot_ = 0;
+};
+
+// An array whose front part changes only with the map and whose rest changes every frame: the front is copied once per
+// frame in flight.
+class PrefixedUpload {
+public:
+    PrefixedUpload(const Gpu& gpu, MemoryKind kind, const char* name) : gpu_(gpu), kind_(kind), name_(name) { }
+
+    // `prefix_version`: another number whenever the prefix changes. The device has finished with this slot.
+    VkDeviceAddress update(uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version,
+        std::span<const std::byte> rest);
+    template <class T>
+    VkDeviceAddress update(
+        uint32_t frame_slot, const std::vector<T>& prefix, uint64_t prefix_version, const std::vector<T>& rest)
+    {
+        return update(
+            frame_slot, std::as_bytes(std::span(prefix)), prefix_version, std::as_bytes(std::span(rest)));
+    }
+
+private:
+    struct Slot {
+        Buffer buffer;
+        uint64_t version = 0;
+    };
+    Gpu gpu_;
+    MemoryKind kind_;
+    const char* name_;
+    std::array<Slot, frames_in_flight> slots_;
+};
+
+} // namespace vkpt

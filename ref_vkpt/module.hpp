@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The running renderer: everything that exists between InitContext and ShutdownContext.
+#pragma once
+
+#include "ref_vkpt/draw2d/draw2d.hpp"
+#include "ref_vkpt/frame/frame.hpp"
+#include "ref_vkpt/frame/graphics.hpp"
+#include "ref_vkpt/scene/scene.hpp"
+
+#include <optional>
+
+namespace vkpt {
+
+struct Module {
+    explicit Module(const GraphicsSettings& settings);
+
+    Graphics graphics;
+    TextureStore textures;
+    Draw2d draw2d;
+    Scene scene;
+    Frame frame;
+    GpuWorld gpu_world; // of scene.world()
+    // The scene that pt_accumulate froze; also what measure_irradiance lights.
+    std::optional<SceneSnapshot> snapshot;
+    bool snapshot_is_frozen = false;
+};
+
+// nullptr outside of InitContext .. ShutdownContext.
+Module* module();
+
+// `pt_info`: what runs where, and what it holds.
+void print_info();
+
+} // namespace vkpt

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/renderer.hpp"
+
+#include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/engine/exports.hpp"
+#include "ref_vkpt/module.hpp"
+#include "ref_vkpt/scene/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace vkpt {
+
+namespace {
+
+std::unique_ptr<Module> running;
+
+// The window size that Init agreed on with the engine; what a host without a window gets its pictures in.
+VkExtent2D agreed_size { 640, 480 };
+
+GraphicsSettings graphics_settings(void* sdl_window)
+{
+    const CvarValues& cvars = cvars::values();
+    GraphicsSettings settings;
+    settings.sdl_window = sdl_window;
+    settings.size = agreed_size;
+    settings.device_name_part = cvars.pt_device;
+    settings.cache_directory = engine::game_directory() + "/vkpt_cache";
+    settings.validation = cvars.pt_validation != 0;
+    settings.vsync = cvars.r_vsync != 0;
+    return settings;
+}
+
+void check_light_sampler()
+{
+    const std::string& name = cvars::values().pt_light_sampler;
+    const auto names = light_sampler_names();
+    if (std::ranges::find(names, name) != names.end())
+        return;
+    std::string known;
+    for (std::string_view sampler : names)
+        known += known.empty() ? std::string(sampler) : ", " + std::string(sampler);
+    engine::print("vkpt: pt_light_sampler \"{}\" is unknown; there are: {}", name, known);
+    cvars::set("pt_light_sampler", "subset");
+    cvars::update();
+}
+
+engine::VideoSize wanted_size()
+{
+    const CvarValues& cvars = cvars::values();
+    if (cvars.r_mode == -2)
+        if (const auto desktop = engine::desktop_size())
+            return *desktop;
+    if (const auto size = engine::mode_size(cvars.r_mode))
+        return *size;
+    return { std::clamp(cvars.r_customwidth, 64, 16384), std::clamp(cvars.r_customheight, 64, 16384) };
+}
+
+Filtering filtering()
+{
+    const CvarValues& cvars = cvars::values();
+    return { cvars.r_2D_unfiltered != 0, cvars.r_videos_unfiltered != 0, cvars.r_nolerp_list, cvars.r_lerp_list };
+}
+
+void take_screenshot()
+{
+    Module* m = module();
+    if (!m)
+        return;
+    const VkExtent2D size = m->graphics.size();
+    std::vector<uint8_t> pixels(size_t(size.width) * size.height * 4);
+    if (extension_table().capture_display(pixels.data()))
+        engine::write_screenshot({ int(size.width), int(size.height) }, 4, pixels.data());
+}
+
+struct Command {
+    const char* name;
+    void (*function)();
+};
+// Each wrapped, so that what it throws becomes the engine's error.
+constexpr Command commands[] = {
+    { "pt_info", [] { run_command(print_info); } },
+    { "screenshot", [] { run_command(take_screenshot); } },
+    { "imagelist", [] { run_command([] { module() ? module()->textures.print_list() : void(); }); } },
+    { "modellist", [] { run_command([] { module() ? module()->scene.print_models() : void(); }); } },
+};
+bool commands_added = false;
+
+} // namespace
+
+Module::Module(const GraphicsSettings& settings)
+    : graphics(settings)
+    , textures(graphics.gpu, graphics.bindings, graphics.uploader)
+    , draw2d(graphics.gpu, graphics.bindings, graphics.pipelines, textures, frames_in_flight)
+    , scene(textures)
+    , frame(graphics)
+{
+}
+
+Module* module() { return running.get(); }
+
+namespace renderer {
+
+// ---- start and end
+
+int prepare_for_window()
+{
+    load_vulkan_library();
+    return sdl_vulkan_window_flag;
+}
+
+bool init_context(void* sdl_window)
+{
+    running = nullptr;
+    running = std::make_unique<Module>(graphics_settings(sdl_window));
+    const Device& device = running->graphics.device;
+    engine::print("ref_vkpt: {} ({}), Vulkan {}, rays traced in software", device.properties.deviceName, device.driver,
+        describe_api_version(device.properties.apiVersion));
+    return true;
+}
+
+void shutdown_context() { running = nullptr; }
+
+bool init()
+{
+    cvars::register_all();
+    engine::init_video_menu();
+    for (const Command& command : commands)
+        engine::add_command(command.name, command.function);
+    commands_added = true;
+    const engine::VideoSize wanted = wanted_size();
+    agreed_size = { uint32_t(wanted.width), uint32_t(wanted.height) };
+    const auto size = engine::init_graphics(cvars::values().vid_fullscreen, wanted);
+    if (!size) {
+        engine::print("ref_vkpt: the engine could not open a window of {} x {}", wanted.width, wanted.height);
+        return false;
+    }
+    if (!running)
+        return false; // init_context has said why
+    agreed_size = { uint32_t(size->width), uint32_t(size->height) };
+    running->graphics.set_size(agreed_size);
+    return true;
+}
+
+void shutdown()
+{
+    if (commands_added)
+        for (const Command& command : commands)
+            engine::remove_command(command.name);
+    commands_added = false;
+    running = nullptr;
+}
+
+bool is_vsync_active() { return running && running->graphics.is_vsync_active(); }
+
+void get_drawable_size(int* width, int* height)
+{
+    const VkExtent2D size = running ? running->graphics.size() : agreed_size;
+    *width = int(size.width);
+    *height = int(size.height);
+}
+
+// ---- registration
+
+void begin_registration(std::string_view map)
+{
+    Module& m = *running;
+    cvars::update();
+    // A level that was dropped half-way through a frame leaves one open.
+    m.graphics.end_frame();
+    m.graphics.finish();
+    m.snapshot.reset();
+    m.gpu_world = {};
+    m.frame.restart_accumulation();
+    m.scene.begin_registration(map);
+    m.gpu_world = upload_world(*m.scene.world(), m.graphics.uploader);
+}
+
+void* register_model(std::string_view name) { return running->scene.register_model(name); }
+
+void* register_skin(std::string_view name) { return const_cast<Texture*>(running->scene.register_skin(name)); }
+
+void set_sky(std::string_view name, float rotate, const float axis[3])
+{
+    running->scene.set_sky(name, rotate, { axis[0], axis[1], axis[2] });
+}
+
+void end_registration()
+{
+    running->graphics.finish();
+    running->scene.end_registration();
+    running->textures.flush_if_needed();
+    running->graphics.uploader.flush();
+}
+
+// ---- the frame
+
+void begin_frame(float)
+{
+    Module& m = *running;
+    if (cvars::update()) {
+        check_light_sampler();
+        m.graphics.set_vsync(cvars::values().r_vsync != 0);
+    }
+    if (m.graphics.begin_frame())
+        m.draw2d.set_output(m.graphics.screen.output());
+    m.draw2d.begin_frame(m.graphics.slot(), filtering());
+    m.frame.begin();
+}
+
+void render_view(const engine::RefDef& refdef)
+{
+    Module& m = *running;
+    if (!m.graphics.is_recording())
+        return;
+    const bool has_world = !(refdef.flags & engine::RDF_NOWORLDMODEL);
+    if (has_world && !m.scene.world())
+        throw LevelError("a view of a world was asked for before any map was registered");
+    const bool freeze = has_world && cvars::values().pt_accumulate != 0;
+    if (!freeze || !m.snapshot_is_frozen || !m.snapshot) {
+        SceneSnapshot snapshot = m.scene.take_snapshot(refdef);
+        if (has_world) {
+            m.snapshot = std::move(snapshot);
+            m.snapshot_is_frozen = freeze;
+            m.frame.restart_accumulation();
+        } else {
+            m.textures.flush_if_needed();
+            m.draw2d.record(m.graphics.commands());
+            m.frame.record_view(make_view(refdef, m.graphics.size()), snapshot, nullptr, false);
+            return;
+        }
+    }
+    m.textures.flush_if_needed();
+    m.draw2d.record(m.graphics.commands());
+    m.frame.record_view(make_view(refdef, m.graphics.size()), *m.snapshot, &m.gpu_world, freeze);
+}
+
+void end_frame()
+{
+    Module& m = *running;
+    if (!m.graphics.is_recording())
+        return;
+    m.textures.flush_if_needed();
+    m.draw2d.record(m.graphics.commands());
+    m.graphics.timer.mark(m.graphics.commands(), "2d");
+    m.graphics.end_frame();
+    // What the engine's server reads as the light on the player: 255 * half the radiance of a white floor, as lightmaps go.
+    constexpr float server_scale = 150 * 0.5f;
+    if (m.scene.world())
+        engine::set_cvar("r_lightlevel", server_scale * m.frame.light_level());
+}
+
+bool end_world_renderpass() { return true; }
+
+// ---- 2D
+
+void* find_picture(std::string_view name)
+{
+    return const_cast<Texture*>(running->textures.find(name, TextureUse::picture));
+}
+
+void get_picture_size(std::string_view name, int* width, int* height)
+{
+    const Texture* picture = running->textures.find(name, TextureUse::picture);
+    *width = picture ? picture->width : -1;
+    *height = picture ? picture->height : -1;
+}
+
+void draw_picture(int x, int y, std::string_view name, float scale, const float* tint)
+{
+    if (const Texture* picture = running->textures.find(name, TextureUse::picture))
+        running->draw2d.draw_picture(*picture, x, y, scale, tint);
+}
+
+void draw_stretched_picture(int x, int y, int width, int height, std::string_view name)
+{
+    if (const Texture* picture = running->textures.find(name, TextureUse::picture))
+        running->draw2d.draw_stretched(*picture, { x, y, width, height });
+}
+
+void draw_character(int x, int y, int code, float scale) { running->draw2d.draw_character(x, y, code, scale); }
+
+void draw_tiled(int x, int y, int width, int height, std::string_view name)
+{
+    if (const Texture* picture = running->textures.find(name, TextureUse::picture))
+        running->draw2d.draw_tiled(*picture, { x, y, width, height });
+}
+
+void draw_fill(int x, int y, int width, int height, int palette_index)
+{
+    running->draw2d.draw_fill({ x, y, width, height }, palette_index);
+}
+
+void draw_fade() { running->draw2d.draw_fade(); }
+
+void draw_raw(int x, int y, int width, int height, int columns, int rows, const uint8_t* pixels, int bits)
+{
+    running->draw2d.draw_raw({ x, y, width, height }, columns, rows, pixels, bits);
+}
+
+void set_palette(const uint8_t* rgb) { running->draw2d.set_palette(rgb); }
+
+} // namespace renderer
+} // namespace vkpt

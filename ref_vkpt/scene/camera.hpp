@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From the engine's view to ours.
+#pragma once
+
+#include "ref_vkpt/engine/contract.hpp"
+#include "ref_vkpt/scene/snapshot.hpp"
+
+#include <vulkan/vulkan_core.h>
+
+namespace vkpt {
+
+// `picture`: the size of the whole picture, to which the view's rectangle is clipped.
+View make_view(const engine::RefDef& refdef, VkExtent2D picture);
+
+} // namespace vkpt

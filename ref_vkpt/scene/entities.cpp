@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/scene/entities.hpp"
+
+#include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/scene/entity_geometry.hpp"
+#include "ref_vkpt/scene/material_guess.hpp"
+#include "ref_vkpt/scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace vkpt {
+
+namespace {
+
+using namespace engine;
+
+// Radiance of what is shown unlit (fullbright models, particles) at full picture value: a white wall in ordinary light.
+constexpr float unlit_radiance = 1.0f;
+// Lasers and power-up shells glow: their colour times this is their radiance.
+constexpr float beam_radiance = 8.0f;
+constexpr float shell_radiance = 0.6f;
+constexpr float shell_opacity = 0.3f;
+constexpr int hand_left = 1, hand_none = 2;
+
+glm::vec3 to_vec3(const float v[3]) { return { v[0], v[1], v[2] }; }
+
+glm::vec3 to_linear(const formats::Rgba8& colour)
+{
+    const auto linear = [](uint8_t value) {
+        const float v = float(value) / 255;
+        return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+    };
+    return { linear(colour.r), linear(colour.g), linear(colour.b) };
+}
+
+class SnapshotBuilder {
+public:
+    SnapshotBuilder(
+        SceneSnapshot& snapshot, const RefDef& refdef, const TextureStore& textures, const MaterialDefaults& defaults)
+        : snapshot_(snapshot)
+        , refdef_(refdef)
+        , textures_(textures)
+        , defaults_(defaults)
+        , eye_(to_vec3(refdef.view_origin))
+        , axes_(angle_vectors(to_vec3(refdef.view_angles)))
+        , emitter_base_(snapshot.world ? int(snapshot.world->models[0].emitters.size()) : 0)
+    {
+    }
+
+    void add_entity(const Entity& entity);
+    void add_particle(const Particle& particle);
+    void add_dlight(const DynamicLight& light);
+    void add_preview_light();
+    void finish();
+
+private:
+    // Gives everything appended since the last call a ray mask.
+    void mask_new(uint32_t mask) { snapshot_.masks.resize(snapshot_.triangles.size(), mask); }
+    uint32_t add_material(const shared::Material& material);
+    shared::Material plain_material() const;
+    uint32_t entity_mask(const Entity& entity, const shared::Material& material) const;
+
+    void add_brush(const Entity& entity, const Model::Brush& brush);
+    void add_mesh(const Entity& entity, const Model& model, const Model::Mesh& mesh);
+    void add_shell(const Entity& entity, const Model::Mesh& mesh, Md2Pose pose);
+    void add_sprite(const Entity& entity, const Model::Sprite& sprite);
+    void add_beam(const Entity& entity);
+    void add_null_model(const Entity& entity);
+    shared::Material mesh_material(const Entity& entity, const Model& model, const Model::Mesh& mesh) const;
+    void fit_weapon_fov(size_t first_triangle);
+
+    SceneSnapshot& snapshot_;
+    const RefDef& refdef_;
+    const TextureStore& textures_;
+    const MaterialDefaults& defaults_;
+    glm::vec3 eye_;
+    Axes axes_;
+    int emitter_base_;
+};
+
+uint32_t SnapshotBuilder::add_material(const shared::Material& material)
+{
+    snapshot_.materials.push_back(material);
+    return uint32_t(snapshot_.materials.size() - 1);
+}
+
+shared::Material SnapshotBuilder::plain_material() const
+{
+    shared::Material material {};
+    material.tint = glm::vec3(1);
+    material.opacity = 1;
+    material.roughness = defaults_.roughness;
+    material.metallic = defaults_.metallic;
+    material.texture = textures_.white().slot;
+    return material;
+}
+
+uint32_t SnapshotBuilder::entity_mask(const Entity& entity, const shared::Material& material) const
+{
+    if (entity.flags & RF_WEAPONMODEL)
+        return shared::MASK_VIEW_WEAPON;
+    if (entity.flags & RF_VIEWERMODEL)
+        return shared::MASK_OWN_BODY;
+    return material.flags & shared::MATERIAL_TRANSLUCENT ? shared::MASK_TRANSLUCENT : shared::MASK_OPAQUE;
+}
+
+void SnapshotBuilder::add_entity(const Entity& entity)
+{
+    if (entity.flags & RF_BEAM)
+        return add_beam(entity);
+    const auto* model = static_cast<const Model*>(entity.model);
+    if (!model)
+        return add_null_model(entity);
+    if (const auto* brush = std::get_if<Model::Brush>(&model->shape))
+        add_brush(entity, *brush);
+    else if (const auto* mesh = std::get_if<Model::Mesh>(&model->shape))
+        add_mesh(entity, *model, *mesh);
+    else
+        add_sprite(entity, std::get<Model::Sprite>(model->shape));
+}
+
+void SnapshotBuilder::add_brush(const Entity& entity, const Model::Brush& brush)
+{
+    // The world itself is no entity.
+    if (!snapshot_.world || brush.index == 0)
+        return;
+    const World& world = *snapshot_.world;
+    const MapGeometry& geometry = world.models[brush.index];
+    BrushModelPose pose;
+    pose.transform = brush_model_transform(to_vec3(entity.origin), to_vec3(entity.angles));
+    pose.first_emitter = emitter_base_ + int(snapshot_.emitters.size());
+    const bool translucent = (entity.flags & RF_TRANSLUCENT) != 0;
+    pose.remap_material = [&](uint32_t texinfo) {
+        const uint32_t shown = world.animation_frame(texinfo, entity.frame);
+        if (!translucent)
+            return shown;
+        shared::Material material = snapshot_.materials[shown];
+        material.opacity = std::clamp(entity.alpha, 0.0f, 1.0f);
+        material.flags |= shared::MATERIAL_TRANSLUCENT;
+        return add_material(material);
+    };
+    const size_t before = snapshot_.triangles.size();
+    append_brush_model(geometry.triangles, pose, snapshot_.triangles);
+    if (snapshot_.triangles.size() == before)
+        return;
+    for (shared::Emitter emitter : geometry.emitters) {
+        emitter.p0 = pose.transform.point(emitter.p0);
+        emitter.p1 = pose.transform.point(emitter.p1);
+        emitter.p2 = pose.transform.point(emitter.p2);
+        snapshot_.emitters.push_back(emitter);
+    }
+    if (translucent)
+        return mask_new(shared::MASK_TRANSLUCENT);
+    snapshot_.masks.insert(snapshot_.masks.end(), geometry.masks.begin(), geometry.masks.end());
+    snapshot_.has_alpha_test |= geometry.has_alpha_test;
+}
+
+shared::Material SnapshotBuilder::mesh_material(
+    const Entity& entity, const Model& model, const Model::Mesh& mesh) const
+{
+    shared::Material material = plain_material();
+    const Texture* skin = static_cast<const Texture*>(entity.skin);
+    if (!skin && !mesh.skins.empty()) {
+        const size_t number = size_t(std::max(entity.skin_number, 0));
+        skin = mesh.skins[number < mesh.skins.size() ? number : 0];
+        if (!skin)
+            skin = mesh.skins[0];
+    }
+    if (skin)
+        material.texture = skin->slot;
+    const SurfaceGuess guess = guess_surface(model.name, defaults_);
+    material.roughness = guess.roughness;
+    material.metallic = guess.metallic;
+    if (entity.flags & RF_FULLBRIGHT)
+        material.flags |= shared::MATERIAL_FULLBRIGHT;
+    if (entity.flags & RF_TRANSLUCENT) {
+        material.opacity = std::clamp(entity.alpha, 0.0f, 1.0f);
+        material.flags |= shared::MATERIAL_TRANSLUCENT;
+    }
+    if ((refdef_.flags & RDF_IRGOGGLES) && (entity.flags & RF_IR_VISIBLE)) {
+        material.tint = glm::vec3(1, 0, 0);
+        material.flags |= shared::MATERIAL_FULLBRIGHT;
+    }
+    // Items pulse: a little light of their own, rising and falling.
+    if (entity.flags & RF_GLOW)
+        material.emission = glm::vec3(0.1f + 0.1f * std::sin(refdef_.time * 7));
+    if (entity.flags & RF_MINLIGHT)
+        material.emission = glm::max(material.emission, glm::vec3(0.05f));
+    return material;
+}
+
+void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const Model::Mesh& mesh)
+{
+    const CvarValues& cvars = cvars::values();
+    const bool is_weapon = (entity.flags & RF_WEAPONMODEL) != 0;
+    if (is_weapon && cvars.hand == hand_none)
+        return;
+    Md2Pose pose;
+    pose.backlerp = entity.backlerp;
+    pose.transform = md2_transform(
+        blend_origins(to_vec3(entity.origin), to_vec3(entity.previous_origin), entity.backlerp), to_vec3(entity.angles));
+    pose.frame = entity.frame;
+    pose.old_frame = entity.previous_frame;
+    if (is_weapon && cvars.hand == hand_left)
+        pose.mirror = Mirror { eye_, axes_.right };
+
+    const size_t first = snapshot_.triangles.size();
+    if (entity.flags & RF_SHELLS) {
+        add_shell(entity, mesh, pose);
+    } else {
+        const shared::Material material = mesh_material(entity, model, mesh);
+        append_md2(mesh.md2, pose, add_material(material), snapshot_.triangles);
+        mask_new(entity_mask(entity, material));
+    }
+    if (is_weapon)
+        fit_weapon_fov(first);
+}
+
+// Shells are entities of their own: the model inflated, glowing in the power-ups' colours.
+void SnapshotBuilder::add_shell(const Entity& entity, const Model::Mesh& mesh, Md2Pose pose)
+{
+    pose.shell_distance = entity.flags & RF_WEAPONMODEL ? weapon_shell_distance : powerup_shell_distance;
+    glm::vec3 colour(0);
+    if (entity.flags & RF_SHELL_HALF_DAM)
+        colour = { 0.56f, 0.59f, 0.45f };
+    if (entity.flags & RF_SHELL_DOUBLE)
+        colour += glm::vec3(0.9f, 0.7f, 0);
+    if (entity.flags & RF_SHELL_RED)
+        colour.x = 1;
+    if (entity.flags & RF_SHELL_GREEN)
+        colour.y = 1;
+    if (entity.flags & RF_SHELL_BLUE)
+        colour.z = 1;
+    shared::Material material = plain_material();
+    material.tint = colour;
+    material.emission = colour * shell_radiance;
+    material.opacity = shell_opacity;
+    material.flags = shared::MATERIAL_TRANSLUCENT;
+    append_md2(mesh.md2, pose, add_material(material), snapshot_.triangles);
+    mask_new(entity_mask(entity, material));
+}
+
+// The view weapon is made for a field of view of its own (r_gunfov, at 4:3): seen from the eye it is squeezed so that it
+// looks as it would there.
+void SnapshotBuilder::fit_weapon_fov(size_t first_triangle)
+{
+    const float gun_fov = cvars::values().r_gunfov;
+    if (gun_fov <= 0)
+        return;
+    const auto tangent = [](float degrees) { return std::tan(glm::radians(std::clamp(degrees, 1.0f, 170.0f)) / 2); };
+    const float gun_tangent_y = tangent(gun_fov) * 3 / 4;
+    const float squeeze = tangent(refdef_.fov_y) / gun_tangent_y;
+    for (size_t i = first_triangle; i < snapshot_.triangles.size(); i++)
+        for (glm::vec3& p : snapshot_.triangles[i].positions) {
+            const glm::vec3 offset = p - eye_;
+            const glm::vec3 along = axes_.forward * glm::dot(offset, axes_.forward);
+            p = eye_ + along + (offset - along) * squeeze;
+        }
+}
+
+void SnapshotBuilder::add_sprite(const Entity& entity, const Model::Sprite& sprite)
+{
+    if (sprite.sp2.frames.empty())
+        return;
+    const size_t frame = size_t(std::max(entity.frame, 0)) % sprite.sp2.frames.size();
+    const Texture* picture = sprite.pictures[frame];
+    if (!picture)
+        return;
+    shared::Material material = plain_material();
+    material.texture = picture->slot;
+    material.tint = glm::vec3(unlit_radiance);
+    material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
+    material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_ALPHA_TEST
+        | (material.opacity < 1 ? shared::MATERIAL_TRANSLUCENT : 0);
+    append_sprite(sprite.sp2.frames[frame], to_vec3(entity.origin), axes_, add_material(material), snapshot_.triangles);
+    mask_new(shared::MASK_TRANSLUCENT);
+    snapshot_.has_alpha_test = true;
+}
+
+void SnapshotBuilder::add_beam(const Entity& entity)
+{
+    shared::Material material = plain_material();
+    const glm::vec3 colour = to_linear(textures_.palette()[size_t(entity.skin_number & 255)]);
+    material.tint = colour;
+    material.emission = colour * beam_radiance;
+    material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
+    material.flags = shared::MATERIAL_TRANSLUCENT;
+    append_beam(to_vec3(entity.origin), to_vec3(entity.previous_origin), float(entity.frame), add_material(material),
+        snapshot_.triangles);
+    mask_new(shared::MASK_TRANSLUCENT);
+}
+
+void SnapshotBuilder::add_null_model(const Entity& entity)
+{
+    const Transform transform = md2_transform(to_vec3(entity.origin), to_vec3(entity.angles));
+    vkpt::append_null_model(transform, add_material(plain_material()), snapshot_.triangles);
+    mask_new(shared::MASK_OPAQUE);
+}
+
+void SnapshotBuilder::add_particle(const Particle& particle)
+{
+    shared::Material material = plain_material();
+    material.tint = to_linear(textures_.palette()[size_t(particle.color & 255)]) * unlit_radiance;
+    material.opacity = std::clamp(particle.alpha, 0.0f, 1.0f);
+    material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_TRANSLUCENT;
+    append_particle(to_vec3(particle.origin), eye_, axes_, add_material(material), snapshot_.triangles);
+    mask_new(shared::MASK_TRANSLUCENT);
+}
+
+void SnapshotBuilder::add_dlight(const DynamicLight& light)
+{
+    shared::Emitter emitter = make_dynamic_light(to_vec3(light.origin), to_vec3(light.color), light.intensity);
+    emitter.lightstyle = lightstyle_dlight;
+    if (emitter.radiance != glm::vec3(0))
+        snapshot_.emitters.push_back(emitter);
+}
+
+// Menus show a model alone: lit by a large soft light above the viewer's shoulder.
+void SnapshotBuilder::add_preview_light()
+{
+    constexpr float radius = 24, radiance = 6;
+    shared::Emitter light {};
+    light.type = shared::EMITTER_SPHERE;
+    light.p0 = eye_ + axes_.up * 48.0f + axes_.right * 40.0f;
+    light.p1.x = radius;
+    light.area = 4 * 3.14159265f * radius * radius;
+    light.radiance = glm::vec3(radiance);
+    light.lightstyle = lightstyle_dlight;
+    snapshot_.emitters.push_back(light);
+}
+
+void SnapshotBuilder::finish()
+{
+    const uint32_t first_id = snapshot_.world ? uint32_t(snapshot_.world->models[0].triangles.size()) : 0;
+    std::vector<BvhTriangle> triangles(snapshot_.triangles.size());
+    for (size_t i = 0; i < triangles.size(); i++) {
+        std::ranges::copy(snapshot_.triangles[i].positions, triangles[i].positions);
+        triangles[i].id = first_id + uint32_t(i);
+        triangles[i].mask = snapshot_.masks[i];
+    }
+    snapshot_.bvh = build_bvh(triangles, BvhQuality::fast);
+}
+
+} // namespace
+
+void add_entities(
+    SceneSnapshot& snapshot, const RefDef& refdef, const TextureStore& textures, const MaterialDefaults& defaults)
+{
+    SnapshotBuilder builder(snapshot, refdef, textures, defaults);
+    for (int i = 0; i < refdef.entity_count; i++)
+        builder.add_entity(refdef.entities[i]);
+    for (int i = 0; i < refdef.particle_count; i++)
+        builder.add_particle(refdef.particles[i]);
+    for (int i = 0; i < refdef.dlight_count; i++)
+        builder.add_dlight(refdef.dlights[i]);
+    if (!snapshot.world)
+        builder.add_preview_light();
+    builder.finish();
+}
+
+} // namespace vkpt

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A refdef's entities, particles and dynamic lights as triangles, materials and emitters of a snapshot.
+#pragma once
+
+#include "ref_vkpt/engine/contract.hpp"
+#include "ref_vkpt/scene/snapshot.hpp"
+#include "ref_vkpt/scene/textures.hpp"
+
+namespace vkpt {
+
+// `snapshot` holds the world's materials already (none without a world). Builds the tree of what was added.
+void add_entities(SceneSnapshot& snapshot, const engine::RefDef& refdef, const TextureStore& textures,
+    const MaterialDefaults& defaults);
+
+} // namespace vkpt

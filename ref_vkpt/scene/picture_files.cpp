@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/scene/picture_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace vkpt {
+
+namespace {
+
+constexpr const char* colormap_path = "pics/colormap.pcx";
+
+std::string_view ending_of(std::string_view path)
+{
+    const size_t dot = path.rfind('.');
+    const size_t slash = path.rfind('/');
+    if (dot == std::string_view::npos || (slash != std::string_view::npos && dot < slash))
+        return {};
+    return path.substr(dot);
+}
+
+std::string_view without_ending(std::string_view path) { return path.substr(0, path.size() - ending_of(path).size()); }
+
+std::string use_forward_slashes(std::string_view path)
+{
+    std::string result(path);
+    std::ranges::replace(result, '\\', '/');
+    return result;
+}
+
+bool is_common_ending(std::string_view ending)
+{
+    return ending == ".tga" || ending == ".png" || ending == ".jpg" || ending == ".jpeg";
+}
+
+bool is_readable_ending(std::string_view ending)
+{
+    return is_common_ending(ending) || ending == ".pcx" || ending == ".wal" || ending == ".m8" || ending == ".m32";
+}
+
+struct Size {
+    int width = 0, height = 0;
+};
+
+// Width and height of a Quake II picture without decoding its pixels where the format allows.
+Size read_size(formats::Bytes bytes, const std::string& path)
+{
+    const std::string_view ending = ending_of(path);
+    const auto of_wall = [](const formats::WallInfo& info) { return Size { info.width, info.height }; };
+    if (ending == ".wal")
+        return of_wall(formats::read_wal_info(bytes, path));
+    if (ending == ".m8")
+        return of_wall(formats::read_m8_info(bytes, path));
+    if (ending == ".m32")
+        return of_wall(formats::read_m32_info(bytes, path));
+    if (ending == ".pcx") {
+        const formats::IndexedImage image = formats::read_pcx(bytes, path);
+        return { image.width, image.height };
+    }
+    return {};
+}
+
+std::string describe(const formats::FormatError& error)
+{
+    return fmt::format("{} is damaged at byte {}: {}", error.file(), error.offset(), error.reason());
+}
+
+float linear_of(uint8_t encoded)
+{
+    const float value = float(encoded) / 255.0f;
+    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
+const std::array<float, 256>& linear_table()
+{
+    static const std::array<float, 256> table = [] {
+        std::array<float, 256> values;
+        for (size_t i = 0; i < values.size(); i++)
+            values[i] = linear_of(uint8_t(i));
+        return values;
+    }();
+    return table;
+}
+
+uint8_t encoded_of(float linear)
+{
+    const float value = linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+    return uint8_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
+}
+
+glm::vec3 linear_color(formats::Rgba8 pixel)
+{
+    const std::array<float, 256>& table = linear_table();
+    return { table[pixel.r], table[pixel.g], table[pixel.b] };
+}
+
+formats::Image halve(const formats::Image& from)
+{
+    formats::Image to;
+    to.width = std::max(from.width / 2, 1);
+    to.height = std::max(from.height / 2, 1);
+    to.pixels.resize(size_t(to.width) * size_t(to.height));
+    for (int y = 0; y < to.height; y++)
+        for (int x = 0; x < to.width; x++) {
+            glm::vec3 color(0);
+            float alpha = 0;
+            for (int corner = 0; corner < 4; corner++) {
+                const int from_x = std::min(2 * x + (corner & 1), from.width - 1);
+                const int from_y = std::min(2 * y + (corner >> 1), from.height - 1);
+                const formats::Rgba8 pixel = from.at(from_x, from_y);
+                color += linear_color(pixel) / 4.0f;
+                alpha += float(pixel.a) / 4.0f;
+            }
+            to.pixels[size_t(y) * size_t(to.width) + size_t(x)]
+                = { encoded_of(color.x), encoded_of(color.y), encoded_of(color.z), uint8_t(std::lround(alpha)) };
+        }
+    return to;
+}
+
+} // namespace
+
+PictureFiles::PictureFiles(LoadFile load_file, Report report)
+    : load_file_(std::move(load_file))
+    , report_(std::move(report))
+    , palette_(make_neutral_palette())
+{
+}
+
+void PictureFiles::load_palette()
+{
+    palette_ = make_neutral_palette();
+    constexpr const char* consequence = "8-bit pictures get a stand-in palette and show wrong colours";
+    const std::optional<std::vector<std::byte>> file = load_file_(colormap_path);
+    if (!file) {
+        report_(fmt::format("{} is missing: {}; add the game's data", colormap_path, consequence));
+        return;
+    }
+    try {
+        palette_ = formats::read_pcx_palette(*file, colormap_path);
+        for (formats::Rgba8& entry : palette_)
+            entry.a = 255;
+        palette_[255].a = 0;
+    } catch (const formats::FormatError& error) {
+        report_(fmt::format("{}; {}", describe(error), consequence));
+    }
+}
+
+std::vector<std::string> PictureFiles::original_paths(std::string_view name, TextureUse use)
+{
+    const std::string path = use_forward_slashes(name);
+    switch (use) {
+    case TextureUse::wall:
+        return { "textures/" + path + ".wal", "textures/" + path + ".m32", "textures/" + path + ".m8" };
+    case TextureUse::picture:
+        if (path.starts_with('/'))
+            return { path.substr(1) };
+        return { "pics/" + path + ".pcx", "pics/misc/" + path + ".m32", "pics/misc/" + path + ".m8" };
+    case TextureUse::sky:
+        return { "env/" + path + ".tga", "env/" + path + ".pcx", "env/" + path + ".png", "env/" + path + ".jpg",
+            "pics/Skies/" + path + ".m32", "pics/Skies/" + path + ".m8" };
+    case TextureUse::skin:
+    case TextureUse::sprite:
+        break;
+    }
+    return { path };
+}
+
+std::optional<LoadedPicture> PictureFiles::load(std::string_view name, TextureUse use, bool retexturing) const
+{
+    if (name.empty())
+        return std::nullopt;
+    for (const std::string& path : original_paths(name, use)) {
+        if (!is_readable_ending(ending_of(path)))
+            continue;
+        std::optional<LoadedPicture> picture;
+        if (retexturing)
+            picture = load_replacement(path);
+        if (!picture)
+            picture = load_original(path);
+        if (!picture)
+            continue;
+        // The engine's own renderers ignore the alpha of these; hi-res packs keep other things in it.
+        if (use == TextureUse::skin || use == TextureUse::sky)
+            for (formats::Rgba8& pixel : picture->image.pixels)
+                pixel.a = 255;
+        return picture;
+    }
+    return std::nullopt;
+}
+
+std::optional<LoadedPicture> PictureFiles::load_replacement(const std::string& path) const
+{
+    for (const char* ending : { ".tga", ".png", ".jpg", ".jpeg" }) {
+        LoadedPicture picture;
+        picture.path = path;
+        picture.file = std::string(without_ending(path)) + ending;
+        const std::optional<std::vector<std::byte>> file = load_file_(picture.file);
+        if (!file)
+            continue;
+        try {
+            picture.image = formats::read_common_image(*file, picture.file);
+        } catch (const formats::FormatError& error) {
+            report_(describe(error));
+            continue;
+        }
+        Size original;
+        try {
+            if (const auto original_file = load_file_(path))
+                original = read_size(*original_file, path);
+        } catch (const formats::FormatError&) {
+            // The replacement stands in for the damaged original, too.
+        }
+        if (picture.image.width < original.width || picture.image.height < original.height) {
+            report_(fmt::format("{} is not used: its {} x {} pixels are fewer than the {} x {} of {}", picture.file,
+                picture.image.width, picture.image.height, original.width, original.height, path));
+            continue;
+        }
+        picture.width = original.width > 0 ? original.width : picture.image.width;
+        picture.height = original.height > 0 ? original.height : picture.image.height;
+        return picture;
+    }
+    return std::nullopt;
+}
+
+std::optional<LoadedPicture> PictureFiles::load_original(const std::string& path) const
+{
+    const std::optional<std::vector<std::byte>> file = load_file_(path);
+    if (!file)
+        return std::nullopt;
+    try {
+        LoadedPicture picture;
+        picture.path = picture.file = path;
+        picture.image = is_common_ending(ending_of(path)) ? formats::read_common_image(*file, path)
+                                                          : formats::read_image(*file, path, palette_);
+        picture.width = picture.image.width;
+        picture.height = picture.image.height;
+        return picture;
+    } catch (const formats::FormatError& error) {
+        report_(describe(error));
+        return std::nullopt;
+    }
+}
+
+formats::Palette make_neutral_palette()
+{
+    formats::Palette palette;
+    for (int i = 0; i < 256; i++) {
+        const int row = i / 16;
+        const float value = (float(i % 16) + 1) / 16;
+        // Row 0 has no saturation; the others walk around the colour wheel.
+        const float saturation = row == 0 ? 0.0f : 0.6f;
+        const float hue = float(row - 1) / 15 * 6;
+        const auto channel = [&](float centre) {
+            const float distance = std::abs(std::remainder(hue - centre, 6.0f));
+            const float amount = std::clamp(2.0f - distance, 0.0f, 1.0f);
+            return uint8_t(std::lround(255 * value * (1 - saturation + saturation * amount)));
+        };
+        palette[size_t(i)] = { channel(0), channel(2), channel(4), uint8_t(i == 255 ? 0 : 255) };
+    }
+    palette[0] = { 0, 0, 0, 255 };
+    return palette;
+}
+
+PictureMeasure measure_picture(const formats::Image& image)
+{
+    PictureMeasure measure;
+    glm::dvec3 sum(0);
+    double weight = 0;
+    size_t opaque = 0;
+    for (const formats::Rgba8& pixel : image.pixels) {
+        const double alpha = pixel.a / 255.0;
+        sum += glm::dvec3(linear_color(pixel)) * alpha;
+        weight += alpha;
+        opaque += pixel.a >= 128;
+        measure.has_alpha |= pixel.a < 255;
+    }
+    if (weight > 0)
+        measure.average = glm::vec3(sum / weight);
+    if (!image.pixels.empty())
+        measure.opaque_fraction = float(double(opaque) / double(image.pixels.size()));
+    return measure;
+}
+
+formats::Image shrink_picture(formats::Image image, int limit)
+{
+    while (image.width > limit || image.height > limit)
+        image = halve(image);
+    return image;
+}
+
+} // namespace vkpt

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/scene/scene.hpp"
+
+#include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/scene/entities.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace vkpt {
+
+namespace {
+
+// Sky pictures show the sky as bright as a white wall under this lightmap value / 128 at full picture value. Measured with
+// tools/calibrate_light.
+constexpr float sky_picture_radiance = 1.0f;
+
+// Models of one map at most, several times what the engine can ask for.
+constexpr size_t max_models = 4096;
+
+bool ends_with(std::string_view name, std::string_view ending)
+{
+    return name.size() >= ending.size() && name.substr(name.size() - ending.size()) == ending;
+}
+
+WorldPicture describe(const Texture& texture)
+{
+    return { texture.slot, texture.width, texture.height, texture.average, texture.has_alpha };
+}
+
+} // namespace
+
+Scene::Scene(TextureStore& textures) : textures_(textures) { models_.reserve(max_models); }
+
+void Scene::begin_registration(std::string_view map)
+{
+    registration_++;
+    textures_.begin_registration();
+    const std::string path = "maps/" + std::string(map) + ".bsp";
+    const std::optional<engine::FileData> file = engine::load_file(path);
+    if (!file)
+        throw LevelError(path + " is not there: is the map's package installed?");
+    EmissionScales scales;
+    scales.point_light_radius = cvars::values().pt_point_light_radius;
+    const FindWorldPicture find
+        = [&](const std::string& texture) { return describe(*textures_.find(texture, TextureUse::wall)); };
+    world_ = nullptr; // not two maps in memory at once
+    world_ = load_world(file->bytes(), path, find, scales);
+    for (const std::string& message : world_->messages)
+        engine::print_developer(message);
+    sky_ = {};
+}
+
+Model* Scene::register_model(std::string_view name)
+{
+    if (name.empty())
+        return nullptr;
+    const auto known = std::ranges::find_if(models_, [&](const Model& m) { return m.registration && m.name == name; });
+    Model* model = known != models_.end() ? &*known : nullptr;
+    if (!model) {
+        try {
+            if (std::optional<Model> loaded = load_model(std::string(name)))
+                model = keep_model(std::move(*loaded));
+        } catch (const formats::FormatError& error) {
+            engine::print("vkpt: {}", error.what());
+        }
+    }
+    if (!model)
+        return nullptr;
+    model->registration = registration_;
+    find_pictures(*model);
+    return model;
+}
+
+Model* Scene::keep_model(Model model)
+{
+    const auto free = std::ranges::find(models_, 0u, &Model::registration);
+    if (free != models_.end()) {
+        *free = std::move(model);
+        return &*free;
+    }
+    if (models_.size() == models_.capacity()) {
+        engine::print("vkpt: {} is not shown: more than {} models in use", model.name, max_models);
+        return nullptr;
+    }
+    return &models_.emplace_back(std::move(model));
+}
+
+std::optional<Model> Scene::load_model(const std::string& name) const
+{
+    Model model;
+    model.name = name;
+    if (name[0] == '*') {
+        size_t index = 0;
+        const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), index);
+        if (error != std::errc() || !world_ || index >= world_->models.size())
+            return std::nullopt;
+        model.shape = Model::Brush { index };
+        return model;
+    }
+    if (ends_with(name, ".bsp")) {
+        model.shape = Model::Brush { 0 };
+        return world_ ? std::optional(std::move(model)) : std::nullopt;
+    }
+    const std::optional<engine::FileData> file = engine::load_file(name);
+    if (!file)
+        return std::nullopt;
+    if (ends_with(name, ".sp2"))
+        model.shape = Model::Sprite { formats::read_sp2(file->bytes(), name), {} };
+    else
+        model.shape = Model::Mesh { formats::read_md2(file->bytes(), name), {} };
+    return model;
+}
+
+// Loads the pictures of a new model, and keeps those of a known one.
+void Scene::find_pictures(Model& model)
+{
+    if (auto* mesh = std::get_if<Model::Mesh>(&model.shape)) {
+        mesh->skins.clear();
+        for (const std::string& skin : mesh->md2.skins)
+            mesh->skins.push_back(textures_.find(skin, TextureUse::skin));
+    }
+    if (auto* sprite = std::get_if<Model::Sprite>(&model.shape)) {
+        sprite->pictures.clear();
+        for (const formats::Sp2Sprite::Frame& frame : sprite->sp2.frames)
+            sprite->pictures.push_back(textures_.find(frame.picture, TextureUse::sprite));
+    }
+}
+
+const Texture* Scene::register_skin(std::string_view name) { return textures_.find(name, TextureUse::skin); }
+
+void Scene::set_sky(std::string_view name, float degrees_per_second, glm::vec3 axis)
+{
+    sky_ = {};
+    sky_.degrees_per_second = degrees_per_second;
+    const float length = glm::length(axis);
+    sky_.axis = std::isfinite(length) && length > 0 ? axis / length : glm::vec3(0, 0, 1);
+    // The engine names the sides in the order right, back, left, front, up, down; shaders want +x -x +y -y +z -z.
+    constexpr size_t engine_order[6] = { 0, 2, 1, 3, 4, 5 };
+    const std::array<const Texture*, 6> sides = textures_.find_sky(name);
+    for (size_t i = 0; i < 6; i++) {
+        const Texture* picture = sides[engine_order[i]];
+        sky_.present |= picture != nullptr;
+        sky_.pictures[i] = picture;
+        sky_.average += (picture ? picture->average : glm::vec3(0)) / 6.0f;
+    }
+    if (!sky_.present) {
+        engine::print("vkpt: no picture of the sky \"{}\" in env/; a plain one is shown", name);
+        sky_.average = glm::vec3(0.25f, 0.3f, 0.4f);
+    }
+}
+
+void Scene::end_registration()
+{
+    for (Model& model : models_)
+        if (model.registration != registration_)
+            model = {};
+    if (world_)
+        set_sky_radiance(*world_, sky_.average * sky_picture_radiance);
+    textures_.end_registration();
+}
+
+shared::Sky Scene::make_sky(float time) const
+{
+    shared::Sky sky {};
+    const glm::mat4 turn
+        = glm::rotate(glm::mat4(1), glm::radians(sky_.degrees_per_second * time), sky_.axis);
+    for (int i = 0; i < 3; i++)
+        sky.rotation[i] = glm::vec3(turn[i]);
+    const float scale = sky_picture_radiance * cvars::values().pt_sky_scale;
+    sky.present = sky_.present ? 1 : 0;
+    sky.radiance = sky_.present ? glm::vec3(scale) : sky_.average * scale;
+    for (size_t i = 0; i < 6; i++)
+        sky.textures[i] = sky_.pictures[i] ? sky_.pictures[i]->slot : textures_.white().slot;
+    return sky;
+}
+
+SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef) const
+{
+    const CvarValues& cvars = cvars::values();
+    SceneSnapshot snapshot;
+    snapshot.time = refdef.time;
+    snapshot.lightstyles.assign(lightstyle_count, cvars.pt_emission_scale);
+    for (size_t i = 0; refdef.lightstyles && i < size_t(engine::max_lightstyles); i++)
+        snapshot.lightstyles[i] = refdef.lightstyles[i].white / 3 * cvars.pt_emission_scale;
+    snapshot.lightstyles[lightstyle_dlight] = cvars.pt_dlight_scale;
+    snapshot.lightstyles[lightstyle_sky] = cvars.pt_sky_scale;
+    const MaterialDefaults defaults { cvars.pt_roughness_default, cvars.pt_metallic_default };
+    if (!(refdef.flags & engine::RDF_NOWORLDMODEL) && world_) {
+        snapshot.world = world_.get();
+        snapshot.has_alpha_test = world_->models[0].has_alpha_test;
+        snapshot.materials = world_->make_materials(refdef.time, defaults);
+        snapshot.sky = make_sky(refdef.time);
+    }
+    add_entities(snapshot, refdef, textures_, defaults);
+    if (snapshot.world)
+        world_->light_lists.update(snapshot.emitters);
+    return snapshot;
+}
+
+void Scene::print_models() const
+{
+    size_t count = 0;
+    for (const Model& model : models_) {
+        if (!model.registration)
+            continue;
+        count++;
+        if (const auto* mesh = std::get_if<Model::Mesh>(&model.shape))
+            engine::print("{:6} triangles {:4} frames  {}", mesh->md2.triangle_count(), mesh->md2.frames.size(), model.name);
+        else if (const auto* brush = std::get_if<Model::Brush>(&model.shape))
+            engine::print("{:6} triangles    1 frame   {}", world_->models[brush->index].triangles.size(), model.name);
+        else
+            engine::print("     2 triangles {:4} frames  {}", std::get<Model::Sprite>(model.shape).sp2.frames.size(), model.name);
+    }
+    engine::print("{} models", count);
+}
+
+} // namespace vkpt

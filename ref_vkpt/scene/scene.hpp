@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the engine has registered (map, models, skins, sky), and how a refdef of it becomes a SceneSnapshot.
+#pragma once
+
+#include "formats/model.hpp"
+#include "ref_vkpt/engine/contract.hpp"
+#include "ref_vkpt/scene/snapshot.hpp"
+#include "ref_vkpt/scene/textures.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace vkpt {
+
+// A handle that the engine holds. Brush models belong to the current map.
+struct Model {
+    struct Mesh {
+        formats::Md2Model md2;
+        std::vector<const Texture*> skins; // nullptr: not found
+    };
+    struct Sprite {
+        formats::Sp2Sprite sp2;
+        std::vector<const Texture*> pictures;
+    };
+    struct Brush {
+        size_t index = 0; // in World::models; 0: the world itself
+    };
+    std::string name;
+    std::variant<Mesh, Sprite, Brush> shape;
+    uint32_t registration = 0; // the last one that used it; 0: free
+};
+
+class Scene {
+public:
+    explicit Scene(TextureStore& textures);
+
+    // Throws formats::FormatError or LevelError.
+    void begin_registration(std::string_view map);
+    // nullptr: no such model; the engine then shows a placeholder.
+    Model* register_model(std::string_view name);
+    const Texture* register_skin(std::string_view name);
+    void set_sky(std::string_view name, float degrees_per_second, glm::vec3 axis);
+    void end_registration();
+
+    // nullptr before the first map.
+    World* world() { return world_.get(); }
+    const World* world() const { return world_.get(); }
+
+    // The scene of a refdef. RDF_NOWORLDMODEL: models alone, with a light of their own.
+    SceneSnapshot take_snapshot(const engine::RefDef& refdef) const;
+
+    void print_models() const;
+
+private:
+    struct SkyState {
+        std::array<const Texture*, 6> pictures {};
+        bool present = false;
+        float degrees_per_second = 0;
+        glm::vec3 axis { 0, 0, 1 };
+        glm::vec3 average { 0 };
+    };
+    std::optional<Model> load_model(const std::string& name) const;
+    Model* keep_model(Model model);
+    void find_pictures(Model& model);
+    shared::Sky make_sky(float time) const;
+
+    TextureStore& textures_;
+    std::unique_ptr<World> world_;
+    // The engine sorts entities by model pointer: handing out ascending addresses makes runs alike.
+    std::vector<Model> models_; // never reallocated
+    uint32_t registration_ = 0;
+    SkyState sky_;
+};
+
+} // namespace vkpt

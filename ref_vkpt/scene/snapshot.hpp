@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Everything that one 3D view shows and that may differ in the next one. CPU side.
+#pragma once
+
+#include "ref_vkpt/scene/world.hpp"
+#include "ref_vkpt/trace/bvh.hpp"
+#include "shaders/shared/frame.h"
+
+#include <array>
+#include <vector>
+
+namespace vkpt {
+
+struct SceneSnapshot {
+    const World* world = nullptr; // nullptr: models alone (menus)
+    // What moves: ids continue after the world's triangles, emitters after the world's emitters, materials after the world's.
+    std::vector<shared::Triangle> triangles;
+    std::vector<uint32_t> masks;
+    std::vector<shared::Emitter> emitters;
+    std::vector<shared::Material> materials; // all: the world's first
+    Bvh bvh; // of `triangles`
+    std::vector<float> lightstyles; // lightstyle_count of them
+    shared::Sky sky {};
+    bool has_alpha_test = false;
+    float time = 0; // seconds of the game
+};
+
+// The camera and its place in the picture.
+struct View {
+    shared::Camera camera {};
+    glm::ivec2 origin { 0 }; // in the picture
+    glm::uvec2 size { 0 };
+    glm::vec4 blend { 0 };
+    bool underwater = false;
+};
+bool is_same(const View& a, const View& b);
+
+} // namespace vkpt

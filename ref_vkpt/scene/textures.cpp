@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/scene/textures.hpp"
+
+#include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/engine/engine.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+namespace vkpt {
+
+namespace {
+
+// Slots that others may take: video frames, render targets.
+constexpr size_t reserved_slots = 64;
+constexpr int missing_size = 64;
+constexpr const char* sky_sides[6] = { "rt", "bk", "lf", "ft", "up", "dn" };
+
+std::optional<std::vector<std::byte>> load_engine_file(const std::string& path)
+{
+    const std::optional<engine::FileData> file = engine::load_file(path);
+    if (!file)
+        return std::nullopt;
+    return std::vector<std::byte>(file->bytes().begin(), file->bytes().end());
+}
+
+formats::Image make_uniform(int size, formats::Rgba8 color)
+{
+    return { size, size, std::vector<formats::Rgba8>(size_t(size) * size_t(size), color) };
+}
+
+bool is_flat(TextureUse use) { return use == TextureUse::picture; }
+
+char letter_of(TextureUse use) { return "WMSPY"[size_t(use)]; }
+
+} // namespace
+
+TextureStore::TextureStore(const Gpu& gpu, Bindings& bindings, Uploader& uploader)
+    : gpu_(gpu)
+    , bindings_(bindings)
+    , uploader_(uploader)
+    , files_(load_engine_file, [](std::string_view line) { engine::print(line); })
+    , capacity_(bindings.max_textures() - std::min<size_t>(bindings.max_textures() / 2, reserved_slots))
+    , entries_(std::make_unique<Texture[]>(capacity_))
+{
+    for (size_t i = 0; i < capacity_; i++)
+        free_entries_.insert(free_entries_.end(), i);
+    files_.load_palette();
+
+    white_ = take_entry();
+    white_->name = "(white)";
+    upload(*white_, make_uniform(1, { 255, 255, 255, 255 }));
+    assert(white_->slot == 0);
+    grey_ = take_entry();
+    grey_->name = "(missing)";
+    upload(*grey_, make_uniform(missing_size, { 128, 128, 128, 255 }));
+}
+
+TextureStore::~TextureStore() { uploader_.flush(); }
+
+const Texture* TextureStore::find(std::string_view name, TextureUse use)
+{
+    Names& names = names_[size_t(use)];
+    Texture* texture = nullptr;
+    if (const auto known = names.find(name); known != names.end())
+        texture = known->second;
+    else
+        names.emplace(name, texture = load(name, use));
+    touch(texture);
+    return texture;
+}
+
+std::array<const Texture*, 6> TextureStore::find_sky(std::string_view name)
+{
+    std::array<const Texture*, 6> sides {};
+    for (size_t i = 0; i < sides.size(); i++)
+        sides[i] = find(fmt::format("{}{}", name, sky_sides[i]), TextureUse::sky);
+    return sides;
+}
+
+void TextureStore::touch(const Texture* texture)
+{
+    if (texture)
+        entries_[size_t(texture - entries_.get())].registration = registration_;
+}
+
+Texture* TextureStore::load(std::string_view name, TextureUse use)
+{
+    const std::optional<LoadedPicture> picture = files_.load(name, use, cvars::values().r_retexturing != 0);
+    if (!picture) {
+        const std::vector<std::string> paths = PictureFiles::original_paths(name, use);
+        const std::string line = fmt::format("picture {} is missing or cannot be used", paths.front());
+        if (use == TextureUse::wall)
+            engine::print("{}: shown grey", line);
+        else if (use == TextureUse::sky)
+            engine::print("{}: that side of the sky stays plain", line);
+        else
+            engine::print_developer(line);
+        return use == TextureUse::wall ? make_missing_wall(name) : nullptr;
+    }
+    Texture* texture = take_entry();
+    if (!texture)
+        return nullptr;
+    texture->name = name;
+    texture->path = picture->path;
+    texture->file = picture->file;
+    texture->use = use;
+    const int limit = int(gpu_.device.properties.limits.maxImageDimension2D);
+    if (picture->image.width > limit || picture->image.height > limit)
+        upload(*texture, shrink_picture(picture->image, limit));
+    else
+        upload(*texture, picture->image);
+    texture->width = picture->width;
+    texture->height = picture->height;
+    return texture;
+}
+
+Texture* TextureStore::make_missing_wall(std::string_view name)
+{
+    Texture* texture = take_entry();
+    if (!texture)
+        return grey_;
+    texture->name = name;
+    texture->path = PictureFiles::original_paths(name, TextureUse::wall).front();
+    texture->slot = grey_->slot;
+    texture->width = texture->height = missing_size;
+    texture->average = grey_->average;
+    texture->missing = true;
+    return texture;
+}
+
+Texture* TextureStore::take_entry()
+{
+    if (free_entries_.empty()) {
+        if (!said_full_)
+            engine::print(
+                "more than {} pictures at once: this device serves no more, the rest stays grey or is left out",
+                capacity_);
+        said_full_ = true;
+        return nullptr;
+    }
+    Texture& texture = entries_[*free_entries_.begin()];
+    free_entries_.erase(free_entries_.begin());
+    texture = Texture();
+    texture.registration = registration_;
+    return &texture;
+}
+
+void TextureStore::upload(Texture& texture, const formats::Image& pixels)
+{
+    ImageSettings settings;
+    settings.width = uint32_t(pixels.width);
+    settings.height = uint32_t(pixels.height);
+    settings.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    // 2D is blended in display space; everything that is lit is read as linear light.
+    settings.format = is_flat(texture.use) ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8G8B8A8_SRGB;
+    if (!is_flat(texture.use))
+        settings.mip_levels = uint32_t(std::bit_width(std::max(settings.width, settings.height)));
+    texture.image = Image(gpu_, settings, texture.name);
+    uploader_.fill_image(texture.image, std::as_bytes(std::span(pixels.pixels)));
+    upload_pending_ = true;
+
+    texture.slot = bindings_.add_texture(texture.image);
+    texture.width = pixels.width;
+    texture.height = pixels.height;
+    const PictureMeasure measure = measure_picture(pixels);
+    texture.average = measure.average;
+    texture.opaque_fraction = measure.opaque_fraction;
+    texture.has_alpha = measure.has_alpha;
+}
+
+void TextureStore::begin_registration()
+{
+    registration_++;
+    said_full_ = false;
+    // What was missing may have come since: a download, another game directory.
+    for (Names& names : names_)
+        std::erase_if(names, [](const auto& entry) { return !entry.second || entry.second->missing; });
+}
+
+void TextureStore::end_registration()
+{
+    uploader_.flush();
+    upload_pending_ = false;
+    touch(white_);
+    touch(grey_);
+    const auto is_unused
+        = [&](const Texture& texture) { return !is_flat(texture.use) && texture.registration != registration_; };
+    for (Names& names : names_)
+        std::erase_if(names, [&](const auto& entry) { return entry.second && is_unused(*entry.second); });
+    for (size_t i = 0; i < capacity_; i++)
+        if (entries_[i].registration != 0 && is_unused(entries_[i]))
+            release(entries_[i]);
+}
+
+void TextureStore::release(Texture& texture)
+{
+    if (texture.image)
+        bindings_.remove_texture(texture.slot);
+    texture = Texture();
+    free_entries_.insert(size_t(&texture - entries_.get()));
+}
+
+void TextureStore::flush_if_needed()
+{
+    if (!upload_pending_)
+        return;
+    uploader_.flush();
+    upload_pending_ = false;
+}
+
+size_t TextureStore::count() const
+{
+    return size_t(std::count_if(entries_.get(), entries_.get() + capacity_,
+        [](const Texture& texture) { return texture.registration != 0 && !texture.path.empty(); }));
+}
+
+void TextureStore::print_list() const
+{
+    size_t count = 0;
+    uint64_t texels = 0;
+    for (size_t i = 0; i < capacity_; i++) {
+        const Texture& texture = entries_[i];
+        if (texture.registration == 0 || texture.path.empty())
+            continue;
+        count++;
+        texels += uint64_t(texture.image.width()) * texture.image.height() * (texture.image ? 1 : 0);
+        engine::print("{} {:4} x {:4} {} {}{}{}", letter_of(texture.use), texture.width, texture.height,
+            texture.has_alpha ? "RGBA" : "RGB ", texture.path,
+            texture.missing                    ? " (missing)"
+                : texture.file != texture.path ? " <- " + texture.file
+                                               : "",
+            texture.registration == registration_ ? " *" : "");
+    }
+    engine::print("{} pictures (W wall, M model, S sprite, P 2D, Y sky; * in use), {:.1f} million texels, {:.0f} MiB",
+        count, double(texels) / 1e6, double(gpu_.memory.bytes_in_use(MemoryKind::textures)) / double(1 << 20));
+}
+
+} // namespace vkpt

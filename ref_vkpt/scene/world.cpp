@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/scene/world.hpp"
+
+#include "ref_vkpt/scene/entity_geometry.hpp"
+#include "ref_vkpt/scene/material_guess.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace vkpt {
+
+namespace {
+
+using namespace formats;
+
+constexpr int several_clusters = -2;
+
+// The PVS cluster of each face that lies in one alone; else several_clusters.
+std::vector<int> find_face_clusters(const Bsp& bsp)
+{
+    constexpr int none = -1;
+    std::vector<int> clusters(bsp.faces.size(), none);
+    for (const BspLeaf& leaf : bsp.leaves)
+        for (size_t i = 0; i < leaf.leaf_face_count; i++) {
+            int& cluster = clusters[bsp.leaf_faces[leaf.first_leaf_face + i]];
+            cluster = cluster == none || cluster == leaf.cluster ? leaf.cluster : several_clusters;
+        }
+    return clusters;
+}
+
+bool is_drawn(const BspTexinfo& texinfo)
+{
+    return (texinfo.flags & (SURF_NODRAW | SURF_SKIP | SURF_HINT)) == 0 || (texinfo.flags & SURF_SKY) != 0;
+}
+
+bool is_translucent(const BspTexinfo& texinfo) { return (texinfo.flags & (SURF_TRANS33 | SURF_TRANS66)) != 0; }
+
+uint32_t triangle_mask(const BspTexinfo& texinfo)
+{
+    if (texinfo.flags & SURF_SKY)
+        return shared::MASK_SKY;
+    if (is_translucent(texinfo))
+        return shared::MASK_TRANSLUCENT;
+    return texinfo.flags & SURF_ALPHATEST ? shared::MASK_ALPHA_TEST : shared::MASK_OPAQUE;
+}
+
+struct FaceContext {
+    const Bsp& bsp;
+    const std::vector<WorldPicture>& pictures;
+    const std::vector<int>& face_clusters;
+    bool is_world;
+};
+
+// `first_emitter`: where this face's emitters start in the model's list, -1: it has none.
+void append_face(MapGeometry& geometry, const FaceContext& context, size_t face, int first_emitter)
+{
+    const Bsp& bsp = context.bsp;
+    const uint32_t texinfo_index = bsp.faces[face].texinfo;
+    const BspTexinfo& texinfo = bsp.texinfos[texinfo_index];
+    const WorldPicture& picture = context.pictures[texinfo_index];
+    const std::vector<glm::vec3> outline = bsp.face_polygon(face);
+    const uint32_t normal = encode_octahedral(bsp.face_normal(face));
+    for (const auto& corners : triangulate_face(bsp, face)) {
+        shared::Triangle triangle {};
+        for (int i = 0; i < 3; i++) {
+            triangle.positions[i] = outline[corners[size_t(i)]];
+            triangle.uvs[i] = bsp.texture_coordinates(texinfo, triangle.positions[i])
+                / glm::vec2(picture.width, picture.height);
+            triangle.normals[i] = normal;
+        }
+        triangle.material = texinfo_index;
+        triangle.emitter = first_emitter >= 0 ? first_emitter++ : -1;
+        triangle.cluster = context.is_world ? std::max(context.face_clusters[face], -1) : -1;
+        geometry.triangles.push_back(triangle);
+        geometry.masks.push_back(triangle_mask(texinfo));
+        geometry.has_alpha_test |= geometry.masks.back() == shared::MASK_ALPHA_TEST;
+    }
+}
+
+MapGeometry make_world_geometry(const FaceContext& context, StaticEmitters emitters)
+{
+    MapGeometry geometry;
+    const BspModel& model = context.bsp.models[0];
+    for (size_t face = size_t(model.first_face); face < size_t(model.first_face + model.face_count); face++)
+        if (is_drawn(context.bsp.texinfos[context.bsp.faces[face].texinfo]))
+            append_face(geometry, context, face, emitters.first_of_face[face]);
+    geometry.emitters = std::move(emitters.emitters);
+    for (shared::Emitter& emitter : geometry.emitters)
+        if (emitter.type == shared::EMITTER_SKY)
+            emitter.lightstyle = lightstyle_sky;
+    return geometry;
+}
+
+MapGeometry make_brush_geometry(
+    const FaceContext& context, size_t index, const AverageColour& colour, const EmissionScales& scales)
+{
+    MapGeometry geometry;
+    const BspModel& model = context.bsp.models[index];
+    for (size_t face = size_t(model.first_face); face < size_t(model.first_face + model.face_count); face++) {
+        if (!is_drawn(context.bsp.texinfos[context.bsp.faces[face].texinfo]))
+            continue;
+        std::vector<shared::Emitter> emitters = emitters_of_face(context.bsp, face, colour, scales);
+        append_face(geometry, context, face, emitters.empty() ? -1 : int(geometry.emitters.size()));
+        geometry.emitters.insert(geometry.emitters.end(), emitters.begin(), emitters.end());
+    }
+    return geometry;
+}
+
+Bvh build_world_bvh(const MapGeometry& geometry)
+{
+    std::vector<BvhTriangle> triangles(geometry.triangles.size());
+    for (size_t i = 0; i < triangles.size(); i++) {
+        std::ranges::copy(geometry.triangles[i].positions, triangles[i].positions);
+        triangles[i].id = uint32_t(i);
+        triangles[i].mask = geometry.masks[i];
+    }
+    return build_bvh(triangles, BvhQuality::best);
+}
+
+// The texinfos of an animation, starting with `first`; one alone: no animation. read_bsp cut chains that never come back.
+std::vector<uint32_t> animation_chain(const Bsp& bsp, uint32_t first)
+{
+    std::vector<uint32_t> chain { first };
+    for (int next = bsp.texinfos[first].next; next >= 0 && uint32_t(next) != first && chain.size() < bsp.texinfos.size();
+         next = bsp.texinfos[size_t(next)].next)
+        chain.push_back(uint32_t(next));
+    return chain;
+}
+
+// Flowing surfaces move by one picture of 64 texels in 1.6 seconds, to the left, as players know them.
+glm::vec2 scroll_of(const BspTexinfo& texinfo, float time)
+{
+    if (!(texinfo.flags & SURF_FLOWING))
+        return {};
+    const float turns = time / (texinfo.flags & SURF_WARP ? 2.0f : 1.6f);
+    return { -(turns - std::floor(turns)), 0 };
+}
+
+} // namespace
+
+std::vector<shared::Material> World::make_materials(float time, const MaterialDefaults& defaults) const
+{
+    const size_t count = bsp.texinfos.size();
+    std::vector<shared::Material> materials(count * 2);
+    for (uint32_t i = 0; i < count; i++) {
+        const BspTexinfo& texinfo = bsp.texinfos[i];
+        const SurfaceGuess guess = guess_surface(texinfo.texture, defaults);
+        shared::Material& material = materials[count + i];
+        material = {};
+        material.tint = glm::vec3(1);
+        material.opacity = texinfo.flags & SURF_TRANS33 ? 0.33f : texinfo.flags & SURF_TRANS66 ? 0.66f : 1.0f;
+        material.emission = emission[i];
+        material.roughness = guess.roughness;
+        material.metallic = guess.metallic;
+        material.texture = pictures[i].slot;
+        material.flags = (texinfo.flags & SURF_SKY ? shared::MATERIAL_SKY : 0)
+            | (texinfo.flags & SURF_WARP ? shared::MATERIAL_WARP : 0)
+            | (is_translucent(texinfo) ? shared::MATERIAL_TRANSLUCENT : 0)
+            | (texinfo.flags & SURF_ALPHATEST ? shared::MATERIAL_ALPHA_TEST : 0);
+        material.uv_scroll = scroll_of(texinfo, time);
+    }
+    // Two pictures a second, as the classic renderers show them.
+    const int tick = int(std::max(time, 0.0f) * 2);
+    for (uint32_t i = 0; i < count; i++)
+        materials[i] = materials[animation_frame(i, tick)];
+    return materials;
+}
+
+uint32_t World::animation_frame(uint32_t texinfo, int frame) const
+{
+    const uint32_t count = uint32_t(bsp.texinfos.size());
+    if (bsp.texinfos[texinfo].next < 0)
+        return count + texinfo;
+    const std::vector<uint32_t> chain = animation_chain(bsp, texinfo);
+    return count + chain[size_t(std::max(frame, 0)) % chain.size()];
+}
+
+std::unique_ptr<World> load_world(
+    formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture, const EmissionScales& scales)
+{
+    // In place from the start: the light lists keep a pointer to the map.
+    auto made = std::make_unique<World>();
+    World& world = *made;
+    world.name = name;
+    world.bsp = read_bsp(file, name);
+    if (world.bsp.models.empty())
+        throw FormatError(name, 0, "the map has no world model");
+
+    std::map<std::string, WorldPicture> by_name;
+    for (const BspTexinfo& texinfo : world.bsp.texinfos) {
+        auto [entry, is_new] = by_name.try_emplace(texinfo.texture);
+        if (is_new && is_drawn(texinfo) && !(texinfo.flags & SURF_SKY))
+            entry->second = find_picture(texinfo.texture);
+        world.pictures.push_back(entry->second);
+    }
+    const AverageColour colour = [&](const std::string& texture) {
+        const auto entry = by_name.find(texture);
+        return entry != by_name.end() ? entry->second.average : glm::vec3(0.5f);
+    };
+    StaticEmitters emitters = extract_emitters(world.bsp, colour, scales);
+    world.emission = emitters.face_emission;
+    world.messages = emitters.messages;
+
+    const std::vector<int> face_clusters = find_face_clusters(world.bsp);
+    world.models.push_back(
+        make_world_geometry({ world.bsp, world.pictures, face_clusters, true }, std::move(emitters)));
+    for (size_t i = 1; i < world.bsp.models.size(); i++)
+        world.models.push_back(
+            make_brush_geometry({ world.bsp, world.pictures, face_clusters, false }, i, colour, scales));
+    world.light_lists.build(world.bsp, world.models[0].emitters);
+    world.bvh = build_world_bvh(world.models[0]);
+    return made;
+}
+
+void set_sky_radiance(World& world, glm::vec3 average)
+{
+    for (MapGeometry& geometry : world.models)
+        for (shared::Emitter& emitter : geometry.emitters)
+            if (emitter.type == shared::EMITTER_SKY)
+                emitter.radiance = average;
+}
+
+} // namespace vkpt

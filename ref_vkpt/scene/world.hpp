@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A map as the renderer sees it: triangles, materials and emitters of the world and of its brush models. No Vulkan in here.
+#pragma once
+
+#include "formats/bsp.hpp"
+#include "ref_vkpt/lights/emitters.hpp"
+#include "ref_vkpt/lights/light_lists.hpp"
+#include "ref_vkpt/trace/bvh.hpp"
+#include "shaders/shared/scene.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vkpt {
+
+// Rows of the lightstyle table: the engine's 256, then these.
+inline constexpr uint32_t lightstyle_dlight = 256; // engine dlights, scaled by pt_dlight_scale
+inline constexpr uint32_t lightstyle_sky = 257;    // sky faces, scaled by pt_sky_scale
+inline constexpr uint32_t lightstyle_count = 258;
+
+// Geometry of the world (model 0) or of a brush model, in model space.
+struct MapGeometry {
+    std::vector<shared::Triangle> triangles; // material = texinfo; emitter = index into `emitters`
+    std::vector<uint32_t> masks;             // MASK_* per triangle
+    std::vector<shared::Emitter> emitters;
+    bool has_alpha_test = false;
+};
+
+// A picture as materials need it.
+struct WorldPicture {
+    uint32_t slot = 0;
+    int width = 64, height = 64; // texels of texinfo space
+    glm::vec3 average { 0.5f };  // linear
+    bool has_alpha = false;
+};
+using FindWorldPicture = std::function<WorldPicture(const std::string& texture)>;
+
+struct MaterialDefaults {
+    float roughness = 0.7f, metallic = 0;
+};
+
+struct World {
+    std::string name;
+    formats::Bsp bsp;
+    std::vector<MapGeometry> models; // 0: the world
+    std::vector<WorldPicture> pictures; // per texinfo
+    std::vector<glm::vec3> emission;    // per texinfo: Material::emission
+    LightLists light_lists;
+    Bvh bvh; // of model 0
+    std::vector<std::string> messages; // what could not be used; for the console
+
+    // The materials of a moment: [0, n) animate with time; [n, 2n) show each texinfo's own picture, for brush models that
+    // choose their picture by frame (see animation_frame).
+    std::vector<shared::Material> make_materials(float time, const MaterialDefaults& defaults) const;
+    size_t material_count() const { return bsp.texinfos.size() * 2; }
+    // The material that a brush model's frame shows in place of texinfo material `texinfo`.
+    uint32_t animation_frame(uint32_t texinfo, int frame) const;
+};
+
+// Reads and prepares maps/NAME.bsp. Throws formats::FormatError.
+std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture,
+    const EmissionScales& scales);
+
+// Sets what sky emitters are expected to send, once the sky is known: the average of its pictures.
+void set_sky_radiance(World& world, glm::vec3 average);
+
+} // namespace vkpt

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/vulkan/swapchain.hpp"
+
+#include "ref_vkpt/engine/errors.hpp"
+
+#include <algorithm>
+
+namespace vkpt {
+
+namespace {
+
+VkSemaphore make_semaphore(VkDevice device)
+{
+    VkSemaphoreCreateInfo info { VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO };
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    VKPT_CHECK(vkCreateSemaphore(device, &info, nullptr, &semaphore));
+    return semaphore;
+}
+
+} // namespace
+
+Swapchain::Swapchain(const Gpu& gpu, const Window& window) : gpu_(gpu), window_(window)
+{
+    if (!gpu.device.has_swapchain)
+        throw FatalError(std::string(gpu.device.properties.deviceName) + " cannot show pictures in windows (VK_KHR_swapchain)");
+    surface_ = window.create_surface(gpu.device.instance);
+    VkBool32 supported = VK_FALSE;
+    VKPT_CHECK(vkGetPhysicalDeviceSurfaceSupportKHR(gpu.device.physical, gpu.device.queue_family, surface_, &supported));
+    if (!supported)
+        throw FatalError(std::string(gpu.device.properties.deviceName) + " cannot show pictures in this window; choose another "
+                                                                         "device with pt_device");
+    for (VkSemaphore& semaphore : acquired_)
+        semaphore = make_semaphore(gpu.device.handle);
+}
+
+Swapchain::~Swapchain()
+{
+    destroy_pictures();
+    if (swapchain_)
+        vkDestroySwapchainKHR(gpu_.device.handle, swapchain_, nullptr);
+    for (VkSemaphore semaphore : acquired_)
+        vkDestroySemaphore(gpu_.device.handle, semaphore, nullptr);
+    vkDestroySurfaceKHR(gpu_.device.instance, surface_, nullptr);
+}
+
+void Swapchain::destroy_pictures()
+{
+    for (VkSemaphore semaphore : finished_)
+        vkDestroySemaphore(gpu_.device.handle, semaphore, nullptr);
+    finished_.clear();
+    pictures_.clear();
+}
+
+VkSurfaceFormatKHR Swapchain::choose_format() const
+{
+    uint32_t count = 0;
+    VKPT_CHECK(vkGetPhysicalDeviceSurfaceFormatsKHR(gpu_.device.physical, surface_, &count, nullptr));
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    VKPT_CHECK(vkGetPhysicalDeviceSurfaceFormatsKHR(gpu_.device.physical, surface_, &count, formats.data()));
+    // Our picture holds display values already: no format that encodes once more.
+    for (const VkSurfaceFormatKHR& format : formats)
+        if (format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM)
+            return format;
+    return formats.at(0);
+}
+
+VkPresentModeKHR Swapchain::choose_mode(bool vsync) const
+{
+    uint32_t count = 0;
+    VKPT_CHECK(vkGetPhysicalDeviceSurfacePresentModesKHR(gpu_.device.physical, surface_, &count, nullptr));
+    std::vector<VkPresentModeKHR> modes(count);
+    VKPT_CHECK(vkGetPhysicalDeviceSurfacePresentModesKHR(gpu_.device.physical, surface_, &count, modes.data()));
+    if (!vsync)
+        for (VkPresentModeKHR wanted : { VK_PRESENT_MODE_IMMEDIATE_KHR, VK_PRESENT_MODE_MAILBOX_KHR })
+            if (std::ranges::find(modes, wanted) != modes.end())
+                return wanted;
+    return VK_PRESENT_MODE_FIFO_KHR;
+}
+
+bool Swapchain::recreate(bool vsync)
+{
+    destroy_pictures();
+    vsync_ = vsync;
+    VkSurfaceCapabilitiesKHR surface;
+    VKPT_CHECK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu_.device.physical, surface_, &surface));
+    extent_ = surface.currentExtent;
+    if (extent_.width == UINT32_MAX) { // the window takes the pictures' size
+        const VkExtent2D wanted = window_.drawable_size();
+        extent_.width = std::clamp(wanted.width, surface.minImageExtent.width, surface.maxImageExtent.width);
+        extent_.height = std::clamp(wanted.height, surface.minImageExtent.height, surface.maxImageExtent.height);
+    }
+    const VkSwapchainKHR old = swapchain_;
+    swapchain_ = VK_NULL_HANDLE;
+    if (extent_.width > 0 && extent_.height > 0) {
+        const VkSurfaceFormatKHR format = choose_format();
+        VkSwapchainCreateInfoKHR info { VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR };
+        info.surface = surface_;
+        info.minImageCount = surface.minImageCount + 1;
+        if (surface.maxImageCount > 0)
+            info.minImageCount = std::min(info.minImageCount, surface.maxImageCount);
+        info.imageFormat = format.format;
+        info.imageColorSpace = format.colorSpace;
+        info.imageExtent = extent_;
+        info.imageArrayLayers = 1;
+        info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        info.preTransform = surface.currentTransform;
+        info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
+        info.presentMode = choose_mode(vsync);
+        info.clipped = VK_TRUE;
+        info.oldSwapchain = old;
+        const VkResult result = vkCreateSwapchainKHR(gpu_.device.handle, &info, nullptr, &swapchain_);
+        if (old)
+            vkDestroySwapchainKHR(gpu_.device.handle, old, nullptr);
+        check_vulkan(result, "vkCreateSwapchainKHR");
+        uint32_t count = 0;
+        VKPT_CHECK(vkGetSwapchainImagesKHR(gpu_.device.handle, swapchain_, &count, nullptr));
+        pictures_.resize(count);
+        VKPT_CHECK(vkGetSwapchainImagesKHR(gpu_.device.handle, swapchain_, &count, pictures_.data()));
+        for (uint32_t i = 0; i < count; i++)
+            finished_.push_back(make_semaphore(gpu_.device.handle));
+    } else if (old) {
+        vkDestroySwapchainKHR(gpu_.device.handle, old, nullptr);
+    }
+    return is_usable();
+}
+
+bool Swapchain::acquire(uint32_t frame_slot)
+{
+    const VkResult result = vkAcquireNextImageKHR(
+        gpu_.device.handle, swapchain_, UINT64_MAX, acquired_[frame_slot], VK_NULL_HANDLE, &picture_);
+    if (result == VK_ERROR_OUT_OF_DATE_KHR)
+        return false;
+    check_vulkan(result, "vkAcquireNextImageKHR");
+    return true;
+}
+
+void Swapchain::record_copy(VkCommandBuffer commands, const Image& source)
+{
+    const VkImage picture = pictures_[picture_];
+    constexpr VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    record_barrier(commands,
+        { picture, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, transfer, transfer, 0,
+            VK_ACCESS_TRANSFER_WRITE_BIT });
+    VkImageBlit region {};
+    region.srcSubresource = region.dstSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 };
+    region.srcOffsets[1] = { int32_t(source.width()), int32_t(source.height()), 1 };
+    region.dstOffsets[1] = { int32_t(extent_.width), int32_t(extent_.height), 1 };
+    vkCmdBlitImage(commands, source.handle(), VK_IMAGE_LAYOUT_GENERAL, picture, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+        &region, VK_FILTER_LINEAR);
+    record_barrier(commands,
+        { picture, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, transfer,
+            VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, 0 });
+}
+
+bool Swapchain::present()
+{
+    VkPresentInfoKHR info { VK_STRUCTURE_TYPE_PRESENT_INFO_KHR };
+    info.waitSemaphoreCount = 1;
+    info.pWaitSemaphores = &finished_[picture_];
+    info.swapchainCount = 1;
+    info.pSwapchains = &swapchain_;
+    info.pImageIndices = &picture_;
+    const VkResult result = vkQueuePresentKHR(gpu_.device.queue, &info);
+    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
+        return false;
+    check_vulkan(result, "vkQueuePresentKHR");
+    return true;
+}
+
+} // namespace vkpt

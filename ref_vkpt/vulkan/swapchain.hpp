@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The window's pictures. The frame is drawn into an image of our own; present() copies it into the window.
+#pragma once
+
+#include "ref_vkpt/vulkan/resources.hpp"
+#include "ref_vkpt/vulkan/window.hpp"
+
+#include <array>
+#include <vector>
+
+namespace vkpt {
+
+inline constexpr uint32_t frames_in_flight = 2;
+
+class Swapchain {
+public:
+    Swapchain(const Gpu& gpu, const Window& window);
+    ~Swapchain();
+    Swapchain(const Swapchain&) = delete;
+    Swapchain& operator=(const Swapchain&) = delete;
+
+    // Makes the pictures for the window's size now. False: there is nothing to show (minimised). The device must be idle.
+    bool recreate(bool vsync);
+    bool is_usable() const { return swapchain_ != VK_NULL_HANDLE; }
+    bool vsync() const { return vsync_; }
+
+    // Takes a picture; false: the window changed, recreate and try with the next frame.
+    bool acquire(uint32_t frame_slot);
+    // Copies `source` (layout GENERAL, written by colour attachment, compute or transfer) into the picture taken.
+    void record_copy(VkCommandBuffer commands, const Image& source);
+    VkSemaphore acquired(uint32_t frame_slot) const { return acquired_[frame_slot]; }
+    VkSemaphore finished() const { return finished_[picture_]; }
+    // False: the window changed, recreate.
+    bool present();
+
+private:
+    void destroy_pictures();
+    VkSurfaceFormatKHR choose_format() const;
+    VkPresentModeKHR choose_mode(bool vsync) const;
+
+    Gpu gpu_;
+    const Window& window_;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+    VkExtent2D extent_ {};
+    bool vsync_ = true;
+    std::vector<VkImage> pictures_;
+    std::vector<VkSemaphore> finished_; // one per picture: it may be presented
+    std::array<VkSemaphore, frames_in_flight> acquired_ {};
+    uint32_t picture_ = 0;
+};
+
+} // namespace vkpt

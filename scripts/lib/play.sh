@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# shellcheck shell=bash
+# shellcheck disable=SC2154  # the variables that ./play sets from its options
+# What ./play does once everything is built: find data, start the engine, wait for it, show what came of it.
+
+own_map=vkpt1
+own_demo=vkpt1.dm2
+capture_folder=capture # in the engine's writable game folder
+
+# --- data ---------------------------------------------------------------------------------------------------------
+
+# The home of whoever sits at the machine, with sudo as well.
+user_home() {
+    local home=
+    [[ -n ${SUDO_USER:-} ]] && home=$(getent passwd "$SUDO_USER" | cut -d: -f6)
+    echo "${home:-${HOME:-/}}"
+}
+
+list_usual_places() {
+    local home
+    home=$(user_home)
+    printf '%s\n' "$home/.yq2" "$home/.local/share/YamagiQ2" /usr/share/games/quake2 /usr/local/share/games/quake2 \
+        "$home/.steam/steam/steamapps/common/Quake 2" "$home/.steam/root/steamapps/common/Quake 2" \
+        "$home/.local/share/Steam/steamapps/common/Quake 2" \
+        "$home/.var/app/com.valvesoftware.Steam/.local/share/Steam/steamapps/common/Quake 2" \
+        "$home/GOG Games/Quake II" "$home/GOG Games/Quake II/game" "$home/GOG Games/Quake II Quad Damage" \
+        "$home/Games/quake2" "$home/games/quake2" "$home/quake2" /opt/quake2
+}
+
+# True where DIR/GAME holds game data: an archive, or loose maps.
+holds_data() {
+    local file
+    for file in "$1/$2"/*.pak "$1/$2"/*.pk3 "$1/$2"/*.pkz "$1/$2"/*.pk2 "$1/$2"/maps/*.bsp; do
+        [[ -e $file ]] && return 0
+    done
+    return 1
+}
+
+# Prints the folder that has baseq2 in it, for DIR, DIR's parent (DIR is baseq2 itself), or fails.
+normalise_data_dir() {
+    local dir
+    dir=$(readlink -f -- "$1") || return 1
+    holds_data "$dir" baseq2 && echo "$dir" && return 0
+    [[ ${dir##*/} == baseq2 ]] && holds_data "${dir%/*}" baseq2 && echo "${dir%/*}"
+}
+
+choose_data() {
+    local place
+    if [[ -n $data_dir ]]; then
+        normalise_data_dir "$data_dir" && return 0
+        die "no Quake II data in '$data_dir': it should have a folder baseq2 with pak0.pak in it"
+    fi
+    while IFS= read -r place; do
+        [[ -d $place ]] && normalise_data_dir "$place" && return 0
+    done < <(list_usual_places)
+    die "no Quake II data found in the usual places ($(list_usual_places | head -n 3 | paste -sd' ')...); name it: ./play --data DIR"
+}
+
+# Sets data_dir to what the engine gets, home_dir to where it writes.
+prepare_game() {
+    local own_data=$build_dir/game
+    if [[ $find_data == yes ]]; then
+        data_dir=$(choose_data) || exit 1
+        note "Quake II data: $data_dir"
+        [[ $game_name == baseq2 ]] || holds_data "$data_dir" "$game_name" \
+            || die "no game '$game_name' in $data_dir: expected $data_dir/$game_name with its .pak files"
+        prepare_run_dir home-data
+    else
+        data_dir=$own_data
+        prepare_run_dir home
+    fi
+    data_dir=$(use_data "$data_dir") || exit 1
+    if [[ -n $map_name && $find_data == no && ! -e $data_dir/baseq2/maps/$map_name.bsp ]]; then
+        die "no map '$map_name' in our data; there are: $(list_maps | paste -sd' ')"
+    fi
+}
+list_maps() { find "$data_dir/baseq2/maps/" -name '*.bsp' -printf '%f\n' | sed 's/\.bsp$//' | sort; }
+
+# --- the engine's arguments ---------------------------------------------------------------------------------------
+
+declare -a common_arguments=()
+build_common_arguments() { # DEFAULT_SIZE
+    local setting use=${size:-$1}
+    common_arguments=()
+    [[ $game_name == baseq2 ]] || common_arguments+=(+set game "$game_name")
+    if [[ $fullscreen == yes ]]; then
+        common_arguments+=(+set r_mode -2 +set vid_fullscreen 2)
+    elif [[ -n $use ]]; then
+        common_arguments+=(+set vid_fullscreen 0 +set r_mode -1 +set r_customwidth "${use%x*}" +set r_customheight "${use#*x}")
+    fi
+    for setting in ${settings[@]+"${settings[@]}"}; do
+        common_arguments+=(+set "${setting%%=*}" "${setting#*=}")
+    done
+}
+
+# The first start has no configuration yet: a size that the machine can keep up with.
+first_size() {
+    [[ -e $home_dir/.yq2/$game_name/config.cfg ]] && return 0
+    if has_raytracing_gpu; then echo 1280x720; else echo 640x360; fi
+}
+
+# --- playing ------------------------------------------------------------------------------------------------------
+
+play_in_window() {
+    local -a start=()
+    share_display
+    build_common_arguments "$(first_size)"
+    [[ -z $map_name && $find_data == no ]] && map_name=$own_map
+    [[ -n $map_name ]] && start=(+map "$map_name")
+    (exec_engine "$data_dir" ${common_arguments[@]+"${common_arguments[@]}"} "${start[@]}" "${engine_arguments[@]}")
+    local status=$?
+    if fallback_reason >/dev/null; then
+        warn "ref_vkpt did not start and the engine used its own renderer. What it said:"
+        fallback_reason >&2
+        return 1
+    fi
+    ((status == 0)) || die "the engine ended with status $status; its console is in $(console_log)"
+}
+
+# Sets demo_name to what the engine can open: a file of the user's is linked into the writable demo folder.
+demo_name=
+demo_blocks=0
+choose_demo() {
+    local folder=$home_dir/.yq2/$game_name/demos file
+    demo_name=${demo:-$own_demo}
+    [[ -z $demo && $find_data == yes ]] && demo_name=demo1.dm2
+    [[ $demo_name == *.dm2 ]] || demo_name+=.dm2
+    file=$demo_name
+    [[ -f $file ]] || file=$data_dir/$game_name/demos/$demo_name
+    [[ -f $file ]] || file=$data_dir/baseq2/demos/$demo_name
+    if [[ ! -f $file ]]; then
+        [[ $find_data == yes && $demo_name != */* ]] || die "no demo '$demo_name': neither a file nor in the game's demos/"
+        return 0 # it may be in an archive
+    fi
+    demo_blocks=$(count_demo_blocks "$file")
+    ((demo_blocks > 0)) || die "$file is not a Quake II demo (.dm2)"
+    [[ $file == "$data_dir"/* ]] && return 0
+    as_player mkdir -p "$folder"
+    demo_name=${file##*/}
+    install -m 644 "$file" "$folder/$demo_name" || die "cannot copy $file to $folder"
+}
+
+# A demo is a chain of blocks, each led by its length; nearly every block is one frame. 0: the chain is broken.
+count_demo_blocks() {
+    perl -e 'open(my $file, "<:raw", $ARGV[0]) or die; local $/; my $all = <$file>; my ($at, $count) = (0, 0);
+        while ($at + 4 <= length $all) {
+            my $length = unpack("l<", substr($all, $at, 4));
+            last if $length == -1;
+            if ($length < 0 || $at + 4 + $length > length $all) { $count = 0; last; }
+            $at += 4 + $length; $count++;
+        }
+        print $count' "$1"
+}
+
+demo_progress() {
+    local -a pictures=("$home_dir/.yq2/$game_name/$capture_folder"/*.png)
+    [[ -e ${pictures[0]} ]] && echo "${#pictures[@]} of about $expected_pictures pictures" && return
+    last_line "$log_dir/engine.log"
+}
+
+# The engine stays up after a demo that it cannot open or a map that it lacks: end it then.
+stop_on_error() {
+    while sleep 0.5; do
+        if grep -qE "^ERROR:|^Retrying with" "$(console_log)" 2>/dev/null; then
+            sleep 0.5
+            kill "$1" 2>/dev/null
+            return
+        fi
+    done
+}
+
+# run_demo TITLE ARGUMENTS...: the demo through timedemo to its end, watched.
+expected_pictures=0
+run_demo() {
+    local title=$1 status=0 watcher reason
+    shift
+    rm -rf "$(console_log)" "${home_dir:?}/.yq2/$game_name/$capture_folder"
+    (exec_engine "$data_dir" ${common_arguments[@]+"${common_arguments[@]}"} +set timedemo 1 +set cl_predict 0 +set nextdemo quit \
+        +set pt_times 1 "$@" ${engine_arguments[@]+"${engine_arguments[@]}"} +demomap "$demo_name") >"$log_dir/engine.log" 2>&1 </dev/null &
+    engine_pid=$!
+    stop_on_error "$engine_pid" &
+    watcher=$!
+    watch_step "$engine_pid" "$title" demo_progress || status=$?
+    engine_pid=
+    kill "$watcher" 2>/dev/null
+    wait "$watcher" 2>/dev/null
+    reason=$(fallback_reason) && die "ref_vkpt could not start: $reason"
+    grep -q '^ERROR:' "$(console_log)" && die "the engine: $(sed -n 's/^ERROR: //p' "$(console_log)" | head -n 1)"
+    ((status == 0)) || die "the engine ended with status $status; its console is in $(console_log)"
+}
+
+print_figures() {
+    local line
+    line=$(grep -oE '[0-9]+ frames, [0-9.]+ seconds: [0-9.]+ fps' "$(console_log)" | tail -n 1)
+    [[ -n $line ]] || die "the engine printed no figure; its console is in $(console_log)"
+    say "Engine:  $line"
+    grep '^ref_vkpt: pass ' "$(console_log)" | sed 's/^ref_vkpt: pass /Pass:    /'
+    return 0
+}
+
+play_timedemo() {
+    share_display
+    build_common_arguments "$(first_size)"
+    choose_demo
+    run_demo "Playing $demo_name"
+    print_figures
+}
+
+play_headless() {
+    local every=1 use=${size:-640x360} wanted=${VKPT_PICTURES:-24}
+    local -a capture=()
+    size=$use
+    fullscreen=no
+    build_common_arguments "$use"
+    start_xvfb "${use%x*}" "${use#*x}"
+    if [[ -n $map_name ]]; then
+        die "--map needs a display; without one only demos are played (--timedemo DEMO)"
+    fi
+    choose_demo
+    if [[ $timedemo == no ]]; then
+        every=$(((demo_blocks > 0 ? demo_blocks : 600) / wanted))
+        ((every > 0)) || every=1
+        expected_pictures=$(((demo_blocks + every - 1) / every))
+        capture=(+set pt_capture_dir "$capture_folder" +set pt_capture_every "$every")
+    fi
+    run_demo "Playing $demo_name in a virtual display, $use" +set s_openal 0 +set s_sdldriver dummy ${capture[@]+"${capture[@]}"}
+    if [[ $timedemo == yes ]]; then
+        print_figures
+    else
+        collect_pictures "$out_dir"
+    fi
+}
+
+# Moves the captured frames to OUT and makes the contact sheet of them.
+collect_pictures() {
+    local out=$1
+    local -a pictures=("$home_dir/.yq2/$game_name/$capture_folder"/*.png)
+    [[ -e ${pictures[0]} ]] || die "the module wrote no pictures; the engine's console is in $(console_log)"
+    mkdir -p "$out" && rm -f "$out"/frame*.png "$out/contact_sheet.png"
+    cp --no-preserve=ownership "${pictures[@]}" "$out/" || die "cannot write to $out"
+    rm -rf "${home_dir:?}/.yq2/$game_name/$capture_folder"
+    "$build_dir/scripts/contact_sheet" "$out/contact_sheet.png" "$out"/frame*.png || die "the contact sheet could not be made"
+    say "${#pictures[@]} pictures and contact_sheet.png are in $out"
+}

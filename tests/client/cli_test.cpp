@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// `vkpt` from the outside, with a module that draws a known gradient and tells what it was asked.
+#include "formats/image.hpp"
+#include "tests/client/run_program.hpp"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace vkpt::tests {
+namespace {
+
+constexpr const char* sample_entities = R"({ "classname" "worldspawn" "sky" "desert" "skyrotate" "2" "skyaxis" "0 0 1" }
+{ "classname" "info_player_deathmatch" "origin" "9 9 9" }
+{ "classname" "info_player_start" "origin" "-8 4 24" "angle" "90" })";
+
+class Cli : public testing::Test {
+protected:
+    Cli() { write_sample_map(folder, "sample", sample_entities); }
+
+    ProgramResult run(std::vector<std::string> arguments) const
+    {
+        return run_program(VKPT_PROGRAM, arguments, folder.path(),
+            { std::string("VKPT_MODULE=") + FAKE_MODULE, "XDG_CACHE_HOME=" + (folder.path() / "cache").string() });
+    }
+    ProgramResult render(std::vector<std::string> more) const
+    {
+        std::vector<std::string> arguments { "render", "maps/sample.bsp", "--size", "4x2", "--spp", "2" };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+    // Nothing but the game data and the module's cache is there.
+    void expect_no_output_left() const
+    {
+        for (const std::string& name : folder.names())
+            EXPECT_TRUE(name == "baseq2" || name == "cache") << name;
+    }
+
+    ScratchFolder folder;
+};
+
+void expect_in(const std::string& text, const std::string& part)
+{
+    EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
+}
+
+TEST_F(Cli, WrongUseExitsWithTwo)
+{
+    const std::vector<std::vector<std::string>> cases {
+        {},
+        { "paint" },
+        { "render" },
+        { "render", "maps/sample.bsp" },
+        { "render", "maps/sample.bsp", "-o", "a.gif" },
+        { "render", "sample", "-o", "a.png" },
+        { "render", "maps/sample.bsp@1,2", "-o", "a.png" },
+        { "render", "maps/sample.bsp@1,2,x,0,0", "-o", "a.png" },
+        { "render", "maps/sample.bsp", "--size", "big", "-o", "a.png" },
+        { "render", "maps/sample.bsp", "--size", "0x5", "-o", "a.png" },
+        { "render", "maps/sample.bsp", "--size", "640x480x3", "-o", "a.png" },
+        { "render", "maps/sample.bsp", "--spp", "0", "-o", "a.png" },
+        { "render", "maps/sample.bsp", "--spp", "4", "--frames", "4", "-o", "a.png" },
+        { "render", "maps/sample.bsp", "--seed", "-1", "-o", "a.png" },
+        { "render", "maps/sample.bsp", "--set", "pt_bounces", "-o", "a.png" },
+        { "render", "maps/sample.bsp", "--set", "pt_bouncess=2", "-o", "a.png" },
+        { "info", "--yaml" },
+    };
+    for (const std::vector<std::string>& arguments : cases) {
+        std::string line;
+        for (const std::string& word : arguments)
+            line += word + " ";
+        SCOPED_TRACE(line);
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.status, 2) << result.errors;
+        EXPECT_FALSE(result.errors.empty());
+        expect_no_output_left();
+    }
+}
+
+TEST_F(Cli, HelpIsNoError)
+{
+    for (const std::vector<std::string>& arguments :
+        std::vector<std::vector<std::string>> { { "--help" }, { "render", "--help" } }) {
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.status, 0);
+        EXPECT_GT(result.output.size(), 200u);
+    }
+}
+
+TEST_F(Cli, MissingMapSaysWhereItLookedAndWhatThereIs)
+{
+    const ProgramResult result = run({ "render", "maps/nowhere.bsp", "-o", "a.png" });
+    EXPECT_EQ(result.status, 1);
+    expect_in(result.errors, "maps/nowhere.bsp");
+    expect_in(result.errors, "baseq2");
+    expect_in(result.errors, "maps/sample.bsp");
+    expect_no_output_left();
+}
+
+TEST_F(Cli, MissingDataSaysWhereItLooked)
+{
+    const ProgramResult result = run({ "render", "maps/sample.bsp", "--basedir", "elsewhere", "-o", "a.png" });
+    EXPECT_EQ(result.status, 1);
+    expect_in(result.errors, "elsewhere/baseq2");
+    expect_in(result.errors, "--basedir");
+}
+
+TEST_F(Cli, BrokenMapNamesFileAndPlace)
+{
+    folder.write("baseq2/maps/broken.bsp", folder.read("baseq2/maps/sample.bsp").substr(0, 200));
+    const ProgramResult result = run({ "render", "maps/broken.bsp", "-o", "a.png" });
+    EXPECT_EQ(result.status, 1);
+    expect_in(result.errors, "maps/broken.bsp");
+    expect_no_output_left();
+}
+
+TEST_F(Cli, MapWithoutAPlayerStartAsksForACamera)
+{
+    write_sample_map(folder, "empty", R"({ "classname" "worldspawn" })");
+    const ProgramResult result = run({ "render", "maps/empty.bsp", "-o", "a.png" });
+    EXPECT_EQ(result.status, 1);
+    expect_in(result.errors, "maps/empty.bsp@x,y,z,pitch,yaw");
+    EXPECT_EQ(run({ "render", "maps/empty.bsp@0,0,9,0,0", "--spp", "1", "-o", "a.png" }).status, 0);
+}
+
+TEST_F(Cli, UnwritableOutputIsFoundBeforeTheWork)
+{
+    for (const char* name : { "nofolder/a.png", "/proc/a.png" }) {
+        const ProgramResult result = render({ "--verbose", "-o", name });
+        EXPECT_EQ(result.status, 1);
+        expect_in(result.errors, name);
+        EXPECT_EQ(result.errors.find("call init"), std::string::npos) << "the module was started";
+    }
+    std::filesystem::create_directory(folder.path() / "folder.png");
+    EXPECT_EQ(render({ "-o", "folder.png" }).status, 1);
+}
+
+TEST_F(Cli, MissingModuleSaysHowToNameOne)
+{
+    const ProgramResult result = run({ "info", "--module", "nothing.so" });
+    EXPECT_EQ(result.status, 1);
+    expect_in(result.errors, "nothing.so");
+    folder.write("text.so", "this is no library");
+    EXPECT_EQ(run({ "info", "--module", "text.so" }).status, 1);
+}
+
+TEST_F(Cli, FailureOfTheModuleIsTold)
+{
+    const ProgramResult at_start = render({ "--set", "fake_throw=init fatal", "-o", "a.png" });
+    EXPECT_EQ(at_start.status, 1);
+    expect_in(at_start.errors, "the device is lost");
+    const ProgramResult later = render({ "--set", "fake_throw=render_view level", "-o", "a.png" });
+    EXPECT_EQ(later.status, 1);
+    expect_in(later.errors, "the level is over");
+    expect_no_output_left();
+}
+
+TEST_F(Cli, CorrectedSettingIsTold)
+{
+    const ProgramResult result = render({ "--set", "pt_bounces=99", "-o", "a.png" });
+    EXPECT_EQ(result.status, 0) << result.errors;
+    expect_in(result.errors, "pt_bounces=99");
+    expect_in(result.errors, "8");
+}
+
+TEST_F(Cli, RegistersAsTheClientDoes)
+{
+    const ProgramResult result = render({ "--verbose", "-o", "a.png" });
+    EXPECT_EQ(result.status, 0) << result.errors;
+    std::istringstream lines(result.errors);
+    std::string calls;
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("call "))
+            calls += line.substr(5) + "\n";
+    const std::string frame = "begin_frame 0\nrender_view 4 2 -8 4 46 0 90 0\nend_frame\n";
+    EXPECT_EQ(calls,
+        "init\nprepare_for_window\ninit_context false\nbegin_registration sample\nregister_model maps/sample.bsp\n"
+        "set_sky desert 2 0 0 1\nend_registration\n"
+            + frame + frame + "shutdown\n");
+}
+
+TEST_F(Cli, WritesThePictureAsShown)
+{
+    ASSERT_EQ(render({ "-o", "a.png" }).status, 0);
+    const std::string file = folder.read("a.png");
+    const auto* bytes = reinterpret_cast<const std::byte*>(file.data());
+    const formats::Image image = formats::read_common_image({ bytes, file.size() }, "a.png");
+    ASSERT_EQ(image.width, 4);
+    ASSERT_EQ(image.height, 2);
+    EXPECT_EQ(image.at(0, 0), (formats::Rgba8 { 0, 100, 200, 255 }));
+    EXPECT_EQ(image.at(3, 1), (formats::Rgba8 { 13, 113, 213, 255 }));
+    EXPECT_EQ(folder.names(), (std::vector<std::string> { "a.png", "baseq2", "cache" }));
+}
+
+TEST_F(Cli, WritesRadianceAsPfm)
+{
+    ASSERT_EQ(render({ "-o", "a.pfm" }).status, 0);
+    const std::string file = folder.read("a.pfm");
+    const std::string header = "PF\n4 2\n-1";
+    ASSERT_TRUE(file.starts_with(header)) << file.substr(0, 16);
+    const size_t pixel_bytes = 4 * 2 * 3 * sizeof(float);
+    ASSERT_GT(file.size(), pixel_bytes);
+    float lower_left[3];
+    std::memcpy(lower_left, file.data() + file.size() - pixel_bytes, sizeof lower_left);
+    EXPECT_EQ(lower_left[0], 10); // the format's rows go from the bottom up
+    EXPECT_EQ(lower_left[2], 210);
+}
+
+TEST_F(Cli, WritesRadianceAsExr)
+{
+    ASSERT_EQ(render({ "-o", "a.exr" }).status, 0);
+    Imf::InputFile file((folder.path() / "a.exr").c_str());
+    ASSERT_EQ(file.header().dataWindow().max.x, 3);
+    ASSERT_EQ(file.header().dataWindow().max.y, 1);
+    ASSERT_TRUE(file.header().channels().findChannel("G"));
+    EXPECT_EQ(file.header().channels().findChannel("G")->type, Imf::FLOAT);
+    float green[2][4] = {};
+    Imf::FrameBuffer frame;
+    frame.insert("G", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(&green[0][0]), sizeof(float), sizeof green[0]));
+    file.setFrameBuffer(frame);
+    file.readPixels(0, 1);
+    EXPECT_EQ(green[0][0], 100);
+    EXPECT_EQ(green[1][3], 113);
+}
+
+TEST_F(Cli, CvarPageIsTheOneInTheDocs)
+{
+    const ProgramResult result = run({ "info", "--cvars" });
+    EXPECT_EQ(result.status, 0);
+    const std::filesystem::path page(CVAR_PAGE);
+    std::ifstream stream(page);
+    const std::string stored { std::istreambuf_iterator<char>(stream), {} };
+    EXPECT_EQ(result.output, stored) << "write it anew: vkpt info --cvars > docs/cvars.md";
+}
+
+void expect_info_schema(const ProgramResult& result)
+{
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const nlohmann::json info = nlohmann::json::parse(result.output);
+    EXPECT_EQ(info.at("schema"), 1);
+    for (const char* key : { "module", "device", "driver", "vulkan", "trace_backend" })
+        EXPECT_FALSE(info.at(key).get<std::string>().empty()) << key;
+    EXPECT_EQ(info.at("api_versions"), (std::vector<int> { 5, 6, 7, 8 }));
+    const std::vector<std::string> backends = info.at("trace_backends");
+    EXPECT_TRUE(std::ranges::count(backends, info.at("trace_backend").get<std::string>())) << info.dump(2);
+    const std::vector<std::string> samplers = info.at("light_samplers");
+    EXPECT_TRUE(std::ranges::count(samplers, "uniform")) << info.dump(2);
+    EXPECT_TRUE(std::ranges::count(samplers, "subset")) << info.dump(2);
+    EXPECT_TRUE(info.at("denoisers").is_array());
+    EXPECT_GE(info.at("limits").at("entities"), 128);
+    EXPECT_GE(info.at("limits").at("dlights"), 32);
+    EXPECT_GE(info.at("limits").at("particles"), 4096);
+    EXPECT_GE(info.at("limits").at("image_size"), 4096);
+}
+
+TEST_F(Cli, InfoHasItsSchema)
+{
+    expect_info_schema(run({ "info", "--json" }));
+    const nlohmann::json with_cvars = nlohmann::json::parse(run({ "info", "--json", "--cvars" }).output);
+    EXPECT_EQ(with_cvars.at("cvars").at(0).at("name"), "pt_bounces");
+    expect_in(run({ "info" }).output, "a device of paper");
+}
+
+#ifdef REAL_MODULE
+TEST_F(Cli, InfoOfTheRealModuleHasItsSchema) { expect_info_schema(run({ "info", "--json", "--module", REAL_MODULE })); }
+
+TEST_F(Cli, RealModuleRefusesWhatItCannotDo)
+{
+    const ProgramResult result = run({ "info", "--module", REAL_MODULE, "--set", "pt_device=no such device" });
+    EXPECT_EQ(result.status, 1);
+    expect_in(result.errors, "no such device");
+}
+
+TEST_F(Cli, RealModuleRendersTheSampleMap)
+{
+    const ProgramResult result = render({ "--module", REAL_MODULE, "-o", "a.png" });
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_FALSE(folder.read("a.png").empty());
+}
+#endif
+
+} // namespace
+} // namespace vkpt::tests

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/cvars.hpp"
+
+#include "ref_vkpt/cvars_rows.hpp"
+#include "ref_vkpt/engine/engine.hpp"
+#include "tests/contract/mock_engine.hpp"
+
+#include <gtest/gtest.h>
+#include <set>
+
+namespace vkpt::tests {
+namespace {
+
+class Cvars : public testing::Test {
+protected:
+    Cvars()
+    {
+        engine::attach(mock.imports());
+        cvars::register_all();
+    }
+
+    MockEngine mock;
+};
+
+TEST_F(Cvars, EveryRowIsRegisteredWithItsDefault)
+{
+    for (const CvarRow& row : cvar_rows) {
+        EXPECT_EQ(mock.get(row.name), row.initial) << row.name;
+        EXPECT_EQ(bool(mock.cvar_flags[row.name] & engine::CVAR_ARCHIVE), row.keep != CvarKeep::session) << row.name;
+    }
+    EXPECT_EQ(mock.cvar_flags["hand"], engine::CVAR_ARCHIVE | engine::CVAR_USERINFO);
+    EXPECT_TRUE(mock.console.empty()) << mock.console.front();
+    EXPECT_EQ(cvars::values(), CvarValues());
+}
+
+TEST_F(Cvars, RowsAreSound)
+{
+    std::set<std::string> names;
+    for (const CvarRow& row : cvar_rows) {
+        SCOPED_TRACE(row.name);
+        EXPECT_TRUE(names.insert(row.name).second) << "stands twice";
+        EXPECT_TRUE(std::string_view(row.help).ends_with('.'));
+        if (row.owner == CvarOwner::engine)
+            continue;
+        EXPECT_TRUE(std::string_view(row.name).starts_with("pt_"));
+        if (row.type == CvarType::text) {
+            EXPECT_TRUE(*row.choices == '\0' || find_choice(row.choices, row.initial) >= 0);
+        } else {
+            EXPECT_GE(std::stod(row.initial), row.lowest);
+            EXPECT_LE(std::stod(row.initial), row.highest);
+        }
+    }
+}
+
+TEST_F(Cvars, ChangesArriveAtTheNextUpdate)
+{
+    EXPECT_FALSE(cvars::update());
+    mock.set("pt_bounces", "3");
+    mock.set("pt_sky_scale", "2.5");
+    mock.set("pt_debug_view", "normal");
+    mock.set("r_mode", "-2");
+    EXPECT_TRUE(cvars::update());
+    EXPECT_EQ(cvars::values().pt_bounces, 3);
+    EXPECT_EQ(cvars::values().pt_sky_scale, 2.5f);
+    EXPECT_EQ(cvars::values().pt_debug_view, "normal");
+    EXPECT_EQ(cvars::values().r_mode, -2);
+    EXPECT_FALSE(cvars::update());
+    EXPECT_TRUE(mock.console.empty()) << mock.console.front();
+}
+
+TEST_F(Cvars, ShadersSeeTheNumbers)
+{
+    mock.set("pt_bounces", "3");
+    mock.set("pt_exposure_bias", "-1.5");
+    mock.set("pt_debug_view", "light");
+    mock.set("pt_tone_map", "none");
+    cvars::update();
+    const shared::ShaderCvars numbers = cvars::shader_values();
+    EXPECT_EQ(numbers.pt_bounces, 3);
+    EXPECT_EQ(numbers.pt_exposure_bias, -1.5f);
+    EXPECT_EQ(numbers.pt_debug_view, shared::DEBUG_VIEW_LIGHT);
+    EXPECT_EQ(numbers.pt_tone_map, shared::TONE_MAP_NONE);
+}
+
+struct Correction {
+    const char* name;
+    const char* given;
+    const char* used;
+};
+class CorrectedCvar : public Cvars, public testing::WithParamInterface<Correction> { };
+INSTANTIATE_TEST_SUITE_P(Values, CorrectedCvar,
+    testing::Values(Correction { "pt_bounces", "99", "8" }, Correction { "pt_bounces", "-1", "0" },
+        Correction { "pt_bounces", "2.7", "2" }, Correction { "pt_bounces", "many", "1" },
+        Correction { "pt_bounces", "", "1" }, Correction { "pt_bounces", "3x", "1" },
+        Correction { "pt_bounces", "1e999", "1" }, Correction { "pt_seed", "99999999999", "16777215" },
+        Correction { "pt_exposure_bias", "-9", "-8" }, Correction { "pt_exposure_bias", "nan", "0" },
+        Correction { "pt_exposure_bias", "inf", "0" }, Correction { "pt_roughness_default", "0", "0.02" },
+        Correction { "pt_trace", "magic", "auto" }, Correction { "pt_tone_map", "", "filmic" }));
+
+TEST_P(CorrectedCvar, IsPutRightWithOneLine)
+{
+    const auto [name, given, used] = GetParam();
+    mock.set(name, given);
+    cvars::update();
+    EXPECT_EQ(mock.get(name), used);
+    ASSERT_EQ(mock.console.size(), 1u);
+    EXPECT_NE(mock.console[0].find(name), std::string::npos) << mock.console[0];
+    EXPECT_NE(mock.console[0].find(find_cvar_row(name)->initial), std::string::npos) << mock.console[0];
+    cvars::update();
+    EXPECT_EQ(mock.console.size(), 1u) << "said again: " << mock.console.back();
+}
+
+TEST_F(Cvars, ValidSpellingsStay)
+{
+    for (const char* text : { "2", " 2 ", "+2", "2.0", "2e0" }) {
+        mock.set("pt_bounces", text);
+        cvars::update();
+        EXPECT_EQ(cvars::values().pt_bounces, 2) << text;
+        EXPECT_EQ(mock.get("pt_bounces"), text);
+    }
+    EXPECT_TRUE(mock.console.empty()) << mock.console.front();
+}
+
+TEST_F(Cvars, TheEnginesOwnAreNotJudged)
+{
+    mock.set("r_customwidth", "nonsense");
+    mock.set("vid_gamma", "1e30");
+    cvars::update();
+    EXPECT_EQ(cvars::values().r_customwidth, 0);
+    EXPECT_EQ(mock.get("r_customwidth"), "nonsense");
+    EXPECT_TRUE(mock.console.empty()) << mock.console.front();
+}
+
+TEST_F(Cvars, ValuesOfTheConfigurationCountFromTheStart)
+{
+    mock.set("pt_light_subset", "17");
+    mock.set("pt_view_scale", "10");
+    cvars::register_all();
+    EXPECT_EQ(cvars::values().pt_light_subset, 17);
+    EXPECT_EQ(cvars::values().pt_view_scale, 25);
+}
+
+TEST_F(Cvars, FilesAreGivenBack)
+{
+    mock.files["a.txt"] = "hello";
+    {
+        const auto file = engine::load_file("a.txt");
+        ASSERT_TRUE(file);
+        EXPECT_EQ(file->size(), 5u);
+        EXPECT_EQ(char(file->bytes()[4]), 'o');
+        EXPECT_EQ(mock.files_out, 1);
+        engine::FileData moved = engine::load_file("a.txt").value();
+        moved = engine::load_file("a.txt").value();
+        EXPECT_EQ(mock.files_out, 2);
+    }
+    EXPECT_EQ(mock.files_out, 0);
+    EXPECT_FALSE(engine::load_file("b.txt"));
+    EXPECT_TRUE(engine::file_exists("a.txt"));
+    EXPECT_FALSE(engine::file_exists("b.txt"));
+}
+
+} // namespace
+} // namespace vkpt::tests

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One run of the real engine on our module: started through scripts/run_engine.sh, watched, and ended if it takes too
+// long.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vkpt::tests {
+
+inline constexpr const char* own_map = "vkpt1";
+inline constexpr const char* own_demo = "vkpt1.dm2";
+
+struct EngineOptions {
+    std::vector<std::string> arguments; // the engine's, in order
+    std::string script; // console commands, one a line; run with "+exec test.cfg"
+    std::vector<std::string> environment; // NAME=VALUE
+    int width = 320, height = 180;
+    std::chrono::seconds limit { 120 };
+    bool validation = true; // Vulkan's validation layers
+};
+
+struct EngineResult {
+    int status = -1; // exit status; 128 + signal
+    bool timed_out = false;
+    std::string console;
+    std::string output; // stdout and stderr
+    std::filesystem::path game_folder; // the engine's writable one; gone with the EngineRun
+    std::vector<uint64_t> marked_memory; // resident bytes at each console line "memory mark"
+};
+
+// Console aliases wait_5, wait_25, wait_100: each wait is a frame and at least 16 ms.
+std::string wait_aliases();
+// A line for EngineOptions::script that makes the harness note the engine's memory.
+inline constexpr const char* memory_mark = "echo memory mark\nwait_25\n";
+
+// Owns the run's folder; the result is valid as long as it lives.
+class EngineRun {
+public:
+    explicit EngineRun(const EngineOptions& options);
+    ~EngineRun();
+    EngineRun(const EngineRun&) = delete;
+    EngineRun& operator=(const EngineRun&) = delete;
+
+    const EngineResult& result() const { return outcome; }
+
+    // Exit status 0 in time, our module loaded every time a renderer was, no message of the validation layers.
+    void expect_clean() const;
+    // The lines of the console that contain `text`.
+    std::vector<std::string> lines_with(const std::string& text) const;
+
+private:
+    void make_folder(const EngineOptions& options);
+    int start(const EngineOptions& options);
+    void watch(int process, std::chrono::seconds limit);
+    void note_marks();
+
+    std::filesystem::path folder;
+    EngineResult outcome;
+};
+
+} // namespace vkpt::tests

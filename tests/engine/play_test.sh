@@ -1,0 +1,45 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# ./play without a display: pictures and a contact sheet, quickly a second time, and clear words for wrong use.
+#   play_test.sh BUILD_DIR
+set -uo pipefail
+root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/../.." && pwd)
+export VKPT_BUILD_DIR=$1 CI=true
+folder=$(mktemp -d)
+chmod 755 "$folder"
+trap 'rm -rf "$folder"' EXIT
+export VKPT_RUN_DIR=$folder/run VKPT_CACHE_DIR=$1/tests/engine/cache VKPT_PICTURES=6
+unset DISPLAY WAYLAND_DISPLAY
+failures=0
+
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+# expect STATUS PATTERN COMMAND...: the command ends with STATUS and says PATTERN.
+expect() {
+    local status=$1 pattern=$2 output got=0
+    shift 2
+    output=$("$@" 2>&1 </dev/null) || got=$?
+    [[ $got -eq $status ]] || fail "$* ended with $got instead of $status: $output"
+    grep -qE -- "$pattern" <<<"$output" || fail "$* did not say '$pattern': $output"
+}
+
+play() { "$root/play" --no-setup "$@"; }
+
+expect 0 'contact_sheet.png' play --size 160x90 --out "$folder/out"
+pictures=$(find "$folder/out" -name 'frame*.png' | wc -l)
+((pictures >= 5 && pictures <= 13)) || fail "$pictures pictures instead of about 6"
+[[ -s $folder/out/contact_sheet.png ]] || fail "no contact sheet"
+expect 0 'Engine: +[0-9]+ frames, .* fps' play --size 160x90 --timedemo
+expect 0 'Pass: +' play --size 160x90 --timedemo --set pt_bounces=0
+expect 1 'no demo .nothere' play --timedemo nothere
+expect 1 'no map .nothere' play --headless --map nothere
+expect 1 'no Quake II data in' play --data "$folder"
+expect 1 'no-such-gpu' play --size 160x90 --timedemo --set pt_device=no-such-gpu
+expect 2 'WIDTHxHEIGHT' play --size wide
+expect 2 'NAME=VALUE' play --set pt_bounces
+expect 2 'unknown option' play --nonsense
+expect 0 'Usage' play --help
+pgrep -f "$VKPT_RUN_DIR" >/dev/null && fail "something was left running: $(pgrep -af "$VKPT_RUN_DIR")"
+((failures == 0))

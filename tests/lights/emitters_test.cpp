@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/lights/emitters.hpp"
+#include "synthetic_bsp.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace vkpt::test {
+namespace {
+
+constexpr float pi = 3.14159265358979f;
+
+glm::vec3 reddish(const std::string&) { return { 0.4f, 0.2f, 0.1f }; }
+
+StaticEmitters extract_with_entities(const std::string& entities, const EmissionScales& scales = {})
+{
+    formats::Bsp bsp = make_cell_map(2, { true, true, true, true });
+    bsp.faces.clear();
+    bsp.models[0].face_count = 0;
+    bsp.entity_text = entities;
+    return extract_emitters(bsp, reddish, scales);
+}
+
+bool mentions(const StaticEmitters& emitters, const std::string& text)
+{
+    return std::any_of(emitters.messages.begin(), emitters.messages.end(),
+        [&](const std::string& message) { return message.find(text) != std::string::npos; });
+}
+
+TEST(Emitters, FacesBecomeTriangles)
+{
+    const formats::Bsp bsp = make_cell_map(4, std::vector<bool>(16, true));
+    const EmissionScales scales { .face = 0.01f, .sky = 3 };
+    const StaticEmitters emitters = extract_emitters(bsp, reddish, scales);
+    EXPECT_TRUE(emitters.messages.empty());
+    EXPECT_EQ(emitters.emitters.size(), 12u * 2);
+    for (size_t face = 0; face < bsp.faces.size(); face++) {
+        const int kind = bsp.faces[face].texinfo;
+        if (kind == 0) {
+            EXPECT_EQ(emitters.first_of_face[face], -1);
+            EXPECT_EQ(emitters.count_of_face[face], 0u);
+            continue;
+        }
+        ASSERT_EQ(emitters.count_of_face[face], 2u);
+        const auto triangles = triangulate_face(bsp, face);
+        for (uint32_t i = 0; i < 2; i++) {
+            const shared::Emitter& e = emitters.emitters[size_t(emitters.first_of_face[face]) + i];
+            EXPECT_EQ(e.p0, bsp.face_polygon(face)[triangles[i][0]]);
+            EXPECT_FLOAT_EQ(e.area, cell_size * cell_size / 2);
+            EXPECT_GT(glm::cross(e.p1 - e.p0, e.p2 - e.p0).z, 0);
+            EXPECT_EQ(e.type, kind == 3 ? shared::EMITTER_SKY : shared::EMITTER_TRIANGLE);
+            const float red = kind == 1 ? 1 : kind == 2 ? 2 : 1.2f;
+            EXPECT_FLOAT_EQ(e.radiance.x, red);
+            EXPECT_FLOAT_EQ(e.radiance.y, red / 2);
+            EXPECT_FLOAT_EQ(e.radiance.z, red / 4);
+        }
+    }
+}
+
+// What a camera ray sees (Material::emission * picture) is, on average, what the sampled emitter sends.
+TEST(Emitters, MaterialEmissionAgreesWithRadiance)
+{
+    const formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+    const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
+    ASSERT_EQ(emitters.face_emission.size(), bsp.texinfos.size());
+    EXPECT_EQ(emitters.face_emission[0], glm::vec3(0));
+    EXPECT_EQ(emitters.face_emission[3], glm::vec3(0)); // sky: not from its own picture
+    for (size_t face = 1; face < 3; face++) {
+        const shared::Emitter& e = emitters.emitters[size_t(emitters.first_of_face[face])];
+        const glm::vec3 shown = emitters.face_emission[bsp.faces[face].texinfo] * reddish("");
+        EXPECT_NEAR(glm::distance(shown, e.radiance), 0, 1e-5);
+    }
+}
+
+TEST(Emitters, LitSkyEmitsItsValue)
+{
+    formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+    bsp.texinfos[3].flags |= formats::SURF_LIGHT;
+    bsp.texinfos[3].value = 50;
+    const StaticEmitters emitters = extract_emitters(bsp, reddish, { .face = 0.01f, .sky = 7 });
+    const shared::Emitter& e = emitters.emitters[size_t(emitters.first_of_face[3])];
+    EXPECT_EQ(e.type, shared::EMITTER_SKY);
+    EXPECT_FLOAT_EQ(e.radiance.x, 0.5f);
+}
+
+TEST(Emitters, UndrawnAndBlackLightsAreNamed)
+{
+    formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+    bsp.texinfos[1].flags |= formats::SURF_NODRAW;
+    const StaticEmitters emitters = extract_emitters(
+        bsp, [](const std::string& name) { return name == "test/c" ? glm::vec3(0) : glm::vec3(1); }, {});
+    EXPECT_EQ(emitters.first_of_face[1], -1);
+    EXPECT_EQ(emitters.first_of_face[2], -1);
+    EXPECT_TRUE(mentions(emitters, "test/b"));
+    EXPECT_TRUE(mentions(emitters, "test/c"));
+}
+
+TEST(Emitters, FollowTheOrderOfLeaves)
+{
+    const formats::Bsp bsp = make_cell_map(16, make_random_cells(16, 0.7, 3));
+    const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
+    size_t last = 0;
+    for (const shared::Emitter& e : emitters.emitters) {
+        const size_t leaf = bsp.find_leaf((e.p0 + e.p1 + e.p2) / 3.0f + glm::vec3(0, 0, 1));
+        EXPECT_GE(leaf, last);
+        last = leaf;
+    }
+}
+
+TEST(Emitters, BrushModelsAreSeparate)
+{
+    formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+    formats::BspModel door {};
+    door.first_face
+        = int32_t(add_face(bsp, { { 0, 0, 8 }, { 9, 0, 8 }, { 9, 9, 8 }, { 0, 9, 8 } }, glm::vec3(0, 0, 1), 2));
+    door.face_count = 1;
+    bsp.models.push_back(door);
+    EXPECT_EQ(extract_emitters(bsp, reddish, {}).emitters.size(), 6u);
+    EXPECT_EQ(emitters_of_brush_model(bsp, 1, reddish, {}).size(), 2u);
+}
+
+TEST(PointLights, HaveTheirValueColourAndStyle)
+{
+    EmissionScales scales;
+    scales.point = 200;
+    const StaticEmitters emitters = extract_with_entities(
+        R"({ "classname" "worldspawn" } { "classname" "light" "origin" "64 64 64" "light" "150" "_color" "1 .5 0" "style" "5" }
+           { "classname" "light" "origin" "200 64 64" } { "classname" "light_mine1" "origin" "64 64 32" })",
+        scales);
+    ASSERT_EQ(emitters.emitters.size(), 2u);
+    const shared::Emitter& first = emitters.emitters[0].lightstyle == 5 ? emitters.emitters[0] : emitters.emitters[1];
+    const shared::Emitter& second = emitters.emitters[0].lightstyle == 5 ? emitters.emitters[1] : emitters.emitters[0];
+    EXPECT_EQ(first.type, shared::EMITTER_SPHERE);
+    EXPECT_EQ(first.p0, glm::vec3(64));
+    EXPECT_FLOAT_EQ(first.p1.x, scales.point_light_radius);
+    EXPECT_FLOAT_EQ(first.area, 4 * pi * scales.point_light_radius * scales.point_light_radius);
+    // Radiant intensity = radiance * cross-section.
+    const float cross_section = pi * first.p1.x * first.p1.x;
+    EXPECT_FLOAT_EQ(first.radiance.x * cross_section, 150 * 200);
+    EXPECT_FLOAT_EQ(first.radiance.y * cross_section, 75 * 200);
+    EXPECT_EQ(first.radiance.z, 0);
+    EXPECT_FLOAT_EQ(second.radiance.x * cross_section, 300 * 200); // the default
+    EXPECT_EQ(second.lightstyle, 0u);
+}
+
+// A light close to the ceiling keeps its power in a smaller sphere that no wall cuts.
+TEST(PointLights, StayOutOfWalls)
+{
+    const StaticEmitters close = extract_with_entities(R"({ "classname" "light" "origin" "64 64 126" "light" "300" })");
+    ASSERT_EQ(close.emitters.size(), 1u);
+    const shared::Emitter& e = close.emitters[0];
+    EXPECT_LE(e.p1.x, 2);
+    EXPECT_FLOAT_EQ(e.radiance.x * pi * e.p1.x * e.p1.x, 300 * EmissionScales().point);
+
+    const StaticEmitters inside = extract_with_entities(R"({ "classname" "light" "origin" "64 64 130" })");
+    ASSERT_EQ(inside.emitters.size(), 1u);
+    EXPECT_LT(inside.emitters[0].p0.z, cell_size);
+
+    const StaticEmitters buried = extract_with_entities(R"({ "classname" "light" "origin" "64 64 1000" })");
+    EXPECT_TRUE(buried.emitters.empty());
+    EXPECT_TRUE(mentions(buried, "64 64 1000"));
+}
+
+TEST(PointLights, BadEntitiesAreNamedNotFatal)
+{
+    EXPECT_TRUE(mentions(extract_with_entities(R"({ "classname" "light" "origin" "nowhere" })"), "origin"));
+    EXPECT_TRUE(
+        mentions(extract_with_entities(R"({ "classname" "light" "origin" "64 64 64" "light" "-200" })"), "-200"));
+    EXPECT_TRUE(
+        mentions(extract_with_entities(R"({ "classname" "light" "origin" "64 64 64" "target" "t1" })"), "spotlight"));
+    const StaticEmitters broken = extract_with_entities(R"({ "classname" "light)");
+    EXPECT_TRUE(broken.emitters.empty());
+    EXPECT_FALSE(broken.messages.empty());
+}
+
+TEST(DynamicLight, MatchesTheEngineAtHalfItsReach)
+{
+    const shared::Emitter e = make_dynamic_light(glm::vec3(1, 2, 3), glm::vec3(1, 0.5f, -1), 200);
+    EXPECT_EQ(e.reach, 200);
+    const float intensity = e.radiance.x * pi * e.p1.x * e.p1.x;
+    const float window = 0.9375f * 0.9375f;
+    EXPECT_NEAR(intensity * window / (pi * 100 * 100), (200 - 100) / 128.0f, 1e-4);
+    EXPECT_FLOAT_EQ(e.radiance.y, 0.5f * e.radiance.x);
+    EXPECT_EQ(e.radiance.z, 0);
+}
+
+} // namespace
+} // namespace vkpt::test

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The function libraries of shaders/lib as C++, in vkpt::test::glsl. Include it in one source file per test program
+// part: its functions are not inline, hence the anonymous namespace.
+#pragma once
+
+#include "shaders/shared/functions.h"
+#include "shaders/shared/scene.h"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+namespace vkpt::test::glsl {
+namespace {
+
+using namespace vkpt::shared;
+using namespace ::glm;
+
+#include "shaders/lib/bsdf.glsl"
+#include "shaders/lib/emitters.glsl"
+#include "shaders/lib/light_lists.glsl"
+#include "shaders/lib/random.glsl"
+
+} // namespace
+} // namespace vkpt::test::glsl
+#pragma GCC diagnostic pop

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The builder alone: decodes what it wrote and checks what the traversal relies on.
+#include "ref_vkpt/trace/bvh.hpp"
+#include "shaders/shared/trace.h"
+#include "tests/trace/scenes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace vkpt::tests {
+namespace {
+
+using namespace shared;
+
+struct DecodedTriangle {
+    glm::vec3 corners[3];
+    uint32_t id_and_mask;
+};
+static_assert(sizeof(DecodedTriangle) == BVH_TRIANGLE_BYTES);
+
+DecodedTriangle decode_triangle(const Bvh& bvh, uint32_t slot)
+{
+    DecodedTriangle triangle;
+    std::memcpy(static_cast<void*>(&triangle), &bvh.triangles[slot * size_t(BVH_TRIANGLE_BYTES) / 4], sizeof triangle);
+    return triangle;
+}
+
+struct DecodedChild {
+    uint16_t low[3], high[3];
+    uint32_t word;
+    bool exists() const { return word != BVH_NO_CHILD; }
+    bool is_leaf() const { return word & BVH_LEAF; }
+    uint32_t first() const { return word & BVH_LEAF_FIRST_MASK; }
+    uint32_t count() const { return ((word & BVH_LEAF_COUNT_MASK) >> BVH_LEAF_COUNT_SHIFT) + 1; }
+};
+
+DecodedChild decode_child(const Bvh& bvh, uint32_t node, uint32_t slot)
+{
+    const auto* bytes = reinterpret_cast<const std::byte*>(bvh.nodes.data()) + node * size_t(BVH_NODE_BYTES);
+    DecodedChild child;
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        std::memcpy(&child.low[axis], bytes + axis * 32 + slot * 2, 2);
+        std::memcpy(&child.high[axis], bytes + axis * 32 + 16 + slot * 2, 2);
+    }
+    std::memcpy(&child.word, bytes + BVH_CHILD_WORDS_OFFSET + slot * 4, 4);
+    return child;
+}
+
+struct WorldBox {
+    glm::dvec3 low { std::numeric_limits<double>::max() }, high { std::numeric_limits<double>::lowest() };
+};
+
+struct TreeCheck {
+    const Bvh& bvh;
+    std::vector<uint32_t> node_visits, triangle_visits;
+
+    explicit TreeCheck(const Bvh& tree)
+        : bvh(tree)
+        , node_visits(tree.node_count)
+        , triangle_visits(tree.triangle_count)
+    {
+    }
+
+    // Checks that what lies below is inside the planes of each child; returns its bounds and the stack it needs.
+    std::pair<WorldBox, uint32_t> check(uint32_t node, uint32_t depth)
+    {
+        WorldBox bounds;
+        uint32_t children = 0, need = 0;
+        if (node >= bvh.node_count || depth > bvh.max_depth) {
+            ADD_FAILURE() << "node " << node << " of " << bvh.node_count << " at depth " << depth;
+            return { bounds, 0 };
+        }
+        node_visits[node]++;
+        for (uint32_t slot = 0; slot < BVH_WIDTH; slot++) {
+            DecodedChild child = decode_child(bvh, node, slot);
+            if (!child.exists()) {
+                for (int axis = 0; axis < 3; axis++)
+                    EXPECT_GT(child.low[axis], child.high[axis]);
+                continue;
+            }
+            children++;
+            auto [inside, child_need]
+                = child.is_leaf() ? std::pair(leaf_bounds(child), 0u) : check(child.word, depth + 1);
+            need = std::max(need, child_need);
+            expect_contained(child, inside, node, slot);
+            bounds.low = glm::min(bounds.low, inside.low);
+            bounds.high = glm::max(bounds.high, inside.high);
+        }
+        return { bounds, need + (children ? children - 1 : 0) };
+    }
+
+    WorldBox leaf_bounds(const DecodedChild& leaf)
+    {
+        WorldBox bounds;
+        EXPECT_LE(leaf.count(), BVH_MAX_LEAF_TRIANGLES);
+        for (uint32_t slot = leaf.first(); slot < leaf.first() + leaf.count(); slot++) {
+            if (slot >= bvh.triangle_count) {
+                ADD_FAILURE() << "triangle " << slot << " of " << bvh.triangle_count;
+                break;
+            }
+            triangle_visits[slot]++;
+            DecodedTriangle triangle = decode_triangle(bvh, slot);
+            for (glm::dvec3 q : triangle.corners) {
+                bounds.low = glm::min(bounds.low, q);
+                bounds.high = glm::max(bounds.high, q);
+            }
+        }
+        return bounds;
+    }
+
+    // With half a cell to spare: the shader needs the margin for its own rounding.
+    void expect_contained(const DecodedChild& child, const WorldBox& inside, uint32_t node, uint32_t slot) const
+    {
+        for (int axis = 0; axis < 3; axis++) {
+            double cell = 1.0 / double(bvh.grid_scale[axis]), origin = double(bvh.grid_origin[axis]);
+            EXPECT_LE(origin + (child.low[axis] + 0.5) * cell, inside.low[axis])
+                << "node " << node << " child " << slot;
+            EXPECT_GE(origin + (child.high[axis] - 0.5) * cell, inside.high[axis])
+                << "node " << node << " child " << slot;
+        }
+    }
+};
+
+// Everything that must hold for any input. `expected`: the ids that must be there, each as often as it is named.
+void expect_sound(const Bvh& bvh, std::vector<uint32_t> expected)
+{
+    ASSERT_GE(bvh.node_count, 1u);
+    ASSERT_EQ(bvh.nodes.size(), bvh.node_count * size_t(BVH_NODE_BYTES) / 4);
+    ASSERT_GE(bvh.triangles.size(), bvh.triangle_count * size_t(BVH_TRIANGLE_BYTES) / 4);
+    TreeCheck check(bvh);
+    uint32_t need = check.check(0, 1).second;
+    EXPECT_LE(need, TRACE_STACK_ENTRIES);
+    EXPECT_TRUE(std::all_of(check.node_visits.begin(), check.node_visits.end(), [](uint32_t n) { return n == 1; }));
+    EXPECT_TRUE(
+        std::all_of(check.triangle_visits.begin(), check.triangle_visits.end(), [](uint32_t n) { return n == 1; }));
+    std::vector<uint32_t> ids;
+    for (uint32_t slot = 0; slot < bvh.triangle_count; slot++)
+        ids.push_back(decode_triangle(bvh, slot).id_and_mask & BVH_ID_MASK);
+    std::sort(ids.begin(), ids.end());
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(ids, expected);
+}
+
+std::vector<uint32_t> ids_of(std::span<const BvhTriangle> triangles)
+{
+    std::vector<uint32_t> ids;
+    for (const BvhTriangle& triangle : triangles)
+        ids.push_back(triangle.id);
+    return ids;
+}
+
+BvhTriangle small_triangle(glm::vec3 at, uint32_t id, float size = 1.0f)
+{
+    return { { at, at + glm::vec3(size, 0, 0), at + glm::vec3(0, size, 0) }, id, 1 };
+}
+
+class BuildBvh : public testing::TestWithParam<BvhQuality> {
+protected:
+    void expect_sound_tree_of(std::span<const BvhTriangle> triangles) const
+    {
+        expect_sound(build_bvh(triangles, GetParam()), ids_of(triangles));
+    }
+};
+std::string quality_name(const testing::TestParamInfo<BvhQuality>& quality)
+{
+    return quality.param == BvhQuality::best ? "best" : "fast";
+}
+INSTANTIATE_TEST_SUITE_P(Quality, BuildBvh, testing::Values(BvhQuality::best, BvhQuality::fast), quality_name);
+
+TEST_P(BuildBvh, makes_an_empty_tree_of_nothing)
+{
+    Bvh bvh = build_bvh({}, GetParam());
+    expect_sound(bvh, {});
+    EXPECT_EQ(bvh.triangle_count, 0u);
+    EXPECT_EQ(bvh.node_count, 1u);
+    EXPECT_FALSE(bvh.triangles.empty());
+}
+
+TEST_P(BuildBvh, keeps_a_single_triangle_as_it_is)
+{
+    BvhTriangle triangle { { { 1, 2, 3 }, { 5, 2, 4 }, { 1, 9, 3.5f } }, 0x123456, 0x85 };
+    Bvh bvh = build_bvh(std::span(&triangle, 1), GetParam());
+    expect_sound(bvh, { 0x123456 });
+    DecodedTriangle decoded = decode_triangle(bvh, 0);
+    for (int corner = 0; corner < 3; corner++)
+        EXPECT_EQ(decoded.corners[corner], triangle.positions[corner]);
+    EXPECT_EQ(decoded.id_and_mask, 0x85123456u);
+}
+
+TEST_P(BuildBvh, holds_every_count_up_to_a_few_nodes)
+{
+    Random random(1);
+    for (size_t count = 1; count < 80; count++)
+        expect_sound_tree_of(random_triangles(random, count, 64.0f));
+}
+
+TEST_P(BuildBvh, holds_a_hundred_thousand)
+{
+    Random random(2);
+    expect_sound_tree_of(random_triangles(random, 100'000, 50.0f));
+}
+
+TEST_P(BuildBvh, holds_large_and_small_together)
+{
+    Random random(3);
+    std::vector<BvhTriangle> triangles = random_triangles(random, 3000, 4000.0f);
+    std::vector<BvhTriangle> small = random_triangles(random, 20'000, 0.01f, 3000);
+    triangles.insert(triangles.end(), small.begin(), small.end());
+    expect_sound_tree_of(triangles);
+}
+
+TEST_P(BuildBvh, holds_identical_triangles)
+{
+    std::vector<BvhTriangle> triangles;
+    for (uint32_t id = 0; id < 50'000; id++)
+        triangles.push_back(small_triangle(glm::vec3(7, -3, 11), id));
+    expect_sound_tree_of(triangles);
+}
+
+// Each triangle twice as far out as the one before: what peels off one by one and would make the deepest tree.
+TEST_P(BuildBvh, stays_walkable_on_exponential_spacing)
+{
+    std::vector<BvhTriangle> triangles;
+    for (int axis = 0; axis < 3; axis++)
+        for (int exponent = -90; exponent < 50; exponent++)
+            for (int copy = 0; copy < 7; copy++) {
+                glm::vec3 at(0.0f);
+                at[axis] = std::ldexp(1.0f, exponent);
+                triangles.push_back(small_triangle(at, uint32_t(triangles.size()), std::ldexp(1.0f, exponent - 6)));
+            }
+    std::vector<uint32_t> ids = ids_of(triangles);
+    Bvh bvh = build_bvh(triangles, GetParam());
+    // Among sizes from 2^-90 to 2^50 the grid's cells are coarse and edges vanish against corners: containment still
+    // holds.
+    expect_sound(bvh, ids);
+}
+
+TEST_P(BuildBvh, stays_walkable_on_nested_triangles)
+{
+    std::vector<BvhTriangle> triangles;
+    for (uint32_t i = 0; i < 4000; i++) {
+        float size = std::pow(1.01f, float(i % 2000)) * 1e-3f;
+        triangles.push_back({ { { -size, -size, 0 }, { size, -size, 0 }, { 0, size, size } }, i, 1 });
+    }
+    expect_sound_tree_of(triangles);
+}
+
+TEST_P(BuildBvh, holds_a_flat_grid_and_a_line)
+{
+    std::vector<BvhTriangle> triangles;
+    for (uint32_t i = 0; i < 10'000; i++)
+        triangles.push_back(small_triangle(glm::vec3(float(i % 100), float(i / 100), 0), i));
+    expect_sound_tree_of(triangles);
+    for (uint32_t i = 0; i < 10'000; i++)
+        triangles[i] = small_triangle(glm::vec3(float(i), 0, 0), i);
+    expect_sound_tree_of(triangles);
+}
+
+TEST_P(BuildBvh, holds_what_lies_far_from_the_origin)
+{
+    std::vector<BvhTriangle> triangles;
+    for (uint32_t i = 0; i < 500; i++)
+        triangles.push_back(small_triangle(glm::vec3(1e6f + float(i % 25) * 8, -1e6f, float(i / 25)), i, 16.0f));
+    expect_sound_tree_of(triangles);
+}
+
+TEST_P(BuildBvh, leaves_out_what_cannot_be_hit)
+{
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    std::vector<BvhTriangle> triangles;
+    for (float bad : { nan, infinity, -infinity, 1e30f })
+        for (int corner = 0; corner < 3; corner++)
+            for (int axis = 0; axis < 3; axis++) {
+                triangles.push_back(small_triangle(glm::vec3(float(axis)), uint32_t(triangles.size())));
+                triangles.back().positions[corner][axis] = bad;
+            }
+    triangles.push_back({ { { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } }, 1000, 1 }); // a point
+    triangles.push_back({ { { 0, 0, 0 }, { 1, 2, 3 }, { 2, 4, 6 } }, 1001, 1 }); // a line
+    triangles.push_back({ { { 0, 0, 0 }, { 5, 5, 5 }, { 0, 0, 0 } }, 1002, 1 }); // a line and back
+    triangles.push_back(small_triangle(glm::vec3(3), BVH_ID_MASK + 1)); // no room for its id
+    expect_sound(build_bvh(triangles, GetParam()), {});
+    triangles.push_back(small_triangle(glm::vec3(9), 7));
+    triangles.insert(triangles.begin(), small_triangle(glm::vec3(-9), BVH_ID_MASK));
+    expect_sound(build_bvh(triangles, GetParam()), { 7, BVH_ID_MASK });
+}
+
+} // namespace
+} // namespace vkpt::tests

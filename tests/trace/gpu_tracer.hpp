@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Runs trace_rays.comp, the software backend's traversal, over a list of rays.
+#pragma once
+
+#include "ref_vkpt/trace/bvh.hpp"
+#include "tests/trace/headless_compute.hpp"
+#include "tests/trace/trace_rays.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace vkpt::tests {
+
+// [0] nearest hit, [1] any hit.
+std::array<HeadlessCompute::Pipeline, 2> create_trace_pipelines(HeadlessCompute& device);
+
+// Trees and rays, uploaded. Searches the trees in turn.
+class GpuTracer {
+public:
+    GpuTracer(
+        HeadlessCompute& device, std::span<const Bvh> trees, std::span<const shared::TestRay> rays, uint32_t ray_mask);
+    // Seconds from submission to completion.
+    double run(const HeadlessCompute::Pipeline& pipeline);
+    // Of the latest run.
+    std::vector<shared::TestHit> hits() const;
+
+private:
+    HeadlessCompute& device_;
+    HeadlessCompute::Buffer hits_;
+    shared::TraceRaysPush push_ {};
+    uint32_t groups_;
+};
+
+} // namespace vkpt::tests
