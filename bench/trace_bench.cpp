@@ -252,7 +252,11 @@ int main(int argc, char** argv)
         ->check(CLI::Range(8, 8192))
         ->capture_default_str();
     app.add_option("--rounds", options.rounds)->check(CLI::Range(1, 1000))->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
     options.width &= ~7u;
     options.height &= ~7u;
     try {

@@ -17,24 +17,22 @@ enum Marker : uint8_t {
     Lead = 0xff,
 };
 
-// Tables that the file's end cuts off cannot overflow: the decoder reads zeros there.
+// The decoder reads zeros behind the file's end, and so does this.
+uint8_t next_byte(ByteReader& reader) { return reader.remaining() > 0 ? reader.read<uint8_t>() : 0; }
+
 void check_segment(ByteReader reader)
 {
-    if (reader.remaining() < 2)
-        return;
-    const auto length = reader.read<std::array<uint8_t, 2>>();
-    int left = (length[0] << 8 | length[1]) - 2;
-    while (left > 0 && reader.remaining() >= 17) {
+    const int high = next_byte(reader), low = next_byte(reader);
+    int left = (high << 8 | low) - 2;
+    while (left > 0 && reader.remaining() > 0) {
         const size_t start = reader.position();
-        reader.take(1);
+        next_byte(reader); // which table
         int codes = 0;
-        for (const uint8_t count : reader.read<std::array<uint8_t, 16>>())
-            codes += count;
+        for (int bits = 1; bits <= 16; bits++)
+            codes += next_byte(reader);
         if (codes > 256)
             reader.fail_at(start, "JPG: a Huffman table of " + std::to_string(codes) + " codes");
-        if (size_t(codes) > reader.remaining())
-            return;
-        reader.take(size_t(codes));
+        reader.take(std::min(size_t(codes), reader.remaining()));
         left -= 17 + codes;
     }
 }

@@ -32,7 +32,8 @@ public:
     Draw2d(const Draw2d&) = delete;
     Draw2d& operator=(const Draw2d&) = delete;
 
-    // RGBA8 UNORM, usage COLOR_ATTACHMENT, always in layout GENERAL. The device must be idle.
+    // The picture that Bindings::bind_output made the shaders' output: RGBA8 UNORM, layout GENERAL. Call on every
+    // resize.
     void set_output(const Image& image);
 
     // The device has finished the last frame with this index; its memory is used again.
@@ -69,31 +70,32 @@ private:
         Buffer staging;
     };
     struct FrameMemory {
-        Buffer quads;
+        Buffer lists;
         VkDeviceSize used = 0;
         std::vector<Buffer> retired;
         std::vector<RawPicture> retired_pictures;
     };
 
-    void create_render_pass();
-    void create_pipeline(Pipelines& pipelines);
     uint32_t choose_sampler(const Texture& texture) const;
     void add_quad(const Texture& texture, glm::vec2 low, glm::vec2 high, uint32_t color = 0xffffffff);
     size_t prepare_raw_picture(int columns, int rows);
-    VkDeviceAddress upload_quads();
+    void sort_into_tiles();
+    shared::QuadPush upload_lists();
     void record_raw_copies(VkCommandBuffer commands);
-    void record_quads(VkCommandBuffer commands, VkDeviceAddress address) const;
 
     Gpu gpu_;
     Bindings& bindings_;
     TextureStore& textures_;
-    VkRenderPass render_pass_ = VK_NULL_HANDLE;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
-    VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
+    VkPipeline pipeline_;
     VkExtent2D size_ {};
 
     Filtering filtering_;
     std::vector<shared::Quad> quads_;
+    // Made from quads_ by sort_into_tiles(); kept for their memory.
+    std::vector<shared::QuadTile> tiles_;
+    std::vector<uint32_t> quad_indices_;
+    std::vector<uint32_t> ends_; // of each tile's part of quad_indices_, while sorting
+
     std::vector<FrameMemory> frames_;
     size_t frame_ = 0;
 

@@ -331,7 +331,8 @@ public:
     ~ReturnedTable() { }
 
 private:
-    std::array<std::byte, engine::export_common_bytes> common_; // left as the slot is; see the constructor
+    [[maybe_unused]] std::array<std::byte, engine::export_common_bytes>
+        common_; // left as the slot is; see the constructor
 };
 
 } // namespace

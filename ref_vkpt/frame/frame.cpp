@@ -224,12 +224,13 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
         engine::print("vkpt: more than {} 3D views in one frame; the rest is not shown", max_views);
         return;
     }
-    const CvarValues& cvars = cvars::values();
     const glm::uvec2 size = scaled_size(view.size);
-    if (!average || !is_same(view, last_view_) || !(cvars == last_cvars_))
+    CvarValues shown_by = cvars::values();
+    shown_by.r_lightlevel = 0; // written by ourselves, every frame
+    if (!average || !is_same(view, last_view_) || !(shown_by == last_cvars_))
         restart_accumulation();
     last_view_ = view;
-    last_cvars_ = cvars;
+    last_cvars_ = shown_by;
     view_size_ = size;
 
     commands_ = graphics_.commands();

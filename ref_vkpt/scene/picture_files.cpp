@@ -96,29 +96,6 @@ glm::vec3 linear_color(formats::Rgba8 pixel)
     return { table[pixel.r], table[pixel.g], table[pixel.b] };
 }
 
-formats::Image halve(const formats::Image& from)
-{
-    formats::Image to;
-    to.width = std::max(from.width / 2, 1);
-    to.height = std::max(from.height / 2, 1);
-    to.pixels.resize(size_t(to.width) * size_t(to.height));
-    for (int y = 0; y < to.height; y++)
-        for (int x = 0; x < to.width; x++) {
-            glm::vec3 color(0);
-            float alpha = 0;
-            for (int corner = 0; corner < 4; corner++) {
-                const int from_x = std::min(2 * x + (corner & 1), from.width - 1);
-                const int from_y = std::min(2 * y + (corner >> 1), from.height - 1);
-                const formats::Rgba8 pixel = from.at(from_x, from_y);
-                color += linear_color(pixel) / 4.0f;
-                alpha += float(pixel.a) / 4.0f;
-            }
-            to.pixels[size_t(y) * size_t(to.width) + size_t(x)]
-                = { encoded_of(color.x), encoded_of(color.y), encoded_of(color.z), uint8_t(std::lround(alpha)) };
-        }
-    return to;
-}
-
 } // namespace
 
 PictureFiles::PictureFiles(LoadFile load_file, Report report)
@@ -283,10 +260,33 @@ PictureMeasure measure_picture(const formats::Image& image)
     return measure;
 }
 
+formats::Image halve_picture(const formats::Image& from)
+{
+    formats::Image to;
+    to.width = std::max(from.width / 2, 1);
+    to.height = std::max(from.height / 2, 1);
+    to.pixels.resize(size_t(to.width) * size_t(to.height));
+    for (int y = 0; y < to.height; y++)
+        for (int x = 0; x < to.width; x++) {
+            glm::vec3 color(0);
+            float alpha = 0;
+            for (int corner = 0; corner < 4; corner++) {
+                const int from_x = std::min(2 * x + (corner & 1), from.width - 1);
+                const int from_y = std::min(2 * y + (corner >> 1), from.height - 1);
+                const formats::Rgba8 pixel = from.at(from_x, from_y);
+                color += linear_color(pixel) / 4.0f;
+                alpha += float(pixel.a) / 4.0f;
+            }
+            to.pixels[size_t(y) * size_t(to.width) + size_t(x)]
+                = { encoded_of(color.x), encoded_of(color.y), encoded_of(color.z), uint8_t(std::lround(alpha)) };
+        }
+    return to;
+}
+
 formats::Image shrink_picture(formats::Image image, int limit)
 {
     while (image.width > limit || image.height > limit)
-        image = halve(image);
+        image = halve_picture(image);
     return image;
 }
 

@@ -67,6 +67,9 @@ struct PictureMeasure {
 };
 PictureMeasure measure_picture(const formats::Image& image);
 
+// The next mip level: half as wide and high, rounded down, at least 1; averages linear light.
+formats::Image halve_picture(const formats::Image& from);
+
 // Halves (averaging linear light) until neither side exceeds `limit`.
 formats::Image shrink_picture(formats::Image image, int limit);
 

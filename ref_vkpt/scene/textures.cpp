@@ -152,13 +152,18 @@ void TextureStore::upload(Texture& texture, const formats::Image& pixels)
     ImageSettings settings;
     settings.width = uint32_t(pixels.width);
     settings.height = uint32_t(pixels.height);
-    settings.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    settings.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     // 2D is blended in display space; everything that is lit is read as linear light.
     settings.format = is_flat(texture.use) ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8G8B8A8_SRGB;
     if (!is_flat(texture.use))
         settings.mip_levels = uint32_t(std::bit_width(std::max(settings.width, settings.height)));
     texture.image = Image(gpu_, settings, texture.name);
-    uploader_.fill_image(texture.image, std::as_bytes(std::span(pixels.pixels)));
+    uploader_.fill_image(texture.image, 0, std::as_bytes(std::span(pixels.pixels)));
+    formats::Image mip = pixels;
+    for (uint32_t level = 1; level < settings.mip_levels; level++) {
+        mip = halve_picture(mip);
+        uploader_.fill_image(texture.image, level, std::as_bytes(std::span(mip.pixels)));
+    }
     upload_pending_ = true;
 
     texture.slot = bindings_.add_texture(texture.image);

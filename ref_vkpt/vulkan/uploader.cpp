@@ -10,21 +10,6 @@ namespace {
 // So much staging memory makes a flush of its own, lest a mod's pictures fill the memory twice.
 constexpr VkDeviceSize staging_limit = 64u << 20;
 
-void blit_mip(VkCommandBuffer commands, const Image& image, uint32_t mip)
-{
-    const auto extent = [&](uint32_t level) {
-        return VkOffset3D { int32_t(std::max(image.width() >> level, 1u)), int32_t(std::max(image.height() >> level, 1u)),
-            1 };
-    };
-    VkImageBlit region {};
-    region.srcSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, mip - 1, 0, 1 };
-    region.srcOffsets[1] = extent(mip - 1);
-    region.dstSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1 };
-    region.dstOffsets[1] = extent(mip);
-    vkCmdBlitImage(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, image.handle(),
-        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_LINEAR);
-}
-
 } // namespace
 
 Uploader::Uploader(const Gpu& gpu) : gpu_(gpu)
@@ -78,29 +63,22 @@ Buffer Uploader::make_buffer(std::span<const std::byte> bytes, MemoryKind kind, 
     return buffer;
 }
 
-void Uploader::fill_image(const Image& image, std::span<const std::byte> pixels)
+void Uploader::fill_image(const Image& image, uint32_t mip, std::span<const std::byte> pixels)
 {
     const Buffer& staging = stage(pixels);
     const VkCommandBuffer commands = begin();
     constexpr VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
     record_barrier(commands,
         { image.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, transfer, transfer, 0,
-            VK_ACCESS_TRANSFER_WRITE_BIT });
+            VK_ACCESS_TRANSFER_WRITE_BIT, mip, 1 });
     VkBufferImageCopy region {};
-    region.imageSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 };
-    region.imageExtent = { image.width(), image.height(), 1 };
+    region.imageSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1 };
+    region.imageExtent = { std::max(image.width() >> mip, 1u), std::max(image.height() >> mip, 1u), 1 };
     vkCmdCopyBufferToImage(
         commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-    for (uint32_t mip = 0; mip < image.mip_levels(); mip++) {
-        if (mip > 0)
-            blit_mip(commands, image, mip);
-        record_barrier(commands,
-            { image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, transfer,
-                transfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, mip, 1 });
-    }
     record_barrier(commands,
-        { image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, transfer,
-            VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_TRANSFER_READ_BIT, VK_ACCESS_SHADER_READ_BIT });
+        { image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, transfer,
+            VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_SHADER_READ_BIT, mip, 1 });
 }
 
 void Uploader::flush()

@@ -23,9 +23,10 @@ public:
     {
         return make_buffer(std::as_bytes(std::span(items)), kind, name);
     }
-    // Fills mip 0 from tightly packed pixels, makes the other mips by halving, and leaves the image in SHADER_READ_ONLY.
-    // The image needs TRANSFER_SRC and TRANSFER_DST usage.
-    void fill_image(const Image& image, std::span<const std::byte> pixels);
+    // Fills one mip level from tightly packed pixels and leaves it in SHADER_READ_ONLY. The image needs TRANSFER_DST usage.
+    // Mip levels come from the CPU: scaling blits are drawn, which Mesa's CPU driver cannot do at the vector width that
+    // makes its compute shaders fast (see Device).
+    void fill_image(const Image& image, uint32_t mip, std::span<const std::byte> pixels);
     // Submits what was recorded and waits for it. Does nothing if nothing was recorded.
     void flush();
 

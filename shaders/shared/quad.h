@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A rectangle of the 2D layer (HUD, console, menus, cinematics).
+// The 2D layer (HUD, console, menus, cinematics): rectangles, and which of them each tile of the picture meets.
 #ifndef VKPT_SHARED_QUAD_H
 #define VKPT_SHARED_QUAD_H
 
@@ -7,8 +7,10 @@
 
 VKPT_SHARED_BEGIN
 
+VKPT_CONST uint QUAD_TILE_SIZE = 16u; // pixels; a tile is the work of 64 lanes
+
 struct Quad {
-    vec2 corner_min; // pixels of the output picture, y down
+    vec2 corner_min; // pixels of the output picture, y down; a pixel is inside if its centre is, the far edge excluded
     vec2 corner_max;
     vec2 uv_min;
     vec2 uv_max;
@@ -18,11 +20,21 @@ struct Quad {
 };
 VKPT_ASSERT_SIZE(Quad, 44);
 
-struct QuadPush {
-    uint64_t quads;       // address of the first
-    vec2 clip_per_pixel;  // 2 / size of the output picture
+// A tile that some quad touches; its quads in drawing order are quad_indices[first .. first + count).
+struct QuadTile {
+    uvec2 origin; // pixels
+    uint first;
+    uint count;
 };
-VKPT_ASSERT_SIZE(QuadPush, 16);
+VKPT_ASSERT_SIZE(QuadTile, 16);
+
+struct QuadPush {
+    uint64_t quads;        // Quad
+    uint64_t tiles;        // QuadTile, one per workgroup
+    uint64_t quad_indices; // uint
+    uvec2 output_size;
+};
+VKPT_ASSERT_SIZE(QuadPush, 32);
 
 VKPT_SHARED_END
 

@@ -4,6 +4,7 @@
 #include "tests/formats/memory_watch.hpp"
 #include "tests/formats/samples.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

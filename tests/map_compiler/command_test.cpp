@@ -17,7 +17,7 @@ namespace {
 std::string read_text(const fs::path& path)
 {
     std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
+    return { std::istreambuf_iterator<char>(stream), {} };
 }
 
 void write_text(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
@@ -33,7 +33,7 @@ protected:
         const fs::path log = folder_.root() / "log";
         const std::string command = std::string(VKPT_MAP_PROGRAM) + " " + arguments + " > '" + log.string() + "' 2>&1";
         const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(log)};
+        return { WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(log) };
     }
     std::string path(const std::string& name) const { return (folder_.root() / name).string(); }
 
@@ -43,7 +43,8 @@ protected:
 TEST_F(Command, CompilesAMap)
 {
     write_text(path("two.map"), two_rooms::text());
-    const Result result = run(path("two.map") + " -o " + path("two.bsp") + " --textures " + folder_.textures().string());
+    const Result result
+        = run(path("two.map") + " -o " + path("two.bsp") + " --textures " + folder_.textures().string());
     EXPECT_EQ(result.status, 0) << result.messages;
     const std::string file = read_text(path("two.bsp"));
     const formats::Bsp bsp = formats::read_bsp(std::as_bytes(std::span(file)), "two.bsp");

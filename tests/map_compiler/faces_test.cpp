@@ -38,7 +38,8 @@ protected:
     {
         float area = 0;
         for (size_t face = 0; face < size_t(bsp_->models[0].face_count); face++)
-            if (glm::dot(bsp_->face_normal(face), normal) > 0.999f && std::abs(glm::dot(middle(face), normal) - dist) < 0.1f)
+            if (glm::dot(bsp_->face_normal(face), normal) > 0.999f
+                && std::abs(glm::dot(middle(face), normal) - dist) < 0.1f)
                 area += glm::length(area_vector(face));
         return area;
     }
@@ -68,16 +69,16 @@ TEST_F(Faces, SeparateOpenFromSolidOrLiquid)
 
 TEST_F(Faces, CoverEverySurfaceOnce)
 {
-    EXPECT_NEAR(area_on({0, 0, -1}, -192), 512 * 512 * 2 - 2 * 64 * 64 + 512 * 280, 1) << "ceilings less lamps";
-    EXPECT_NEAR(area_on({0, 0, -1}, -184), 2 * 64 * 64, 1) << "lamps";
-    EXPECT_NEAR(area_on({0, 0, 1}, -96), 160 * 160, 1) << "the pool's floor";
-    EXPECT_NEAR(area_on({-1, 0, 0}, -800), 512 * 192, 1) << "the far wall of B";
+    EXPECT_NEAR(area_on({ 0, 0, -1 }, -192), 512 * 512 * 2 - 2 * 64 * 64 + 512 * 280, 1) << "ceilings less lamps";
+    EXPECT_NEAR(area_on({ 0, 0, -1 }, -184), 2 * 64 * 64, 1) << "lamps";
+    EXPECT_NEAR(area_on({ 0, 0, 1 }, -96), 160 * 160, 1) << "the pool's floor";
+    EXPECT_NEAR(area_on({ -1, 0, 0 }, -800), 512 * 192, 1) << "the far wall of B";
 }
 
 TEST_F(Faces, WaterIsSeenFromBothSides)
 {
-    EXPECT_NEAR(area_on({0, 0, 1}, two_rooms::water_level), 160 * 160, 1);
-    EXPECT_NEAR(area_on({0, 0, -1}, -two_rooms::water_level), 160 * 160, 1);
+    EXPECT_NEAR(area_on({ 0, 0, 1 }, two_rooms::water_level), 160 * 160, 1);
+    EXPECT_NEAR(area_on({ 0, 0, -1 }, -two_rooms::water_level), 160 * 160, 1);
 }
 
 TEST_F(Faces, FitTheLightmap)
@@ -128,20 +129,23 @@ TEST_F(Faces, LieInTheLeavesAndNodesThatShowThem)
 
 TEST(Texinfo, ClassicAndValveAxesAgree)
 {
-    const std::string room = walls_around({two_rooms::room_a}, "wall");
-    const std::string rest = entity_text({{"classname", "info_player_start"}, {"origin", "200 200 24"}});
+    const std::string room = walls_around({ two_rooms::room_a }, "wall");
+    const std::string rest = entity_text({ { "classname", "info_player_start" }, { "origin", "200 200 24" } });
     const auto with_top = [&](const std::string& top) {
-        const Box box{{0, 0, 0}, {64, 64, 64}};
+        const Box box { { 0, 0, 0 }, { 64, 64, 64 } };
         std::string brush = box_brush(box, "side");
         brush.erase(brush.rfind("( 0 0 64 )"));
-        return compile(entity_text({{"classname", "worldspawn"}}, room + brush + "( 0 0 64 ) ( 0 64 64 ) ( 64 0 64 ) " + top + "\n}\n") + rest);
+        return compile(entity_text({ { "classname", "worldspawn" } },
+                           room + brush + "( 0 0 64 ) ( 0 64 64 ) ( 64 0 64 ) " + top + "\n}\n")
+            + rest);
     };
-    const Bsp classic = with_top("top 8 -12 90 2 0.5 0 1 70"), valve = with_top("top [ 0 1 0 8 ] [ 1 0 0 -12 ] 0 2 0.5 0 1 70");
+    const Bsp classic = with_top("top 8 -12 90 2 0.5 0 1 70"),
+              valve = with_top("top [ 0 1 0 8 ] [ 1 0 0 -12 ] 0 2 0.5 0 1 70");
     const auto find = [](const Bsp& bsp) {
         for (const BspTexinfo& info : bsp.texinfos)
             if (info.texture == "top")
                 return info;
-        return BspTexinfo{};
+        return BspTexinfo {};
     };
     const BspTexinfo a = find(classic), b = find(valve);
     EXPECT_EQ(a.texture, "top");

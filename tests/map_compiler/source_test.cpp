@@ -28,7 +28,7 @@ struct Broken {
     const char* mention;
 };
 
-class BrokenSource : public testing::TestWithParam<Broken> {};
+class BrokenSource : public testing::TestWithParam<Broken> { };
 
 TEST_P(BrokenSource, IsToldWithFileAndLine)
 {
@@ -38,33 +38,37 @@ TEST_P(BrokenSource, IsToldWithFileAndLine)
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BrokenSource,
-    testing::Values(Broken{"empty", "// nothing\n", "broken.map:2: ", "worldspawn"},
-        Broken{"stray", "{\n\"classname\" \"worldspawn\"\n}\n}\n", "broken.map:4: ", "}"},
-        Broken{"unclosed_entity", "\n{\n\"classname\" \"worldspawn\"\n", "broken.map:2: ", "not closed"},
-        Broken{"unclosed_brush", "{\n\"classname\" \"worldspawn\"\n{\n", "broken.map:3: ", "not closed"},
-        Broken{"unclosed_quote", "{\n\"classname\" \"worldspawn\n}\n", "broken.map:2: ", "quote"},
-        Broken{"no_value", "{\n\"classname\"\n}\n", "broken.map:3: ", "no quoted value"},
-        Broken{"not_a_number", "{\n\"classname\" \"worldspawn\"\n{\n( 0 0 x ) ( 0 1 0 ) ( 1 0 0 ) t 0 0 0 1 1\n}\n}\n",
-            "broken.map:4: ", "'x'"},
-        Broken{"missing_bracket", "{\n\"classname\" \"worldspawn\"\n{\n( 0 0 0 ( 0 1 0 ) ( 1 0 0 ) t 0 0 0 1 1\n}\n}\n",
-            "broken.map:4: ", "')'"},
-        Broken{"few_sides", "{\n\"classname\" \"worldspawn\"\n{\n( 0 0 0 ) ( 0 1 0 ) ( 1 0 0 ) t 0 0 0 1 1\n}\n}\n",
-            "broken.map:3: ", "4 sides"},
-        Broken{"line_for_plane",
-            "{\n\"classname\" \"worldspawn\"\n{\n( 0 0 0 ) ( 0 1 0 ) ( 0 2 0 ) t 0 0 0 1 1\n( 0 0 0 ) ( 0 1 0 ) ( 0 2 0 ) t 0 0 0 1 1\n"
+    testing::Values(Broken { "empty", "// nothing\n", "broken.map:2: ", "worldspawn" },
+        Broken { "stray", "{\n\"classname\" \"worldspawn\"\n}\n}\n", "broken.map:4: ", "}" },
+        Broken { "unclosed_entity", "\n{\n\"classname\" \"worldspawn\"\n", "broken.map:2: ", "not closed" },
+        Broken { "unclosed_brush", "{\n\"classname\" \"worldspawn\"\n{\n", "broken.map:3: ", "not closed" },
+        Broken { "unclosed_quote", "{\n\"classname\" \"worldspawn\n}\n", "broken.map:2: ", "quote" },
+        Broken { "no_value", "{\n\"classname\"\n}\n", "broken.map:3: ", "no quoted value" },
+        Broken { "not_a_number",
+            "{\n\"classname\" \"worldspawn\"\n{\n( 0 0 x ) ( 0 1 0 ) ( 1 0 0 ) t 0 0 0 1 1\n}\n}\n",
+            "broken.map:4: ", "'x'" },
+        Broken { "missing_bracket",
+            "{\n\"classname\" \"worldspawn\"\n{\n( 0 0 0 ( 0 1 0 ) ( 1 0 0 ) t 0 0 0 1 1\n}\n}\n",
+            "broken.map:4: ", "')'" },
+        Broken { "few_sides", "{\n\"classname\" \"worldspawn\"\n{\n( 0 0 0 ) ( 0 1 0 ) ( 1 0 0 ) t 0 0 0 1 1\n}\n}\n",
+            "broken.map:3: ", "4 sides" },
+        Broken { "line_for_plane",
+            "{\n\"classname\" \"worldspawn\"\n{\n( 0 0 0 ) ( 0 1 0 ) ( 0 2 0 ) t 0 0 0 1 1\n( 0 0 0 ) ( 0 1 0 ) ( 0 2 "
+            "0 ) t 0 0 0 1 1\n"
             "( 0 0 0 ) ( 0 1 0 ) ( 0 2 0 ) t 0 0 0 1 1\n( 0 0 0 ) ( 0 1 0 ) ( 0 2 0 ) t 0 0 0 1 1\n}\n}\n",
-            "broken.map:4: ", "one line"},
-        Broken{"wrong_first", "{\n\"classname\" \"light\"\n}\n", "broken.map:1: ", "worldspawn"},
-        Broken{"no_brushes", "{\n\"classname\" \"worldspawn\"\n}\n", "broken.map:1: ", "no brushes"},
-        Broken{"primitive", "{\n\"classname\" \"worldspawn\"\n{\nbrushDef\n{\n}\n}\n}\n", "broken.map:4: ", "Quake II"}),
+            "broken.map:4: ", "one line" },
+        Broken { "wrong_first", "{\n\"classname\" \"light\"\n}\n", "broken.map:1: ", "worldspawn" },
+        Broken { "no_brushes", "{\n\"classname\" \"worldspawn\"\n}\n", "broken.map:1: ", "no brushes" },
+        Broken {
+            "primitive", "{\n\"classname\" \"worldspawn\"\n{\nbrushDef\n{\n}\n}\n}\n", "broken.map:4: ", "Quake II" }),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Source, InsideOutBrushIsRejected)
 {
-    std::string brush = box_brush({{0, 0, 0}, {64, 64, 64}}, "wall");
+    std::string brush = box_brush({ { 0, 0, 0 }, { 64, 64, 64 } }, "wall");
     const std::string good = "( 0 0 64 ) ( 0 64 64 ) ( 64 0 64 )", flipped = "( 0 0 -64 ) ( 0 64 -64 ) ( 64 0 -64 )";
     brush.replace(brush.find(good), good.size(), flipped);
-    const std::string message = failure(entity_text({{"classname", "worldspawn"}}, brush));
+    const std::string message = failure(entity_text({ { "classname", "worldspawn" } }, brush));
     EXPECT_TRUE(message.starts_with("broken.map:3: ")) << message;
 }
 
@@ -84,14 +88,17 @@ TEST(Source, LeakNamesTheEntityAndGivesAWay)
 TEST(Textures, WalFlagsAndAnimationsAreTakenAndTheMapOverrides)
 {
     const TextureFolder folder;
-    folder.add({.name = "lamp1", .next_animation = "lamp2", .flags = SURF_LIGHT, .value = 300}, 1);
-    folder.add({.name = "lamp2", .next_animation = "lamp1", .flags = SURF_LIGHT, .value = 300}, 1);
-    folder.add({.name = "pond", .flags = SURF_WARP, .contents = CONTENTS_SLIME}, 2);
-    folder.add({.name = "wall"}, 2);
-    const std::string text = entity_text({{"classname", "worldspawn"}}, walls_around({two_rooms::room_a}, "wall")
-                                     + box_brush({{0, 0, 64}, {32, 32, 80}}, "lamp1") + box_brush({{100, 0, 64}, {132, 32, 80}}, "lamp1", " 0 1 77")
-                                     + box_brush({{-100, -100, 0}, {-50, -50, 50}}, "pond") + box_brush({{100, 100, 0}, {132, 132, 50}}, "nowhere"))
-        + entity_text({{"classname", "info_player_start"}, {"origin", "200 200 24"}});
+    folder.add({ .name = "lamp1", .next_animation = "lamp2", .flags = SURF_LIGHT, .value = 300 }, 1);
+    folder.add({ .name = "lamp2", .next_animation = "lamp1", .flags = SURF_LIGHT, .value = 300 }, 1);
+    folder.add({ .name = "pond", .flags = SURF_WARP, .contents = CONTENTS_SLIME }, 2);
+    folder.add({ .name = "wall" }, 2);
+    const std::string text
+        = entity_text({ { "classname", "worldspawn" } },
+              walls_around({ two_rooms::room_a }, "wall") + box_brush({ { 0, 0, 64 }, { 32, 32, 80 } }, "lamp1")
+                  + box_brush({ { 100, 0, 64 }, { 132, 32, 80 } }, "lamp1", " 0 1 77")
+                  + box_brush({ { -100, -100, 0 }, { -50, -50, 50 } }, "pond")
+                  + box_brush({ { 100, 100, 0 }, { 132, 132, 50 } }, "nowhere"))
+        + entity_text({ { "classname", "info_player_start" }, { "origin", "200 200 24" } });
     std::vector<std::string> warnings;
     CompileOptions options;
     options.textures = folder.textures();
@@ -110,7 +117,7 @@ TEST(Textures, WalFlagsAndAnimationsAreTakenAndTheMapOverrides)
     }
     EXPECT_GT(plain, 0);
     EXPECT_GT(own, 0);
-    EXPECT_TRUE(bsp.leaves[bsp.find_leaf({-75, -75, 25})].contents & CONTENTS_SLIME);
+    EXPECT_TRUE(bsp.leaves[bsp.find_leaf({ -75, -75, 25 })].contents & CONTENTS_SLIME);
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("nowhere"), std::string::npos);
 }

@@ -28,16 +28,16 @@ protected:
 
 TEST_F(Structure, ContentsAtKnownPoints)
 {
-    EXPECT_EQ(contents_at({0, 0, 50}), 0u);
-    EXPECT_EQ(contents_at({270, 0, 50}), 0u) << "the door is a model, not part of the world";
-    EXPECT_EQ(contents_at({-150, -150, -50}) & CONTENTS_WATER, uint32_t(CONTENTS_WATER));
-    EXPECT_EQ(contents_at({-150, -150, two_rooms::water_level + 2}), 0u);
-    EXPECT_TRUE(contents_at({270, 100, 50}) & CONTENTS_SOLID) << "the wall beside the door";
-    EXPECT_TRUE(contents_at({-80, 120, 30}) & CONTENTS_SOLID) << "a detail brush";
-    EXPECT_EQ(contents_at({-225, 225, 150}) & (CONTENTS_SOLID | CONTENTS_PLAYERCLIP), uint32_t(CONTENTS_PLAYERCLIP));
-    EXPECT_EQ(contents_at({0, 544, 30}) & (CONTENTS_SOLID | CONTENTS_WINDOW), uint32_t(CONTENTS_WINDOW));
-    EXPECT_TRUE(contents_at({0, 0, -30}) & CONTENTS_SOLID);
-    EXPECT_TRUE(contents_at({0, 0, 2000}) & CONTENTS_SOLID) << "outside is filled";
+    EXPECT_EQ(contents_at({ 0, 0, 50 }), 0u);
+    EXPECT_EQ(contents_at({ 270, 0, 50 }), 0u) << "the door is a model, not part of the world";
+    EXPECT_EQ(contents_at({ -150, -150, -50 }) & CONTENTS_WATER, uint32_t(CONTENTS_WATER));
+    EXPECT_EQ(contents_at({ -150, -150, two_rooms::water_level + 2 }), 0u);
+    EXPECT_TRUE(contents_at({ 270, 100, 50 }) & CONTENTS_SOLID) << "the wall beside the door";
+    EXPECT_TRUE(contents_at({ -80, 120, 30 }) & CONTENTS_SOLID) << "a detail brush";
+    EXPECT_EQ(contents_at({ -225, 225, 150 }) & (CONTENTS_SOLID | CONTENTS_PLAYERCLIP), uint32_t(CONTENTS_PLAYERCLIP));
+    EXPECT_EQ(contents_at({ 0, 544, 30 }) & (CONTENTS_SOLID | CONTENTS_WINDOW), uint32_t(CONTENTS_WINDOW));
+    EXPECT_TRUE(contents_at({ 0, 0, -30 }) & CONTENTS_SOLID);
+    EXPECT_TRUE(contents_at({ 0, 0, 2000 }) & CONTENTS_SOLID) << "outside is filled";
     EXPECT_EQ(bsp_->leaves[0].contents, uint32_t(CONTENTS_SOLID)) << "the engine insists";
 }
 
@@ -54,11 +54,11 @@ TEST_F(Structure, VisibilityIsSymmetricAndReflexive)
 
 TEST_F(Structure, RoomBehindTheBendIsHidden)
 {
-    const ClusterSet from_a = bsp_->pvs(bsp_->find_cluster({0, 0, 50}));
-    EXPECT_TRUE(from_a.contains(bsp_->find_cluster({500, 0, 50}))) << "B, through the doorway";
+    const ClusterSet from_a = bsp_->pvs(bsp_->find_cluster({ 0, 0, 50 }));
+    EXPECT_TRUE(from_a.contains(bsp_->find_cluster({ 500, 0, 50 }))) << "B, through the doorway";
     for (int x = -240; x <= 240; x += 32)
         for (int y = 336; y < 590; y += 32)
-            EXPECT_FALSE(from_a.contains(bsp_->find_cluster({x, y, 90}))) << x << " " << y;
+            EXPECT_FALSE(from_a.contains(bsp_->find_cluster({ x, y, 90 }))) << x << " " << y;
 }
 
 // Whatever a free line joins must be in the visible set: the flow may not cut too much.
@@ -66,7 +66,7 @@ TEST_F(Structure, FreeLinesOfSightAreVisible)
 {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> x(-250, 790), y(-250, 590), z(-90, 190);
-    const TraceBox point{glm::vec3(0), glm::vec3(0)};
+    const TraceBox point { glm::vec3(0), glm::vec3(0) };
     int checked = 0;
     while (checked < 3000) {
         const glm::vec3 a(x(random), y(random), z(random)), b(x(random), y(random), z(random));
@@ -103,14 +103,15 @@ TEST_F(Structure, BrushModelsAreNamedAndPlaced)
 
 TEST(Areas, PortalSeparatesTwo)
 {
-    const std::string world = walls_around({two_rooms::room_a, two_rooms::room_b, two_rooms::doorway}, "wall");
-    const Bsp bsp = compile(entity_text({{"classname", "worldspawn"}}, world)
-        + entity_text({{"classname", "info_player_start"}, {"origin", "0 0 24"}})
-        + entity_text({{"classname", "func_areaportal"}, {"targetname", "p"}}, box_brush({{268, -48, 0}, {276, 48, 112}}, "trigger")));
-    const int a = bsp.leaves[bsp.find_leaf({0, 0, 50})].area, b = bsp.leaves[bsp.find_leaf({500, 0, 50})].area;
+    const std::string world = walls_around({ two_rooms::room_a, two_rooms::room_b, two_rooms::doorway }, "wall");
+    const Bsp bsp = compile(entity_text({ { "classname", "worldspawn" } }, world)
+        + entity_text({ { "classname", "info_player_start" }, { "origin", "0 0 24" } })
+        + entity_text({ { "classname", "func_areaportal" }, { "targetname", "p" } },
+            box_brush({ { 268, -48, 0 }, { 276, 48, 112 } }, "trigger")));
+    const int a = bsp.leaves[bsp.find_leaf({ 0, 0, 50 })].area, b = bsp.leaves[bsp.find_leaf({ 500, 0, 50 })].area;
     EXPECT_NE(a, b);
     ASSERT_EQ(bsp.areas.size(), 3u);
-    for (const int area : {a, b}) {
+    for (const int area : { a, b }) {
         ASSERT_EQ(bsp.areas[size_t(area)].area_portal_count, 1);
         const BspAreaPortal& portal = bsp.area_portals[size_t(bsp.areas[size_t(area)].first_area_portal)];
         EXPECT_EQ(portal.portal, 1);
@@ -125,8 +126,8 @@ TEST(Areas, PortalSeparatesTwo)
 
 TEST(Areas, OneWithoutPortals)
 {
-    const Bsp bsp = compile(entity_text({{"classname", "worldspawn"}}, walls_around({two_rooms::room_a}, "wall"))
-        + entity_text({{"classname", "info_player_start"}, {"origin", "0 0 24"}}));
+    const Bsp bsp = compile(entity_text({ { "classname", "worldspawn" } }, walls_around({ two_rooms::room_a }, "wall"))
+        + entity_text({ { "classname", "info_player_start" }, { "origin", "0 0 24" } }));
     EXPECT_EQ(bsp.areas.size(), 2u);
     for (const BspLeaf& leaf : bsp.leaves)
         EXPECT_EQ(leaf.area, leaf.contents & CONTENTS_SOLID ? 0 : 1);
@@ -135,16 +136,18 @@ TEST(Areas, OneWithoutPortals)
 // Overlapping brushes in any number are one solid.
 TEST(Overlap, CornersAreSealedAndInsideNoFaceRemains)
 {
-    const std::string world = walls_around({two_rooms::room_a}, "wall") + box_brush({{-50, -50, -20}, {50, 50, 100}}, "one")
-        + box_brush({{-20, -80, -10}, {80, 20, 60}}, "two") + box_brush({{-30, -30, 10}, {30, 0, 50}}, "hidden");
-    const Bsp bsp = compile(entity_text({{"classname", "worldspawn"}}, world)
-        + entity_text({{"classname", "info_player_start"}, {"origin", "200 200 24"}}));
+    const std::string world = walls_around({ two_rooms::room_a }, "wall")
+        + box_brush({ { -50, -50, -20 }, { 50, 50, 100 } }, "one")
+        + box_brush({ { -20, -80, -10 }, { 80, 20, 60 } }, "two")
+        + box_brush({ { -30, -30, 10 }, { 30, 0, 50 } }, "hidden");
+    const Bsp bsp = compile(entity_text({ { "classname", "worldspawn" } }, world)
+        + entity_text({ { "classname", "info_player_start" }, { "origin", "200 200 24" } }));
     for (const BspFace& face : bsp.faces)
         EXPECT_NE(bsp.texinfos[face.texinfo].texture, "hidden");
 }
 
 // A room full of turned, overlapping pillars: closed, solid exactly where a brush is, and nothing visible is lost.
-class RandomBrushes : public testing::TestWithParam<int> {};
+class RandomBrushes : public testing::TestWithParam<int> { };
 
 struct Pillar {
     std::vector<glm::ivec2> base;
@@ -167,12 +170,13 @@ std::vector<Pillar> random_pillars(std::mt19937& random)
     std::vector<Pillar> pillars;
     std::uniform_int_distribution<int> place(-220, 220), size(20, 70), height(20, 230), turn(0, 359), corners(3, 6);
     for (int i = 0; i < 14; i++) {
-        Pillar pillar{{}, height(random)};
+        Pillar pillar { {}, height(random) };
         const glm::ivec2 centre(place(random), place(random));
         const int count = corners(random), radius = size(random), start = turn(random);
         for (int k = 0; k < count; k++) {
             const double angle = 3.14159265358979 / 180 * (start + 360.0 * k / count);
-            pillar.base.push_back(centre + glm::ivec2(glm::round(glm::dvec2(std::cos(angle), std::sin(angle)) * double(radius))));
+            pillar.base.push_back(
+                centre + glm::ivec2(glm::round(glm::dvec2(std::cos(angle), std::sin(angle)) * double(radius))));
         }
         pillars.push_back(pillar);
     }
@@ -183,12 +187,12 @@ TEST_P(RandomBrushes, AreSolidWhereTheyStand)
 {
     std::mt19937 random(static_cast<unsigned>(GetParam()));
     const std::vector<Pillar> pillars = random_pillars(random);
-    const Box room{{-256, -256, 0}, {256, 256, 256}};
-    std::string world = walls_around({room}, "wall");
+    const Box room { { -256, -256, 0 }, { 256, 256, 256 } };
+    std::string world = walls_around({ room }, "wall");
     for (const Pillar& pillar : pillars)
         world += prism_brush(pillar.base, -8, pillar.top, "pillar");
-    const Bsp bsp = compile(entity_text({{"classname", "worldspawn"}}, world)
-        + entity_text({{"classname", "info_player_start"}, {"origin", "0 0 240"}}));
+    const Bsp bsp = compile_dark(entity_text({ { "classname", "worldspawn" } }, world)
+        + entity_text({ { "classname", "info_player_start" }, { "origin", "0 0 240" } }));
     std::uniform_real_distribution<float> place(-255, 255), height(1, 255);
     const auto outside = [&](glm::vec3 p) {
         double least = 1e9;
@@ -197,17 +201,17 @@ TEST_P(RandomBrushes, AreSolidWhereTheyStand)
         return least;
     };
     std::vector<glm::vec3> open;
-    for (int i = 0; i < 20000; i++) {
+    for (int i = 0; i < 10000; i++) {
         const glm::vec3 p(place(random), place(random), height(random));
         const double distance = outside(p);
         if (std::abs(distance) < 0.3)
             continue;
         const bool solid = bsp.leaves[bsp.find_leaf(p)].contents & CONTENTS_SOLID;
         EXPECT_EQ(solid, distance < 0) << p.x << " " << p.y << " " << p.z;
-        if (!solid && open.size() < 200)
+        if (!solid && open.size() < 80)
             open.push_back(p);
     }
-    const TraceBox point{glm::vec3(0), glm::vec3(0)};
+    const TraceBox point { glm::vec3(0), glm::vec3(0) };
     for (const glm::vec3& a : open)
         for (const glm::vec3& b : open)
             if (trace_box(bsp, point, a, b, CONTENTS_SOLID).fraction == 1) {
@@ -215,17 +219,16 @@ TEST_P(RandomBrushes, AreSolidWhereTheyStand)
             }
 }
 
-// Light from the room's surfaces must add up: the area seen by faces is the area of the solid's boundary.
 TEST_P(RandomBrushes, FloorIsCoveredOnce)
 {
     std::mt19937 random(static_cast<unsigned>(GetParam()));
     const std::vector<Pillar> pillars = random_pillars(random);
-    const Box room{{-256, -256, 0}, {256, 256, 256}};
-    std::string world = walls_around({room}, "wall");
+    const Box room { { -256, -256, 0 }, { 256, 256, 256 } };
+    std::string world = walls_around({ room }, "wall");
     for (const Pillar& pillar : pillars)
         world += prism_brush(pillar.base, -8, pillar.top, "pillar");
-    const Bsp bsp = compile(entity_text({{"classname", "worldspawn"}}, world)
-        + entity_text({{"classname", "info_player_start"}, {"origin", "0 0 240"}}));
+    const Bsp bsp = compile_dark(entity_text({ { "classname", "worldspawn" } }, world)
+        + entity_text({ { "classname", "info_player_start" }, { "origin", "0 0 240" } }));
     double floor = 0;
     for (size_t face = 0; face < bsp.faces.size(); face++) {
         const auto polygon = bsp.face_polygon(face);
@@ -235,16 +238,16 @@ TEST_P(RandomBrushes, FloorIsCoveredOnce)
             floor += 0.5 * double(glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]).z);
     }
     int free = 0;
-    constexpr int steps = 1024;
+    constexpr int steps = 512;
     for (int x = 0; x < steps; x++)
         for (int y = 0; y < steps; y++) {
-            const glm::vec3 p(-256 + 0.5 * (x + 0.5), -256 + 0.5 * (y + 0.5), 0.01);
+            const glm::vec3 p(-256 + 1.0 * (x + 0.5), -256 + 1.0 * (y + 0.5), 0.01);
             free += std::ranges::none_of(pillars, [&](const Pillar& pillar) { return pillar.outside(p) < 0; });
         }
-    EXPECT_NEAR(floor, free * 0.25, 200) << "of " << 512 * 512;
+    EXPECT_NEAR(floor, free, 300) << "of " << 512 * 512;
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomBrushes, testing::Range(1, 13));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomBrushes, testing::Range(1, 9));
 
 } // namespace
 

@@ -27,9 +27,9 @@ TextureFolder::TextureFolder()
     formats::IndexedImage colormap;
     colormap.width = colormap.height = 16;
     colormap.pixels.resize(256);
-    colormap.palette[0] = {0, 0, 0, 255};
-    colormap.palette[1] = {255, 255, 255, 255};
-    colormap.palette[2] = {32, 64, 64, 255};
+    colormap.palette[0] = { 0, 0, 0, 255 };
+    colormap.palette[1] = { 255, 255, 255, 255 };
+    colormap.palette[2] = { 32, 64, 64, 255 };
     write(root_ / "pics" / "colormap.pcx", formats::write_pcx(colormap));
     fs::create_directories(textures());
 }

@@ -37,7 +37,8 @@ void collect_brushes(const Bsp& bsp, int index, const TraceBox& swept, uint32_t 
         collect_brushes(bsp, node.children[1], swept, mask, result);
 }
 
-void clip_to_brush(const Bsp& bsp, const BspBrush& brush, const TraceBox& box, glm::vec3 from, glm::vec3 to, TraceResult& result)
+void clip_to_brush(
+    const Bsp& bsp, const BspBrush& brush, const TraceBox& box, glm::vec3 from, glm::vec3 to, TraceResult& result)
 {
     float enter = -1, leave = 1;
     glm::vec3 normal(0);
@@ -74,7 +75,7 @@ void clip_to_brush(const Bsp& bsp, const BspBrush& brush, const TraceBox& box, g
 
 TraceResult trace_box(const Bsp& bsp, const TraceBox& box, glm::vec3 from, glm::vec3 to, uint32_t mask, int head_node)
 {
-    const TraceBox swept{glm::min(from, to) + box.mins - 1.0f, glm::max(from, to) + box.maxs + 1.0f};
+    const TraceBox swept { glm::min(from, to) + box.mins - 1.0f, glm::max(from, to) + box.maxs + 1.0f };
     std::set<int> brushes;
     collect_brushes(bsp, head_node, swept, mask, brushes);
     TraceResult result;

@@ -274,6 +274,9 @@ TEST_F(TraceSoftware, does_not_leak_through_shared_edges)
         size_t leaks = size_t(
             std::count_if(hits.begin(), hits.end(), [](const TestHit& hit) { return hit.triangle == TRACE_MISS; }));
         EXPECT_EQ(leaks, 0u) << "of " << rays.size();
+        for (const TestHit& hit : hits)
+            ASSERT_TRUE(hit.barycentrics.x >= 0.0f && hit.barycentrics.y >= 0.0f
+                && hit.barycentrics.x + hit.barycentrics.y <= 1.00001f);
     }
 }
 

@@ -17,6 +17,11 @@ int main(int argc, char** argv)
     constexpr std::array subjects {
         Subject { "base", write_palette_and_font },
         Subject { "pictures", write_pictures },
+        Subject { "sky", write_sky },
+        Subject { "models", write_weapon_models },
+        Subject { "models", write_item_models },
+        Subject { "models", write_player_models },
+        Subject { "models", write_effect_models },
         Subject { "textures", write_textures },
     };
 

@@ -18,12 +18,12 @@ struct TextureAxes {
 
 // Classic sides take the axis pair of the nearest of these six directions; in a tie the first one wins.
 const TextureAxes classic_axes[6] = {
-    {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},
-    {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}},
-    {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
-    {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
-    {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}},
-    {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
+    { { 0, 0, 1 }, { 1, 0, 0 }, { 0, -1, 0 } },
+    { { 0, 0, -1 }, { 1, 0, 0 }, { 0, -1, 0 } },
+    { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, -1 } },
+    { { -1, 0, 0 }, { 0, 1, 0 }, { 0, 0, -1 } },
+    { { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, -1 } },
+    { { 0, -1, 0 }, { 1, 0, 0 }, { 0, 0, -1 } },
 };
 
 std::array<dvec3, 2> rotated_classic_axes(const dvec3& normal, double degrees)
@@ -39,7 +39,7 @@ std::array<dvec3, 2> rotated_classic_axes(const dvec3& normal, double degrees)
     const double sine = std::sin(glm::radians(degrees)), cosine = std::cos(glm::radians(degrees));
     const auto main_axis = [](const dvec3& v) { return v.x != 0 ? 0 : v.y != 0 ? 1 : 2; };
     const int s_axis = main_axis(best->s), t_axis = main_axis(best->t);
-    std::array<dvec3, 2> result{best->s, best->t};
+    std::array<dvec3, 2> result { best->s, best->t };
     for (dvec3& axis : result) {
         const double s = axis[s_axis], t = axis[t_axis];
         axis[s_axis] = cosine * s - sine * t;
@@ -50,7 +50,9 @@ std::array<dvec3, 2> rotated_classic_axes(const dvec3& normal, double degrees)
 
 class WorldBuilder {
 public:
-    WorldBuilder(MapSource source, TextureLibrary& textures, const WarningSink& warn) : textures_(textures), warn_(warn)
+    WorldBuilder(MapSource source, TextureLibrary& textures, const WarningSink& warn)
+        : textures_(textures)
+        , warn_(warn)
     {
         world_.source = std::move(source);
     }
@@ -137,7 +139,8 @@ private:
         const dvec3 cross = glm::cross(a - b, c - b);
         const double length = glm::length(cross);
         if (!(length > 1e-9))
-            world_.source.fail(source.line, "the side's three points lie on one line and give no plane; rebuild this brush");
+            world_.source.fail(
+                source.line, "the side's three points lie on one line and give no plane; rebuild this brush");
         const dvec3 normal = cross / length;
         BrushSide side;
         side.plane = world_.planes.find(normal, glm::dot(normal, a - origin));
@@ -147,10 +150,12 @@ private:
                 return;
             }
             if (other.plane == (side.plane ^ 1))
-                world_.source.fail(source.line, "two sides of the brush face each other on one plane: it has no volume; delete it");
+                world_.source.fail(
+                    source.line, "two sides of the brush face each other on one plane: it has no volume; delete it");
         }
         const TextureInfo& texture = textures_.find(source.texture);
-        const MapSide::Surface surface = source.surface.value_or(MapSide::Surface{texture.contents, texture.flags, texture.value});
+        const MapSide::Surface surface
+            = source.surface.value_or(MapSide::Surface { texture.contents, texture.flags, texture.value });
         side.flags = surface.flags | texture.tool_flags;
         side.contents = side_contents(surface.contents | texture.tool_contents, side.flags);
         side.divides = !(side.flags & SURF_SKIP);
@@ -189,7 +194,9 @@ private:
             world_.source.fail(brush.line, "the brush's planes enclose no volume; delete or rebuild it");
         for (int axis = 0; axis < 3; axis++)
             if (brush.bounds.mins[axis] < -world_limit || brush.bounds.maxs[axis] > world_limit)
-                world_.source.fail(brush.line, fmt::format("the brush is open or reaches beyond +-{:.0f} units; close it or move it in", world_limit));
+                world_.source.fail(brush.line,
+                    fmt::format(
+                        "the brush is open or reaches beyond +-{:.0f} units; close it or move it in", world_limit));
         std::erase_if(brush.sides, [](const BrushSide& side) { return side.winding.empty(); });
     }
 
@@ -220,7 +227,7 @@ private:
     void add_bevels(Brush& brush)
     {
         for (int axis = 0; axis < 3; axis++)
-            for (const double sign : {-1.0, 1.0}) {
+            for (const double sign : { -1.0, 1.0 }) {
                 dvec3 normal(0);
                 normal[axis] = sign;
                 add_bevel(brush, normal, sign > 0 ? brush.bounds.maxs[axis] : -brush.bounds.mins[axis]);
@@ -228,7 +235,8 @@ private:
         const size_t solid_sides = brush.sides.size();
         for (size_t i = 0; i < solid_sides; i++)
             for (size_t k = 0; k < brush.sides[i].winding.size(); k++)
-                add_edge_bevels(brush, brush.sides[i].winding[k], brush.sides[i].winding[(k + 1) % brush.sides[i].winding.size()]);
+                add_edge_bevels(
+                    brush, brush.sides[i].winding[k], brush.sides[i].winding[(k + 1) % brush.sides[i].winding.size()]);
     }
 
     void add_edge_bevels(Brush& brush, const dvec3 a, const dvec3 b)
@@ -241,7 +249,7 @@ private:
             if (std::abs(edge[axis]) > 1.0 - 1e-6)
                 return; // an axial edge is covered by the axial planes
         for (int axis = 0; axis < 3; axis++)
-            for (const double sign : {-1.0, 1.0}) {
+            for (const double sign : { -1.0, 1.0 }) {
                 dvec3 direction(0);
                 direction[axis] = sign;
                 const dvec3 cross = glm::cross(edge, direction);
@@ -297,7 +305,8 @@ private:
         info.next = -1;
         info.texture = side.texture;
         if (info.texture.size() > 31)
-            world_.source.fail(side.line, fmt::format("texture name \"{}\" is longer than 31 letters; shorten it", info.texture));
+            world_.source.fail(
+                side.line, fmt::format("texture name \"{}\" is longer than 31 letters; shorten it", info.texture));
         return find_texinfo(info);
     }
 

@@ -13,7 +13,8 @@
 
 namespace vkpt::tools {
 
-// The contents that are seen: SOLID .. MIST. Of several at one place, the lowest bit wins (solid over window over water).
+// The contents that are seen: SOLID .. MIST. Of several at one place, the lowest bit wins (solid over window over
+// water).
 inline constexpr uint32_t visible_contents_mask = 0x7f;
 inline constexpr uint32_t clip_contents = formats::CONTENTS_PLAYERCLIP | formats::CONTENTS_MONSTERCLIP;
 
@@ -25,12 +26,12 @@ inline uint32_t visible_contents(uint32_t contents)
 }
 
 struct BrushSide {
-    int plane = 0;    // looks out of the brush
-    int texinfo = 0;  // always valid in the file: the engine indexes with it unchecked
+    int plane = 0; // looks out of the brush
+    int texinfo = 0; // always valid in the file: the engine indexes with it unchecked
     uint32_t contents = 0, flags = 0;
-    Winding winding;      // empty for bevels and for sides that other sides cut away
-    bool bevel = false;   // for box traces only
-    bool divides = true;  // may become a node of the tree and a face
+    Winding winding; // empty for bevels and for sides that other sides cut away
+    bool bevel = false; // for box traces only
+    bool divides = true; // may become a node of the tree and a face
     bool visible = false; // between places of different contents inside the map
 };
 
@@ -46,7 +47,7 @@ struct Brush {
 // The world (0) or one brush entity ("*1", "*2", ...).
 struct BrushModel {
     int entity = 0;
-    dvec3 origin{0}; // of the origin brush; the brushes are moved so that it is their zero
+    dvec3 origin { 0 }; // of the origin brush; the brushes are moved so that it is their zero
     std::vector<Brush> brushes;
 };
 

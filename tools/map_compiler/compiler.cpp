@@ -16,8 +16,9 @@ namespace {
 {
     const MapEntity& entity = world.source.entities[size_t(leak.entity)];
     throw LeakError(world.source.file, entity.line,
-        fmt::format("the map leaks: entity {} ({}) at ({}) reaches the outside; follow the point file's line to the hole and "
-                    "close it with a structural (not detail) brush",
+        fmt::format(
+            "the map leaks: entity {} ({}) at ({}) reaches the outside; follow the point file's line to the hole and "
+            "close it with a structural (not detail) brush",
             leak.entity, entity.class_name(), entity.get("origin")),
         leak.points);
 }
@@ -39,9 +40,10 @@ Compiled compile_world(World& world, AreaRecords& areas, const CompileOptions& o
         if (!flood.leaks.empty())
             fail_leak(world, flood.leaks[0]);
         if (!flood.any_entity_inside && pass == 0)
-            options.warn(fmt::format("{}: no entity stands inside the map, so the outside cannot be told from the inside; "
-                                     "add an info_player_start",
-                world.source.file));
+            options.warn(
+                fmt::format("{}: no entity stands inside the map, so the outside cannot be told from the inside; "
+                            "add an info_player_start",
+                    world.source.file));
         mark_visible_sides(result.tree, world, model);
     }
     areas = find_areas(result.tree, world, options.warn);
@@ -64,8 +66,9 @@ std::vector<uint8_t> compile_visibility(const ClusterGraph& graph, const Compile
     VisibilityOptions visibility;
     visibility.threads = threads;
     if (graph.portals.size() > visibility.max_flow_portals)
-        options.warn(fmt::format("{} portals: too many to follow every line of sight; the visible sets are larger than needed. Make "
-                                 "small brushes detail",
+        options.warn(fmt::format(
+            "{} portals: too many to follow every line of sight; the visible sets are larger than needed. Make "
+            "small brushes detail",
             graph.portals.size()));
     return pack_visibility(compute_visibility(graph, visibility));
 }
@@ -78,7 +81,8 @@ formats::Bsp compile_map(std::string_view text, std::string_view file, const Com
     TextureLibrary textures(options.textures);
     World world = build_world(parse_map(text, file), textures, options.warn);
     for (const std::string& name : textures.missing())
-        options.warn(fmt::format("{}: texture {} is not in {}; it is compiled without flags", file, name, options.textures.string()));
+        options.warn(fmt::format(
+            "{}: texture {} is not in {}; it is compiled without flags", file, name, options.textures.string()));
     BspWriter writer(world);
     AreaRecords areas;
     Compiled compiled = compile_world(world, areas, options);
@@ -88,8 +92,8 @@ formats::Bsp compile_map(std::string_view text, std::string_view file, const Com
     for (size_t i = 0; i < clusters.nodes.size(); i++)
         compiled.tree.nodes[i].cluster = clusters.nodes[i].cluster;
     writer.add_model(compiled.tree, compiled.faces, world.models[0]);
-    options.progress(fmt::format("{} brushes, {} clusters, {} portals", world.models[0].brushes.size(), graph.cluster_count,
-        graph.portals.size()));
+    options.progress(fmt::format("{} brushes, {} clusters, {} portals", world.models[0].brushes.size(),
+        graph.cluster_count, graph.portals.size()));
     for (size_t i = 1; i < world.models.size(); i++) {
         const Compiled model = compile_brush_model(world, world.models[i]);
         writer.add_model(model.tree, model.faces, world.models[i]);

@@ -25,7 +25,8 @@ struct CompileOptions {
 class LeakError : public MapError {
 public:
     LeakError(std::string_view file, int line, std::string_view reason, std::vector<dvec3> points)
-        : MapError(file, line, reason), points_(std::move(points))
+        : MapError(file, line, reason)
+        , points_(std::move(points))
     {
     }
     // From the outside to the entity, through the hole.

@@ -28,11 +28,12 @@ size_t cell_key(const dvec3& p, const glm::ivec3& step)
 
 } // namespace
 
-BspWriter::BspWriter(World& world) : world_(world)
+BspWriter::BspWriter(World& world)
+    : world_(world)
 {
     bsp_.name = world.source.file;
     // The engine takes leaf 0 for everything solid, and an edge's sign for its direction: edge 0 cannot be used.
-    BspLeaf solid{};
+    BspLeaf solid {};
     solid.contents = CONTENTS_SOLID;
     solid.cluster = -1;
     bsp_.leaves.push_back(solid);
@@ -42,14 +43,16 @@ BspWriter::BspWriter(World& world) : world_(world)
 void BspWriter::check_limit(size_t count, size_t limit, std::string_view what) const
 {
     if (count > limit)
-        world_.source.fail(0, fmt::format("{} {} exceed the format's limit of {}; simplify the map or make brushes detail", count, what, limit));
+        world_.source.fail(0,
+            fmt::format(
+                "{} {} exceed the format's limit of {}; simplify the map or make brushes detail", count, what, limit));
 }
 
 void BspWriter::add_model(const Tree& tree, const FaceSet& faces, const BrushModel& model)
 {
     faces_ = &faces;
     face_numbers_.assign(faces.faces.size(), -1);
-    BspModel record{};
+    BspModel record {};
     Bounds bounds;
     for (const Brush& brush : model.brushes)
         bounds.add(brush.bounds);
@@ -72,9 +75,9 @@ void BspWriter::emit_brushes(const BrushModel& model)
         if (brush.contents == 0)
             continue;
         brush_numbers_[i] = int(bsp_.brushes.size());
-        bsp_.brushes.push_back({int(bsp_.brush_sides.size()), int(brush.sides.size()), brush.contents});
+        bsp_.brushes.push_back({ int(bsp_.brush_sides.size()), int(brush.sides.size()), brush.contents });
         for (const BrushSide& side : brush.sides)
-            bsp_.brush_sides.push_back({uint16_t(side.plane), int16_t(side.texinfo)});
+            bsp_.brush_sides.push_back({ uint16_t(side.plane), int16_t(side.texinfo) });
     }
 }
 
@@ -85,7 +88,7 @@ int BspWriter::emit_node(const Tree& tree, int index)
         return -(emit_leaf(tree, node) + 1);
     const size_t number = bsp_.nodes.size();
     bsp_.nodes.emplace_back();
-    BspNode record{};
+    BspNode record {};
     record.plane = node.plane;
     store_bounds(node.bounds, record.mins, record.maxs);
     record.first_face = uint16_t(bsp_.faces.size());
@@ -102,7 +105,7 @@ int BspWriter::emit_node(const Tree& tree, int index)
 
 int BspWriter::emit_leaf(const Tree& tree, const Node& node)
 {
-    BspLeaf leaf{};
+    BspLeaf leaf {};
     leaf.contents = node.contents;
     leaf.cluster = int16_t(node.cluster);
     leaf.area = int16_t(node.area);
@@ -140,7 +143,7 @@ void BspWriter::emit_face(const Face& face)
         corners.pop_back();
     if (corners.size() < 3)
         return;
-    BspFace record{};
+    BspFace record {};
     record.plane = uint16_t(face.plane & ~1); // as the nodes: the positive one of the pair
     record.side = uint16_t(face.plane & 1);
     record.texinfo = uint16_t(face.texinfo);
@@ -161,8 +164,8 @@ int32_t BspWriter::surface_edge(int from, int to)
         return -it->second.edge;
     }
     const int edge = int(bsp_.edges.size());
-    bsp_.edges.push_back({{uint16_t(from), uint16_t(to)}});
-    edges_.insert_or_assign(uint64_t(uint32_t(from)) << 32 | uint32_t(to), OpenEdge{edge, false});
+    bsp_.edges.push_back({ { uint16_t(from), uint16_t(to) } });
+    edges_.insert_or_assign(uint64_t(uint32_t(from)) << 32 | uint32_t(to), OpenEdge { edge, false });
     return edge;
 }
 
@@ -176,7 +179,7 @@ int BspWriter::vertex(const dvec3& p)
     for (int x = -1; x <= 1; x++)
         for (int y = -1; y <= 1; y++)
             for (int z = -1; z <= 1; z++) {
-                const auto [first, last] = vertex_cells_.equal_range(cell_key(snapped, {x, y, z}));
+                const auto [first, last] = vertex_cells_.equal_range(cell_key(snapped, { x, y, z }));
                 for (auto it = first; it != last; ++it)
                     if (glm::distance(dvec3(bsp_.vertices[size_t(it->second)]), snapped) < same_distance)
                         return it->second;
@@ -191,7 +194,7 @@ Bsp BspWriter::finish(AreaRecords areas, std::vector<uint8_t> visibility, int cl
 {
     bsp_.entity_text = world_.entity_text();
     for (const Plane& plane : world_.planes.all())
-        bsp_.planes.push_back({glm::vec3(plane.normal), float(plane.dist), plane.type});
+        bsp_.planes.push_back({ glm::vec3(plane.normal), float(plane.dist), plane.type });
     bsp_.texinfos = world_.texinfos;
     bsp_.areas = std::move(areas.areas);
     bsp_.area_portals = std::move(areas.portals);

@@ -26,7 +26,7 @@ private:
     World& world_;
     formats::Bsp bsp_;
     const FaceSet* faces_ = nullptr;
-    std::vector<int> face_numbers_;  // of the current model's faces; -1 not written
+    std::vector<int> face_numbers_; // of the current model's faces; -1 not written
     std::vector<int> brush_numbers_; // of the current model's brushes
     std::unordered_multimap<size_t, int> vertex_cells_;
     struct OpenEdge {

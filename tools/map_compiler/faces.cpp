@@ -51,7 +51,11 @@ Winding merge_windings(const Winding& a, const Winding& b, const dvec3& normal)
 
 class FaceMaker {
 public:
-    FaceMaker(Tree& tree, const World& world) : tree_(tree), world_(world) {}
+    FaceMaker(Tree& tree, const World& world)
+        : tree_(tree)
+        , world_(world)
+    {
+    }
 
     FaceSet make()
     {
@@ -128,8 +132,8 @@ private:
         merged.winding = std::move(winding);
         const int index = int(set_.faces.size());
         set_.faces.push_back(std::move(merged));
-        face(a).replaced_by = {index};
-        face(b).replaced_by = {index};
+        face(a).replaced_by = { index };
+        face(b).replaced_by = { index };
         return index;
     }
 
@@ -167,7 +171,7 @@ private:
             if (length < 1e-9 || high - low <= max_face_texels + 0.1)
                 continue;
             const double cut = 16.0 * std::floor((low + max_face_texels) / 16.0);
-            return Plane{axis / length, (cut - offset) / length, 3};
+            return Plane { axis / length, (cut - offset) / length, 3 };
         }
         return {};
     }
@@ -177,7 +181,7 @@ private:
         SplitWinding split = split_winding(face(index).winding, plane, 0.001);
         const Face original = face(index);
         std::vector<int> parts;
-        for (Winding* winding : {&split.front, &split.back}) {
+        for (Winding* winding : { &split.front, &split.back }) {
             if (winding->size() < 3)
                 continue;
             Face part = original;
@@ -215,7 +219,8 @@ private:
             const dvec3 direction = (b - a) / length;
             const double low = std::min(a.x, b.x) - tolerance, high = std::max(a.x, b.x) + tolerance;
             std::vector<double> stops;
-            for (auto it = std::ranges::lower_bound(corners, low, {}, &dvec3::x); it != corners.end() && it->x <= high; ++it) {
+            for (auto it = std::ranges::lower_bound(corners, low, {}, &dvec3::x); it != corners.end() && it->x <= high;
+                 ++it) {
                 const double along = glm::dot(*it - a, direction);
                 if (along > tolerance && along < length - tolerance
                     && glm::distance(*it, a + direction * along) < tolerance)
@@ -240,7 +245,8 @@ private:
         for (size_t start = 0; start < count; start++) {
             size_t flat = 0;
             for (size_t i = 1; i + 1 < count; i++) {
-                const dvec3 &a = winding[start], &b = winding[(start + i) % count], &c = winding[(start + i + 1) % count];
+                const dvec3 &a = winding[start], &b = winding[(start + i) % count],
+                            &c = winding[(start + i + 1) % count];
                 flat += glm::length(glm::cross(b - a, c - a)) < 0.01 * glm::distance(b, c);
             }
             if (flat < best_flat) {

@@ -15,7 +15,12 @@ namespace {
 
 class Flood {
 public:
-    Flood(Tree& tree, const World& world) : tree_(tree), world_(world), entity_(tree.nodes.size(), -1) {}
+    Flood(Tree& tree, const World& world)
+        : tree_(tree)
+        , world_(world)
+        , entity_(tree.nodes.size(), -1)
+    {
+    }
 
     FloodResult run()
     {
@@ -42,7 +47,8 @@ private:
         if (!origin || !entity.brushes.empty())
             return false;
         const dvec3 p = *origin + dvec3(0, 0, 1); // things stand exactly on floors
-        const bool in_world = glm::all(glm::greaterThan(p, tree_.bounds.mins)) && glm::all(glm::lessThan(p, tree_.bounds.maxs));
+        const bool in_world
+            = glm::all(glm::greaterThan(p, tree_.bounds.mins)) && glm::all(glm::lessThan(p, tree_.bounds.maxs));
         const int leaf = in_world ? tree_.find_leaf(world_.planes, p) : tree_.outside;
         if (node(leaf).contents & CONTENTS_SOLID)
             return false;
@@ -113,7 +119,9 @@ private:
 
 class AreaFinder {
 public:
-    AreaFinder(Tree& tree, const World& world) : tree_(tree), sides_(size_t(world.area_portal_count) + 1)
+    AreaFinder(Tree& tree, const World& world)
+        : tree_(tree)
+        , sides_(size_t(world.area_portal_count) + 1)
     {
         for (const Brush& brush : world.models[0].brushes)
             portal_of_brush_.push_back(brush.area_portal);
@@ -149,7 +157,7 @@ private:
 
     void flood(int start, int area)
     {
-        std::vector<int> stack{start};
+        std::vector<int> stack { start };
         node(start).area = area;
         while (!stack.empty()) {
             const int leaf = stack.back();
@@ -175,7 +183,7 @@ private:
     {
         AreaRecords records;
         records.areas.resize(size_t(count) + 1); // the engine counts areas from 1
-        records.portals.push_back({});           // and portals
+        records.portals.push_back({}); // and portals
         for (size_t number = 1; number < sides_.size(); number++)
             if (sides_[number].size() != 2)
                 warn(fmt::format("{}: func_areaportal {} touches {} areas; it must separate exactly two to be of use",
@@ -185,7 +193,7 @@ private:
             record.first_area_portal = int(records.portals.size());
             for (size_t number = 1; number < sides_.size(); number++)
                 if (sides_[number].size() == 2 && (sides_[number][0] == area || sides_[number][1] == area))
-                    records.portals.push_back({int(number), sides_[number][sides_[number][0] == area]});
+                    records.portals.push_back({ int(number), sides_[number][sides_[number][0] == area] });
             record.area_portal_count = int(records.portals.size()) - record.first_area_portal;
         }
         return records;

@@ -52,7 +52,7 @@ int PlaneSet::find(dvec3 normal, double dist)
     }
     const int axis = major_axis(normal);
     const bool axial = std::abs(normal[axis]) == 1.0;
-    const Plane plane{normal, dist, axial ? axis : axis + 3};
+    const Plane plane { normal, dist, axial ? axis : axis + 3 };
     const bool positive = normal[axis] > 0;
     const int first = int(planes_.size());
     planes_.push_back(positive ? plane : plane.flipped());
@@ -70,8 +70,8 @@ Winding make_base_winding(const Plane& plane)
     const dvec3 right = glm::cross(up, plane.normal);
     const dvec3 centre = plane.normal * plane.dist;
     const double size = world_limit * 4;
-    return {centre + (up - right) * size, centre + (up + right) * size, centre + (right - up) * size,
-        centre - (up + right) * size};
+    return { centre + (up - right) * size, centre + (up + right) * size, centre + (right - up) * size,
+        centre - (up + right) * size };
 }
 
 SplitWinding split_winding(const Winding& winding, const Plane& plane, double epsilon)
@@ -151,9 +151,9 @@ Plane winding_plane(const Winding& winding)
     for (size_t i = 2; i < winding.size(); i++)
         sum += glm::cross(winding[i] - winding[0], winding[i - 1] - winding[0]);
     const dvec3 normal = glm::normalize(sum);
-    return {normal, glm::dot(normal, winding[0]), major_axis(normal) + 3};
+    return { normal, glm::dot(normal, winding[0]), major_axis(normal) + 3 };
 }
 
-Winding reversed(const Winding& winding) { return {winding.rbegin(), winding.rend()}; }
+Winding reversed(const Winding& winding) { return { winding.rbegin(), winding.rend() }; }
 
 } // namespace vkpt::tools

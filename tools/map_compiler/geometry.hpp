@@ -18,19 +18,19 @@ inline constexpr double on_epsilon = 0.05;
 inline constexpr double world_limit = 4096.0;
 
 struct Plane {
-    dvec3 normal{0};
+    dvec3 normal { 0 };
     double dist = 0;
     int type = 0; // 0..2 axial x, y, z; 3..5 nearest axis
 
     double distance(const dvec3& p) const { return glm::dot(normal, p) - dist; }
-    Plane flipped() const { return {-normal, -dist, type}; }
+    Plane flipped() const { return { -normal, -dist, type }; }
 };
 
 // A convex polygon, clockwise seen from the front of its plane (as Quake II's files store faces).
 using Winding = std::vector<dvec3>;
 
 struct Bounds {
-    dvec3 mins{1e30}, maxs{-1e30};
+    dvec3 mins { 1e30 }, maxs { -1e30 };
 
     void add(const dvec3& p)
     {

@@ -16,7 +16,7 @@ Occlusion::Occlusion(const Bsp& bsp)
     };
     for (const BspNode& node : bsp.nodes) {
         const BspPlane& plane = bsp.planes[size_t(node.plane)];
-        nodes_.push_back({plane.normal, plane.dist, {child(node.children[0]), child(node.children[1])}});
+        nodes_.push_back({ plane.normal, plane.dist, { child(node.children[0]), child(node.children[1]) } });
     }
     root_ = child(bsp.models[0].head_node);
 }

@@ -44,8 +44,8 @@ private:
 
 struct LightSource {
     enum class Kind { point, spot, surface } kind = Kind::point;
-    dvec3 position{0}, normal{0};
-    dvec3 colour{1}; // largest part 1
+    dvec3 position { 0 }, normal { 0 };
+    dvec3 colour { 1 }; // largest part 1
     double intensity = 0;
     double cone_cosine = 0;
     int style = 0;
@@ -56,15 +56,15 @@ struct LightSource {
 struct Patch {
     size_t face = 0;
     Bounds bounds;
-    dvec3 position{0}; // its centre, one unit off the surface
-    dvec3 normal{0};
+    dvec3 position { 0 }; // its centre, one unit off the surface
+    dvec3 normal { 0 };
     double area = 0;
     int cluster = -1;
     bool absorbs = false; // sky: nothing comes back
-    dvec3 emission{0}, reflectivity{0};
-    dvec3 direct{0}; // mean of the samples on it, style 0
+    dvec3 emission { 0 }, reflectivity { 0 };
+    dvec3 direct { 0 }; // mean of the samples on it, style 0
     int sample_count = 0;
-    dvec3 bounced{0}; // the result: what arrives by reflection
+    dvec3 bounced { 0 }; // the result: what arrives by reflection
 };
 
 struct LightScene {
@@ -73,10 +73,10 @@ struct LightScene {
     const formats::Bsp& bsp;
     const World& world;
     Occlusion occlusion;
-    std::vector<formats::ClusterSet> pvs;   // per cluster
-    std::vector<dvec3> face_origin;         // what a brush model's faces are moved by
-    std::vector<Patch> patches;             // in the order of the faces
-    std::vector<size_t> first_patch;        // per face, and one past the end
+    std::vector<formats::ClusterSet> pvs; // per cluster
+    std::vector<dvec3> face_origin; // what a brush model's faces are moved by
+    std::vector<Patch> patches; // in the order of the faces
+    std::vector<size_t> first_patch; // per face, and one past the end
     std::vector<LightSource> sources;
     std::vector<std::vector<int>> cluster_sources; // per cluster: the sources in its PVS
 
@@ -93,7 +93,8 @@ struct LightScene {
 // light_sources.cpp
 void make_patches(LightScene& scene);
 void make_sources(LightScene& scene, const WarningSink& warn);
-// radiosity.cpp: fills the patches' `bounced` from their `direct`. Returns the number of patch pairs that see each other.
+// radiosity.cpp: fills the patches' `bounced` from their `direct`. Returns the number of patch pairs that see each
+// other.
 size_t bounce_light(LightScene& scene, int threads);
 
 } // namespace vkpt::tools

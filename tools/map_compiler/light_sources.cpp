@@ -22,7 +22,7 @@ std::optional<Plane> find_grid_cut(const Bounds& bounds)
         if (first < std::floor((bounds.maxs[axis] - 1) / patch_size)) {
             dvec3 normal(0);
             normal[axis] = 1;
-            return Plane{normal, patch_size * (first + 1), axis};
+            return Plane { normal, patch_size * (first + 1), axis };
         }
     }
     return {};
@@ -50,7 +50,7 @@ void add_patches(LightScene& scene, const Patch& prototype, const Winding& windi
     scene.patches.push_back(patch);
 }
 
-double largest_part(const dvec3& colour) { return std::max({colour.x, colour.y, colour.z}); }
+double largest_part(const dvec3& colour) { return std::max({ colour.x, colour.y, colour.z }); }
 
 void add_source(LightScene& scene, LightSource source)
 {
@@ -76,8 +76,8 @@ void add_surface_source(LightScene& scene, const Patch& patch)
 dvec3 angle_direction(double angle)
 {
     if (angle == -1 || angle == -2)
-        return {0, 0, angle == -1 ? 1 : -1};
-    return {std::cos(glm::radians(angle)), std::sin(glm::radians(angle)), 0};
+        return { 0, 0, angle == -1 ? 1 : -1 };
+    return { std::cos(glm::radians(angle)), std::sin(glm::radians(angle)), 0 };
 }
 
 void aim_spot(LightScene& scene, LightSource& source, const MapEntity& entity, const WarningSink& warn)
@@ -98,21 +98,22 @@ void aim_spot(LightScene& scene, LightSource& source, const MapEntity& entity, c
                 source.normal = glm::normalize(way);
             return;
         }
-    warn(MapError(scene.world.source.file, entity.line, fmt::format("the light's target \"{}\" does not exist", target)).what());
+    warn(MapError(scene.world.source.file, entity.line, fmt::format("the light's target \"{}\" does not exist", target))
+             .what());
 }
 
 void add_entity_source(LightScene& scene, const MapEntity& entity, const WarningSink& warn)
 {
     LightSource source;
     source.position = entity.vector("origin").value_or(dvec3(0));
-    for (const char* key : {"light", "_light"})
+    for (const char* key : { "light", "_light" })
         if (source.intensity == 0)
             source.intensity = entity.number(key, 0);
     if (source.intensity == 0)
         source.intensity = 300;
     if (const auto colour = entity.vector("_color"); colour && largest_part(*colour) > 0)
         source.colour = *colour / largest_part(*colour);
-    for (const char* key : {"_style", "style"})
+    for (const char* key : { "_style", "style" })
         if (source.style == 0)
             source.style = int(entity.number(key, 0));
     if (source.style < 0 || source.style > 254)

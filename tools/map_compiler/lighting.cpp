@@ -52,7 +52,7 @@ public:
     dvec3 find_point(const LightScene& scene, int x, int y) const
     {
         constexpr double step = 8;
-        double texel[2] = {extent.min_st.x + 16.0 * x, extent.min_st.y + 16.0 * y};
+        double texel[2] = { extent.min_st.x + 16.0 * x, extent.min_st.y + 16.0 * y };
         const dvec3 middle = to_world(middle_.x, middle_.y);
         dvec3 point = to_world(texel[0], texel[1]);
         for (int attempt = 0; attempt < 6 && is_hidden(scene, middle, point); attempt++) {
@@ -65,7 +65,7 @@ public:
     }
 
     Bsp::LightmapExtent extent;
-    dvec3 normal{0};
+    dvec3 normal { 0 };
 
 private:
     dvec3 to_world(double s, double t) const
@@ -75,18 +75,19 @@ private:
 
     static bool is_hidden(const LightScene& scene, const dvec3& middle, const dvec3& point)
     {
-        return scene.bsp.leaves[scene.bsp.find_leaf(glm::vec3(point), scene.bsp.models[0].head_node)].contents & CONTENTS_SOLID
+        return scene.bsp.leaves[scene.bsp.find_leaf(glm::vec3(point), scene.bsp.models[0].head_node)].contents
+            & CONTENTS_SOLID
             || scene.occlusion.is_blocked(middle, point);
     }
 
     const BspTexinfo* info_ = nullptr;
-    glm::dmat3 to_world_{1};
+    glm::dmat3 to_world_ { 1 };
     double depth_ = 0;
-    dvec3 origin_{0}, middle_{0};
+    dvec3 origin_ { 0 }, middle_ { 0 };
 };
 
 struct FaceLight {
-    glm::ivec2 size{0};
+    glm::ivec2 size { 0 };
     std::vector<dvec3> points;
     std::map<int, std::vector<dvec3>> styles; // per luxel; style 0 always there
 };
@@ -139,7 +140,7 @@ void add_to_patches(std::span<Patch> patches, const dvec3& point, const dvec3& l
         return;
     for (Patch& patch : patches) {
         const dvec3 outside = glm::max(patch.bounds.mins - point, point - patch.bounds.maxs);
-        if (std::max({outside.x, outside.y, outside.z}) > reach)
+        if (std::max({ outside.x, outside.y, outside.z }) > reach)
             continue;
         patch.direct += light;
         patch.sample_count++;
@@ -166,7 +167,8 @@ FaceLight light_face(LightScene& scene, size_t face)
         if (patch.sample_count > 0)
             patch.direct /= double(patch.sample_count);
     // What shines is itself bright.
-    if (!patches.empty() && std::max({patches[0].emission.x, patches[0].emission.y, patches[0].emission.z}) >= least_emission)
+    if (!patches.empty()
+        && std::max({ patches[0].emission.x, patches[0].emission.y, patches[0].emission.z }) >= least_emission)
         for (dvec3& luxel : light.styles[0])
             luxel += patches[0].emission;
     return light;
@@ -180,7 +182,7 @@ PlanePatches sort_by_plane(const LightScene& scene)
     PlanePatches result;
     for (const Patch& patch : scene.patches) {
         const BspFace& face = scene.bsp.faces[patch.face];
-        result[{face.plane, face.side}].push_back(&patch);
+        result[{ face.plane, face.side }].push_back(&patch);
     }
     return result;
 }
@@ -210,7 +212,7 @@ dvec3 interpolate_bounced(std::span<const Patch* const> patches, const dvec3& po
 void store_luxel(std::vector<uint8_t>& lighting, dvec3 light)
 {
     light = glm::max(light, dvec3(1));
-    const double largest = std::max({light.x, light.y, light.z});
+    const double largest = std::max({ light.x, light.y, light.z });
     light *= std::min(largest, brightest_luxel) / largest;
     for (int i = 0; i < 3; i++)
         lighting.push_back(uint8_t(light[i]));
@@ -224,7 +226,7 @@ void store_face(Bsp& bsp, size_t index, FaceLight& light, const PlanePatches& pl
     if (light.points.empty())
         return;
     face.light_offset = int32_t(bsp.lighting.size());
-    if (const auto it = plane_patches.find({face.plane, face.side}); it != plane_patches.end())
+    if (const auto it = plane_patches.find({ face.plane, face.side }); it != plane_patches.end())
         for (size_t i = 0; i < light.points.size(); i++)
             light.styles[0][i] += interpolate_bounced(it->second, light.points[i]);
     size_t slot = 0;
@@ -247,14 +249,16 @@ void light_map(Bsp& bsp, const World& world, int threads, const WarningSink& pro
     std::vector<FaceLight> lights(bsp.faces.size());
     parallel_for(bsp.faces.size(), threads, [&](size_t face) { lights[face] = light_face(scene, face); });
     const size_t pairs = bounce_light(scene, threads);
-    progress(fmt::format("{} lights, {} patches, {} pairs in sight", scene.sources.size(), scene.patches.size(), pairs));
+    progress(
+        fmt::format("{} lights, {} patches, {} pairs in sight", scene.sources.size(), scene.patches.size(), pairs));
     const PlanePatches plane_patches = sort_by_plane(scene);
     bsp.lighting.clear();
     for (size_t face = 0; face < bsp.faces.size(); face++)
         store_face(bsp, face, lights[face], plane_patches);
     constexpr size_t lighting_limit = 0x200000; // what the engine's players were built for
     if (bsp.lighting.size() > lighting_limit)
-        progress(fmt::format("warning: {} bytes of light exceed the original game's limit of {}", bsp.lighting.size(), lighting_limit));
+        progress(fmt::format(
+            "warning: {} bytes of light exceed the original game's limit of {}", bsp.lighting.size(), lighting_limit));
 }
 
 } // namespace vkpt::tools

@@ -72,7 +72,8 @@ int main(int argc, char** argv)
     app.add_option("--textures", arguments.textures, "folder of the .wal files (their flags and colours)");
     app.add_flag("--no-light", arguments.no_light, "bake no lightmaps");
     app.add_flag("--no-vis", arguments.no_visibility, "write no visible sets: everything sees everything");
-    app.add_option("--light-threads", arguments.threads, "threads for visibility and light; 0: all")->check(CLI::Range(0, 256));
+    app.add_option("--light-threads", arguments.threads, "threads for visibility and light; 0: all")
+        ->check(CLI::Range(0, 256));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

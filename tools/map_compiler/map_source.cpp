@@ -85,7 +85,12 @@ struct Token {
 
 class Parser {
 public:
-    Parser(std::string_view text, std::string_view file) : text_(text), file_(file) { advance(); }
+    Parser(std::string_view text, std::string_view file)
+        : text_(text)
+        , file_(file)
+    {
+        advance();
+    }
 
     MapSource parse()
     {
@@ -93,7 +98,8 @@ public:
         map.file = file_;
         while (!token_.end) {
             if (!is("{"))
-                fail(fmt::format("expected '{{' that begins an entity, found '{}'; look for a '}}' too many above", token_.text));
+                fail(fmt::format(
+                    "expected '{{' that begins an entity, found '{}'; look for a '}}' too many above", token_.text));
             map.entities.push_back(parse_entity());
         }
         if (map.entities.empty())
@@ -125,7 +131,7 @@ private:
     void advance()
     {
         skip_blanks();
-        token_ = {{}, line_, false, position_ >= text_.size()};
+        token_ = { {}, line_, false, position_ >= text_.size() };
         if (token_.end)
             return;
         if (text_[position_] == '"') {
@@ -179,7 +185,7 @@ private:
     dvec3 triple(std::string_view what)
     {
         const double x = number(what), y = number(what), z = number(what);
-        return {x, y, z};
+        return { x, y, z };
     }
 
     MapEntity parse_entity()
@@ -215,7 +221,8 @@ private:
         brush.line = token_.line;
         advance();
         if (is("brushDef") || is("brushDef3") || is("patchDef2"))
-            fail("brush primitives and patches are not Quake II's; save the map in the Quake II format (standard or Valve)");
+            fail("brush primitives and patches are not Quake II's; save the map in the Quake II format (standard or "
+                 "Valve)");
         while (!is("}")) {
             if (token_.end)
                 throw MapError(file_, brush.line, "this brush is not closed; add the missing '}'");
@@ -223,7 +230,8 @@ private:
         }
         advance();
         if (brush.sides.size() < 4)
-            throw MapError(file_, brush.line, fmt::format("a brush needs at least 4 sides, this has {}", brush.sides.size()));
+            throw MapError(
+                file_, brush.line, fmt::format("a brush needs at least 4 sides, this has {}", brush.sides.size()));
         return brush;
     }
 

@@ -23,10 +23,11 @@ public:
 struct MapSide {
     std::array<dvec3, 3> points;
     std::string texture;
-    // Classic sides give shift, rotation and scale on an axis pair that follows from the plane; Valve-220 sides give axes.
+    // Classic sides give shift, rotation and scale on an axis pair that follows from the plane; Valve-220 sides give
+    // axes.
     bool valve_axes = false;
-    std::array<dvec3, 2> axes{dvec3(0), dvec3(0)};
-    std::array<double, 2> shift{0, 0}, scale{1, 1};
+    std::array<dvec3, 2> axes { dvec3(0), dvec3(0) };
+    std::array<double, 2> shift { 0, 0 }, scale { 1, 1 };
     double rotation = 0; // degrees
     struct Surface {
         uint32_t contents = 0, flags = 0;

@@ -11,10 +11,9 @@
 namespace vkpt::tools {
 
 // Calls work(i) for every i < count, on `threads` threads. The first exception is passed on.
-template <class Work>
-void parallel_for(size_t count, int threads, const Work& work)
+template <class Work> void parallel_for(size_t count, int threads, const Work& work)
 {
-    std::atomic<size_t> next{0};
+    std::atomic<size_t> next { 0 };
     std::exception_ptr failure;
     std::mutex mutex;
     const auto run = [&] {

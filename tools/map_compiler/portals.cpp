@@ -15,7 +15,12 @@ constexpr double portal_epsilon = 1e-3;
 
 class PortalMaker {
 public:
-    PortalMaker(Tree& tree, const PlaneSet& planes, PortalScope scope) : tree_(tree), planes_(planes), scope_(scope) {}
+    PortalMaker(Tree& tree, const PlaneSet& planes, PortalScope scope)
+        : tree_(tree)
+        , planes_(planes)
+        , scope_(scope)
+    {
+    }
 
     void make()
     {
@@ -46,7 +51,7 @@ private:
             dvec3 normal(0);
             normal[axis] = i % 2 ? -1.0 : 1.0; // inwards
             const double dist = i % 2 ? -(tree_.bounds.maxs[axis] + margin) : tree_.bounds.mins[axis] - margin;
-            box_[size_t(i)] = {normal, dist, axis};
+            box_[size_t(i)] = { normal, dist, axis };
         }
         for (int i = 0; i < 6; i++) {
             Winding winding = make_base_winding(box_[size_t(i)]);
@@ -97,7 +102,8 @@ private:
         Winding winding = make_base_winding(planes_[n.plane]);
         for (int child = index, parent = n.parent; parent >= 0; child = parent, parent = node(parent).parent) {
             const Plane& plane = planes_[node(parent).plane];
-            winding = clip_winding(winding, node(parent).children[0] == child ? plane : plane.flipped(), portal_epsilon);
+            winding
+                = clip_winding(winding, node(parent).children[0] == child ? plane : plane.flipped(), portal_epsilon);
         }
         for (const int p : n.portals) {
             const Plane& plane = plane_of(portal(p));
@@ -134,7 +140,7 @@ private:
             (same_way == (side == 0) ? split.front : split.back) = original.winding;
         }
         portal(p).winding.clear();
-        for (const int child : {0, 1}) {
+        for (const int child : { 0, 1 }) {
             Winding& winding = child == 0 ? split.front : split.back;
             if (is_tiny(winding))
                 continue;
@@ -167,7 +173,7 @@ BrushSide* find_side(const Tree& tree, const World& world, BrushModel& model, co
         return nullptr;
     BrushSide* best = nullptr;
     double best_dot = 0;
-    for (const Node* node : {&b, &a}) {
+    for (const Node* node : { &b, &a }) {
         for (const int index : node->brushes) {
             Brush& brush = model.brushes[size_t(index)];
             if (!(brush.contents & showing))

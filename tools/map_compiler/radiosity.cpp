@@ -36,7 +36,7 @@ std::vector<Exchange> find_exchanges(const LightScene& scene, size_t index)
         const double geometry = from * to / (squared * squared);
         if (geometry * std::max(a.area, b.area) < least_transfer || scene.occlusion.is_blocked(a.position, b.position))
             continue;
-        result.push_back({uint32_t(k), float(geometry)});
+        result.push_back({ uint32_t(k), float(geometry) });
     }
     return result;
 }

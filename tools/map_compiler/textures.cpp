@@ -20,15 +20,15 @@ struct ToolTexture {
 
 // The names under which editors' texture sets carry them.
 constexpr ToolTexture tool_textures[] = {
-    {"clip", 0, formats::CONTENTS_PLAYERCLIP | formats::CONTENTS_MONSTERCLIP},
-    {"trigger", formats::SURF_NODRAW, 0},
-    {"origin", 0, contents_origin},
-    {"hint", formats::SURF_HINT, 0},
-    {"skip", formats::SURF_SKIP, 0},
-    {"nodraw", formats::SURF_NODRAW, 0},
-    {"caulk", formats::SURF_NODRAW, 0},
-    {"sky", formats::SURF_SKY, 0},
-    {"areaportal", 0, formats::CONTENTS_AREAPORTAL},
+    { "clip", 0, formats::CONTENTS_PLAYERCLIP | formats::CONTENTS_MONSTERCLIP },
+    { "trigger", formats::SURF_NODRAW, 0 },
+    { "origin", 0, contents_origin },
+    { "hint", formats::SURF_HINT, 0 },
+    { "skip", formats::SURF_SKIP, 0 },
+    { "nodraw", formats::SURF_NODRAW, 0 },
+    { "caulk", formats::SURF_NODRAW, 0 },
+    { "sky", formats::SURF_SKY, 0 },
+    { "areaportal", 0, formats::CONTENTS_AREAPORTAL },
 };
 
 std::string lower(std::string text)
@@ -54,7 +54,8 @@ std::vector<std::byte> read_file(const fs::path& path)
     return bytes;
 }
 
-TextureLibrary::TextureLibrary(fs::path folder) : folder_(std::move(folder))
+TextureLibrary::TextureLibrary(fs::path folder)
+    : folder_(std::move(folder))
 {
     if (folder_.empty())
         return;
@@ -104,8 +105,8 @@ TextureInfo TextureLibrary::load(const std::string& name)
     return info;
 }
 
-// The picture's mean colour as stored (not linearised), scaled until its largest part is 1, or, for dark pictures, until
-// it is 2 m (m: the largest part before): the classic tool's answer to the game's dim textures.
+// The picture's mean colour as stored (not linearised), scaled until its largest part is 1, or, for dark pictures,
+// until it is 2 m (m: the largest part before): the classic tool's answer to the game's dim textures.
 glm::dvec3 TextureLibrary::read_reflectivity(formats::Bytes file, const std::string& name) const
 {
     const formats::Image image = formats::read_wal(file, name, *palette_);
@@ -113,7 +114,7 @@ glm::dvec3 TextureLibrary::read_reflectivity(formats::Bytes file, const std::str
     for (const formats::Rgba8& pixel : image.pixels)
         sum += glm::dvec3(pixel.r, pixel.g, pixel.b);
     const glm::dvec3 mean = sum / (255.0 * double(std::max<size_t>(1, image.pixels.size())));
-    const double largest = std::max({mean.x, mean.y, mean.z});
+    const double largest = std::max({ mean.x, mean.y, mean.z });
     if (!(largest > 0))
         return glm::dvec3(0);
     return mean / largest * (largest < 0.5 ? 2 * largest : 1.0);

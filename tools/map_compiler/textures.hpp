@@ -21,7 +21,7 @@ struct TextureInfo {
     uint32_t flags = 0, contents = 0;
     int value = 0;
     std::string next_animation;
-    glm::dvec3 reflectivity{0.5}; // 0..1, as the classic light tool sees it; see read_reflectivity
+    glm::dvec3 reflectivity { 0.5 }; // 0..1, as the classic light tool sees it; see read_reflectivity
     bool found = false;
     // By the name: or-ed in even where the map or the .wal gives its own.
     uint32_t tool_flags = 0, tool_contents = 0;

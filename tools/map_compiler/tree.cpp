@@ -37,7 +37,11 @@ struct PlaneTally {
 
 class TreeBuilder {
 public:
-    TreeBuilder(const World& world, const BrushModel& model) : world_(world), model_(model) {}
+    TreeBuilder(const World& world, const BrushModel& model)
+        : world_(world)
+        , model_(model)
+    {
+    }
 
     Tree build()
     {
@@ -55,10 +59,10 @@ private:
     Fragment make_fragment(int index) const
     {
         const Brush& brush = model_.brushes[size_t(index)];
-        Fragment fragment{index, {}, brush.bounds};
+        Fragment fragment { index, {}, brush.bounds };
         for (const BrushSide& side : brush.sides)
             if (!side.bevel)
-                fragment.sides.push_back({side.plane, &side, side.winding, false});
+                fragment.sides.push_back({ side.plane, &side, side.winding, false });
         return fragment;
     }
 
@@ -115,8 +119,8 @@ private:
     // -1: every side is used.
     int choose_plane(const std::vector<Fragment>& fragments, bool& detail) const
     {
-        for (const bool visible : {true, false})
-            for (const bool want_detail : {false, true})
+        for (const bool visible : { true, false })
+            for (const bool want_detail : { false, true })
                 if (const int plane = choose_plane_among(fragments, visible, want_detail); plane >= 0) {
                     detail = want_detail;
                     return plane;
@@ -259,18 +263,18 @@ private:
         for (const FragmentSide& side : fragment.sides) {
             SplitWinding split = split_winding(side.winding, plane, 0.0);
             if (split.front.size() >= 3)
-                result.front.sides.push_back({side.plane, side.original, std::move(split.front), side.on_node});
+                result.front.sides.push_back({ side.plane, side.original, std::move(split.front), side.on_node });
             if (split.back.size() >= 3)
-                result.back.sides.push_back({side.plane, side.original, std::move(split.back), side.on_node});
+                result.back.sides.push_back({ side.plane, side.original, std::move(split.back), side.on_node });
         }
-        for (Fragment* half : {&result.front, &result.back})
+        for (Fragment* half : { &result.front, &result.back })
             for (const FragmentSide& side : half->sides)
                 half->bounds.add(side.winding);
         result.in_front = result.front.sides.size() >= 3;
         result.in_back = result.back.sides.size() >= 3;
         // The cut closes both halves, each seen from outside itself.
-        result.front.sides.push_back({plane_index ^ 1, nullptr, reversed(cut), true});
-        result.back.sides.push_back({plane_index, nullptr, cut, true});
+        result.front.sides.push_back({ plane_index ^ 1, nullptr, reversed(cut), true });
+        result.back.sides.push_back({ plane_index, nullptr, cut, true });
     }
 
     const World& world_;

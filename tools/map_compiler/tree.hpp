@@ -10,17 +10,17 @@ namespace vkpt::tools {
 
 // A polygon between two leaves (or, for visibility, two clusters).
 struct Portal {
-    int plane = 0;         // nodes[0] lies in front of it
-    int nodes[2] = {0, 0};
-    Winding winding;       // on `plane`, clockwise from its front
-    int on_node = -1;      // the tree node whose plane made it; -1: the world's outer box
+    int plane = 0; // nodes[0] lies in front of it
+    int nodes[2] = { 0, 0 };
+    Winding winding; // on `plane`, clockwise from its front
+    int on_node = -1; // the tree node whose plane made it; -1: the world's outer box
     const BrushSide* side = nullptr; // the brush side to be seen here, null: nothing to see
-    int faces[2] = {-1, -1}; // the face seen from nodes[i]
+    int faces[2] = { -1, -1 }; // the face seen from nodes[i]
 };
 
 struct Node {
     int plane = -1; // -1: leaf; else children[0] lies in front of it
-    int children[2] = {-1, -1};
+    int children[2] = { -1, -1 };
     int parent = -1;
     bool detail = false; // divided by a detail brush: everything below is one cluster
     Bounds bounds;

@@ -39,7 +39,7 @@ void number_leaves(Tree& tree, int index, int cluster)
 
 bool is_see_through(uint32_t a, uint32_t b)
 {
-    for (uint32_t* contents : {&a, &b})
+    for (uint32_t* contents : { &a, &b })
         if (*contents & (CONTENTS_TRANSLUCENT | CONTENTS_DETAIL))
             *contents = 0;
     if ((a | b) & CONTENTS_SOLID)
@@ -50,7 +50,10 @@ bool is_see_through(uint32_t a, uint32_t b)
 // Bit set over directed portals.
 class Bits {
 public:
-    explicit Bits(size_t count = 0) : words_((count + 63) / 64) {}
+    explicit Bits(size_t count = 0)
+        : words_((count + 63) / 64)
+    {
+    }
     bool test(size_t i) const { return words_[i / 64] >> (i % 64) & 1; }
     void set(size_t i) { words_[i / 64] |= uint64_t(1) << (i % 64); }
     std::vector<uint64_t>& words() { return words_; }
@@ -66,13 +69,15 @@ struct Passage {
     Plane plane; // looks into `to`
     Winding winding;
     Bits might_see, sees;
-    std::atomic<bool> done{false};
+    std::atomic<bool> done { false };
 };
 
 class VisibilityFlow {
 public:
     explicit VisibilityFlow(const ClusterGraph& graph)
-        : count_(graph.portals.size() * 2), passages_(count_), leaving_(size_t(graph.cluster_count))
+        : count_(graph.portals.size() * 2)
+        , passages_(count_)
+        , leaving_(size_t(graph.cluster_count))
     {
         for (size_t i = 0; i < count_; i++) {
             const ClusterPortal& portal = graph.portals[i / 2];
@@ -128,14 +133,15 @@ private:
     // b is ahead of a, and a behind b.
     bool faces(const Passage& a, const Passage& b) const
     {
-        const bool ahead = std::ranges::any_of(b.winding, [&](const dvec3& p) { return a.plane.distance(p) > epsilon; });
+        const bool ahead
+            = std::ranges::any_of(b.winding, [&](const dvec3& p) { return a.plane.distance(p) > epsilon; });
         return ahead && std::ranges::any_of(a.winding, [&](const dvec3& p) { return b.plane.distance(p) < -epsilon; });
     }
 
     void flood_possible(size_t start)
     {
         Passage& from = passages_[start];
-        std::vector<int> stack{from.to};
+        std::vector<int> stack { from.to };
         std::vector<bool> entered(leaving_.size());
         while (!stack.empty()) {
             const int cluster = stack.back();
@@ -153,9 +159,9 @@ private:
 
     struct Step {
         const Step* before = nullptr;
-        Bits might;      // portals still possible from here
-        Winding source;  // the part of the first portal that sees here
-        Winding pass;    // the last portal's part that is seen; empty at the first
+        Bits might; // portals still possible from here
+        Winding source; // the part of the first portal that sees here
+        Winding pass; // the last portal's part that is seen; empty at the first
         Plane plane;
     };
 
@@ -234,7 +240,7 @@ private:
         const double length = glm::length(cross);
         if (length < 0.1)
             return {};
-        Plane plane{cross / length, 0, 3};
+        Plane plane { cross / length, 0, 3 };
         plane.dist = glm::dot(pass[k], plane.normal);
         int source_side = 0;
         for (size_t m = 0; m < source.size() && source_side == 0; m++)
@@ -286,13 +292,13 @@ ClusterGraph make_clusters(Tree& tree, const PlaneSet& planes)
     ClusterGraph graph;
     std::vector<int> cluster_of(tree.nodes.size(), -1);
     std::vector<uint32_t> contents(tree.nodes.size());
-    std::vector<int> stack{0};
+    std::vector<int> stack { 0 };
     while (!stack.empty()) {
         const int index = stack.back();
         stack.pop_back();
         const Node& node = tree.nodes[size_t(index)];
         if (!node.is_leaf() && !node.detail) {
-            stack.insert(stack.end(), {node.children[1], node.children[0]});
+            stack.insert(stack.end(), { node.children[1], node.children[0] });
             continue;
         }
         contents[size_t(index)] = cluster_contents(tree, index);
@@ -305,7 +311,7 @@ ClusterGraph make_clusters(Tree& tree, const PlaneSet& planes)
         if (portal.winding.empty() || a < 0 || b < 0)
             continue;
         if (is_see_through(contents[size_t(portal.nodes[0])], contents[size_t(portal.nodes[1])]))
-            graph.portals.push_back({{a, b}, portal.winding});
+            graph.portals.push_back({ { a, b }, portal.winding });
     }
     return graph;
 }

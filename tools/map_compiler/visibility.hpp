@@ -10,7 +10,7 @@ namespace vkpt::tools {
 
 // A portal of the cluster graph; passable by sight.
 struct ClusterPortal {
-    int clusters[2] = {0, 0}; // clusters[0] lies in front of the winding's plane
+    int clusters[2] = { 0, 0 }; // clusters[0] lies in front of the winding's plane
     Winding winding;
 };
 
