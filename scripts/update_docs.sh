@@ -6,7 +6,7 @@
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
 . "$root/scripts/lib/common.sh"
-vkpt=$build_dir/client/vkpt
+vkpt=$build_dir/bin/vkpt
 [[ -x $vkpt ]] || die "$vkpt is not built"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -89,6 +89,10 @@ bool Graphics::follow_window()
         } else if (swapchain_outdated_) {
             device.wait_idle();
             swapchain_outdated_ = !swapchain_->recreate(vsync_);
+            present_words_ = Buffer();
+            const VkExtent2D extent = swapchain_->extent();
+            present_words_ = Buffer(gpu, VkDeviceSize(extent.width) * extent.height * sizeof(uint32_t),
+                BufferHome::device, MemoryKind::images, "present words");
         }
     }
     if (screen.output() && screen.output().width() == wanted.width && screen.output().height() == wanted.height)
@@ -112,6 +116,26 @@ void Graphics::prepare_output(bool is_new)
     vkCmdClearColorImage(commands(), output, VK_IMAGE_LAYOUT_GENERAL, &black, 1, &all);
     record_memory_barrier(commands(), VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT);
+}
+
+void Graphics::record_present()
+{
+    struct Push { // of present.comp
+        VkDeviceAddress words;
+        uint32_t width, height, swap_red_blue, padding;
+    };
+    const VkExtent2D extent = swapchain_->extent();
+    const Push push { present_words_.address(), extent.width, extent.height, swapchain_->swaps_red_blue(), 0 };
+    constexpr VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+    record_memory_barrier(commands(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+        VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT, compute, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    bindings.bind(commands(), VK_PIPELINE_BIND_POINT_COMPUTE, 0);
+    vkCmdBindPipeline(commands(), VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.compute("present.comp"));
+    vkCmdPushConstants(commands(), bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);
+    constexpr uint32_t pixels_per_group = shared::PIXEL_GROUP_SIZE * shared::PIXEL_TILES_PER_GROUP;
+    vkCmdDispatch(commands(), (extent.width * extent.height + pixels_per_group - 1) / pixels_per_group, 1, 1);
+    record_memory_barrier(commands(), compute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+    swapchain_->record_copy(commands(), present_words_);
 }
 
 bool Graphics::begin_frame()
@@ -143,9 +167,7 @@ void Graphics::end_frame()
     Slot& slot = slots_[slot_];
     recording_ = false;
     if (acquired_) {
-        record_memory_barrier(slot.commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
-            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
-        swapchain_->record_copy(slot.commands, screen.output());
+        record_present();
         timer.mark(slot.commands, "present");
     }
     VKPT_CHECK(vkEndCommandBuffer(slot.commands));

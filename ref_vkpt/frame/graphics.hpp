@@ -74,8 +74,10 @@ private:
     void create_slot(Slot& slot);
     bool follow_window();
     void prepare_output(bool is_new);
+    void record_present();
 
     std::optional<Swapchain> swapchain_;
+    Buffer present_words_; // the picture in the window's byte order
     VkExtent2D headless_size_;
     bool vsync_;
     bool swapchain_outdated_ = true;

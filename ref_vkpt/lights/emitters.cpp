@@ -26,10 +26,10 @@ enum class Emission {
 
 Emission classify(const BspTexinfo& texinfo)
 {
+    if (texinfo.flags & formats::SURF_SKY) // also where it is SURF_NODRAW: the engine shows the sky there
+        return Emission::sky;
     if (texinfo.flags & formats::SURF_NODRAW)
         return Emission::none;
-    if (texinfo.flags & formats::SURF_SKY)
-        return Emission::sky;
     return (texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0 ? Emission::face : Emission::none;
 }
 
@@ -94,7 +94,7 @@ void report_unused(const Bsp& bsp, const AverageColour& colour, std::vector<std:
     for (const formats::BspFace& face : bsp.faces) {
         const BspTexinfo& texinfo = bsp.texinfos[face.texinfo];
         const bool meant = (texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0;
-        if (meant && (texinfo.flags & formats::SURF_NODRAW))
+        if (meant && classify(texinfo) == Emission::none)
             undrawn[texinfo.texture]++;
         else if (meant && !(max_component(colour(texinfo.texture)) > 0))
             black[texinfo.texture]++;

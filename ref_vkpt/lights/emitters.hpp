@@ -15,18 +15,21 @@ namespace vkpt {
 // How the map compiler's numbers become radiance. Measured against the baked lightmaps of real maps:
 // tools/calibrate_light.
 //
-// First values come from what the classic light compiler computes, in lightmap units (our unit: a white diffuse surface
-// under lightmap value 128 has radiance 1, so irradiance / pi = value / 128):
+// What the classic light compiler computes, in lightmap units (our unit: a white diffuse surface under lightmap value
+// 128 has radiance 1, so irradiance / pi = value / 128), and what the measurement made of it:
 // - face: a patch of area A adds 0.4 * texinfo value * colour * A * cos * cos' / d^2. A patch of radiance L adds
-//   L * A * cos * cos' / (pi d^2). Equal for L = 0.4 pi / 128 * value.
-// - point: a light adds (light - d) * cos: linear, not inverse square. A light of intensity I adds I * cos / (pi d^2).
-//   Equal at distance d for I = pi d^2 (light - d) / 128. With the default of 300 and d = 128, about half a room's
-//   height and width: I = 230 * light.
-// - sky: a face with SURF_SKY and SURF_LIGHT is an area light like any other; a plain sky is what its picture shows.
+//   L * A * cos * cos' / (pi d^2). Equal for L = 0.4 pi / 128 * value = 0.0098 * value. Over real maps a fifth of that
+//   meets the medians (their authors wrote values of thousands, and where such light is bright lightmaps are clipped).
+// - point: a light adds (light - d) * cos: linear, nothing beyond d = light. A light of intensity I adds
+//   I * cos / (pi d^2). Equal at distance d for I = pi d^2 (light - d) / 128. The value is the light's reach, so that d
+//   goes with it: at a quarter of the reach, I = 0.00115 * light^3. Measured: 0.0013; a map lit by lights of 800 and
+//   one lit by lights of 120 to 350 ask for the same factor within 2, which no factor to the plain value does.
+// - sky: a classic sky is bright in the lightmaps where its picture is not; measured with the stand-in for a missing
+// one.
 struct EmissionScales {
-    float face = 0.0098f; // radiance = face * texinfo value * normalised picture colour
-    float point = 230; // radiant intensity of a point light = point * its "light" value
-    float sky = 1; // radiance = sky * sky picture (sky faces that are not SURF_LIGHT; others: as faces)
+    float face = 0.0021f; // radiance = face * texinfo value * normalised picture colour
+    float point = 0.0013f; // radiant intensity of a point light = point * its "light" value cubed
+    float sky = 4.5f; // radiance = sky * sky picture (sky faces that are not SURF_LIGHT; others: as faces)
     float point_light_radius = 4; // of the spheres that stand for point lights, units; less where walls are nearer
 };
 
@@ -34,8 +37,8 @@ struct EmissionScales {
 using AverageColour = std::function<glm::vec3(const std::string& texture)>;
 
 struct StaticEmitters {
-    std::vector<shared::Emitter>
-        emitters; // spatially coherent: BSP leaf order, so that strided subsets are representative
+    // Spatially coherent: in the order of BSP leaves, so that strided subsets are representative.
+    std::vector<shared::Emitter> emitters;
     // Where the triangles of face f went: emitters[first_of_face[f] .. first_of_face[f] + count_of_face[f]), in the
     // order of triangulate_face; -1: none.
     std::vector<int32_t> first_of_face;

@@ -80,7 +80,8 @@ shared::Emitter make_sphere(const Bsp& bsp, const EntityText& entity, glm::vec3 
 {
     constexpr float pi = std::numbers::pi_v<float>;
     const float radius = fit_radius(bsp, centre, scales.point_light_radius);
-    const float intensity = scales.point * read_value(entity);
+    const float value = read_value(entity);
+    const float intensity = scales.point * value * value * value;
     shared::Emitter emitter {};
     emitter.type = shared::EMITTER_SPHERE;
     emitter.p0 = centre;

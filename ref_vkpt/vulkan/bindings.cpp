@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
+#include <span>
 
 namespace vkpt {
 
@@ -14,7 +16,44 @@ namespace {
 // More than any mod registers; devices that cannot do as many get what they can.
 constexpr uint32_t wanted_textures = 8192;
 
-enum Binding : uint32_t { binding_uniforms, binding_output, binding_samplers, binding_textures, binding_count };
+enum FrameBinding : uint32_t { binding_uniforms, binding_output, binding_samplers };
+constexpr uint32_t binding_textures = 0;
+
+VkDescriptorSetLayout make_layout(VkDevice device, VkDescriptorSetLayoutCreateFlags flags, const void* next,
+    std::span<const VkDescriptorSetLayoutBinding> bindings)
+{
+    VkDescriptorSetLayoutCreateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, next };
+    info.flags = flags;
+    info.bindingCount = uint32_t(bindings.size());
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    VKPT_CHECK(vkCreateDescriptorSetLayout(device, &info, nullptr, &layout));
+    return layout;
+}
+
+VkDescriptorPool make_pool(
+    VkDevice device, VkDescriptorPoolCreateFlags flags, std::span<const VkDescriptorPoolSize> sizes)
+{
+    VkDescriptorPoolCreateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
+    info.flags = flags;
+    info.maxSets = 1;
+    info.poolSizeCount = uint32_t(sizes.size());
+    info.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    VKPT_CHECK(vkCreateDescriptorPool(device, &info, nullptr, &pool));
+    return pool;
+}
+
+VkDescriptorSet make_set(VkDevice device, VkDescriptorPool pool, VkDescriptorSetLayout layout)
+{
+    VkDescriptorSetAllocateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO };
+    info.descriptorPool = pool;
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = &layout;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    VKPT_CHECK(vkAllocateDescriptorSets(device, &info, &set));
+    return set;
+}
 
 } // namespace
 
@@ -23,15 +62,17 @@ Bindings::Bindings(const Gpu& gpu, bool anisotropic)
 {
     create_samplers(anisotropic);
     create_layouts();
-    create_set();
+    create_sets();
 }
 
 Bindings::~Bindings()
 {
     const VkDevice device = gpu_.device.handle;
-    vkDestroyDescriptorPool(device, pool_, nullptr);
+    vkDestroyDescriptorPool(device, frame_pool_, nullptr);
+    vkDestroyDescriptorPool(device, texture_pool_, nullptr);
     vkDestroyPipelineLayout(device, pipeline_layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device, set_layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device, frame_layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device, texture_layout_, nullptr);
     for (VkSampler sampler : samplers_)
         vkDestroySampler(device, sampler, nullptr);
 }
@@ -62,62 +103,57 @@ void Bindings::create_samplers(bool anisotropic)
 
 void Bindings::create_layouts()
 {
-    VkDescriptorSetLayoutBinding bindings[binding_count] {};
-    bindings[binding_uniforms] = { binding_uniforms, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, VK_SHADER_STAGE_ALL, nullptr };
-    bindings[binding_output] = { binding_output, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr };
-    bindings[binding_samplers] = { binding_samplers, VK_DESCRIPTOR_TYPE_SAMPLER, shared::SAMPLER_COUNT, VK_SHADER_STAGE_ALL, samplers_.data() };
-    bindings[binding_textures] = { binding_textures, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, max_textures_, VK_SHADER_STAGE_ALL, nullptr };
+    const VkDevice device = gpu_.device.handle;
+    const VkDescriptorSetLayoutBinding frame[] = {
+        { binding_uniforms, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, VK_SHADER_STAGE_ALL, nullptr },
+        { binding_output, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr },
+        { binding_samplers, VK_DESCRIPTOR_TYPE_SAMPLER, shared::SAMPLER_COUNT, VK_SHADER_STAGE_ALL, samplers_.data() },
+    };
+    frame_layout_ = make_layout(device, 0, nullptr, frame);
 
-    VkDescriptorBindingFlags flags[binding_count] {};
-    flags[binding_textures] = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT | VK_DESCRIPTOR_BINDING_UPDATE_AFTER_BIND_BIT
-        | VK_DESCRIPTOR_BINDING_UPDATE_UNUSED_WHILE_PENDING_BIT;
+    const VkDescriptorSetLayoutBinding textures[] = {
+        { binding_textures, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, max_textures_, VK_SHADER_STAGE_ALL, nullptr },
+    };
+    const VkDescriptorBindingFlags flags = VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT
+        | VK_DESCRIPTOR_BINDING_UPDATE_AFTER_BIND_BIT | VK_DESCRIPTOR_BINDING_UPDATE_UNUSED_WHILE_PENDING_BIT;
     VkDescriptorSetLayoutBindingFlagsCreateInfo binding_flags {
         VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO
     };
-    binding_flags.bindingCount = binding_count;
-    binding_flags.pBindingFlags = flags;
+    binding_flags.bindingCount = 1;
+    binding_flags.pBindingFlags = &flags;
+    texture_layout_ = make_layout(
+        device, VK_DESCRIPTOR_SET_LAYOUT_CREATE_UPDATE_AFTER_BIND_POOL_BIT, &binding_flags, textures);
 
-    VkDescriptorSetLayoutCreateInfo set { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &binding_flags };
-    set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_UPDATE_AFTER_BIND_POOL_BIT;
-    set.bindingCount = binding_count;
-    set.pBindings = bindings;
-    VKPT_CHECK(vkCreateDescriptorSetLayout(gpu_.device.handle, &set, nullptr, &set_layout_));
-
+    const VkDescriptorSetLayout sets[] = { frame_layout_, texture_layout_ };
     const VkPushConstantRange push { VK_SHADER_STAGE_ALL, 0, push_constant_bytes };
     VkPipelineLayoutCreateInfo layout { VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO };
-    layout.setLayoutCount = 1;
-    layout.pSetLayouts = &set_layout_;
+    layout.setLayoutCount = uint32_t(std::size(sets));
+    layout.pSetLayouts = sets;
     layout.pushConstantRangeCount = 1;
     layout.pPushConstantRanges = &push;
-    VKPT_CHECK(vkCreatePipelineLayout(gpu_.device.handle, &layout, nullptr, &pipeline_layout_));
+    VKPT_CHECK(vkCreatePipelineLayout(device, &layout, nullptr, &pipeline_layout_));
 }
 
-void Bindings::create_set()
+void Bindings::create_sets()
 {
-    const VkDescriptorPoolSize sizes[] = {
+    const VkDevice device = gpu_.device.handle;
+    const VkDescriptorPoolSize frame[] = {
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1 },
         { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1 },
         { VK_DESCRIPTOR_TYPE_SAMPLER, shared::SAMPLER_COUNT },
-        { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, max_textures_ },
     };
-    VkDescriptorPoolCreateInfo pool { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
-    pool.flags = VK_DESCRIPTOR_POOL_CREATE_UPDATE_AFTER_BIND_BIT;
-    pool.maxSets = 1;
-    pool.poolSizeCount = uint32_t(std::size(sizes));
-    pool.pPoolSizes = sizes;
-    VKPT_CHECK(vkCreateDescriptorPool(gpu_.device.handle, &pool, nullptr, &pool_));
-    VkDescriptorSetAllocateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO };
-    info.descriptorPool = pool_;
-    info.descriptorSetCount = 1;
-    info.pSetLayouts = &set_layout_;
-    VKPT_CHECK(vkAllocateDescriptorSets(gpu_.device.handle, &info, &set_));
+    const VkDescriptorPoolSize textures[] = { { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, max_textures_ } };
+    frame_pool_ = make_pool(device, 0, frame);
+    texture_pool_ = make_pool(device, VK_DESCRIPTOR_POOL_CREATE_UPDATE_AFTER_BIND_BIT, textures);
+    frame_set_ = make_set(device, frame_pool_, frame_layout_);
+    texture_set_ = make_set(device, texture_pool_, texture_layout_);
 }
 
 void Bindings::bind_uniforms(const Buffer& buffer, VkDeviceSize bytes_per_frame)
 {
     const VkDescriptorBufferInfo info { buffer.handle(), 0, bytes_per_frame };
     VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
-    write.dstSet = set_;
+    write.dstSet = frame_set_;
     write.dstBinding = binding_uniforms;
     write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
@@ -129,7 +165,7 @@ void Bindings::bind_output(const Image& image)
 {
     const VkDescriptorImageInfo info { VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL };
     VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
-    write.dstSet = set_;
+    write.dstSet = frame_set_;
     write.dstBinding = binding_output;
     write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
@@ -150,8 +186,8 @@ uint32_t Bindings::add_texture(const Image& image)
     }
     const VkDescriptorImageInfo info { VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL };
     VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
-    write.dstSet = set_;
-    write.dstBinding = binding_textures;
+    write.dstSet = texture_set_;
+    write.dstBinding = 0;
     write.dstArrayElement = slot;
     write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
@@ -164,7 +200,9 @@ void Bindings::remove_texture(uint32_t slot) { free_slots_.push_back(slot); }
 
 void Bindings::bind(VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset) const
 {
-    vkCmdBindDescriptorSets(commands, point, pipeline_layout_, 0, 1, &set_, 1, &uniform_offset);
+    const VkDescriptorSet sets[] = { frame_set_, texture_set_ };
+    vkCmdBindDescriptorSets(
+        commands, point, pipeline_layout_, 0, uint32_t(std::size(sets)), sets, 1, &uniform_offset);
 }
 
 } // namespace vkpt

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The one descriptor set and pipeline layout that all passes share, so that a new pass is a shader and nothing else.
-//   binding 0  uniform buffer: shared::FrameUniforms (dynamic offset: one per frame in flight)
-//   binding 1  storage image: the picture that is shown (RGBA8, sRGB-encoded values)
-//   binding 2  samplers, see SamplerIndex
-//   binding 3  sampled images, bindless; slot 0 is always a valid white picture
+// The descriptor sets and pipeline layout that all passes share, so that a new pass is a shader and nothing else.
+//   set 0, binding 0  uniform buffer: shared::FrameUniforms (dynamic offset: one per frame in flight)
+//   set 0, binding 1  storage image: the picture that is shown (RGBA8, sRGB-encoded values)
+//   set 0, binding 2  samplers, see SAMPLER_*
+//   set 1, binding 0  sampled images, bindless; slot 0 is always a valid white picture. A set of its own because it is
+//                     updated while bound, which Vulkan forbids beside dynamic offsets.
 // Push constants: 64 bytes, the pass's own.
 #pragma once
 
@@ -38,15 +39,15 @@ public:
 private:
     void create_layouts();
     void create_samplers(bool anisotropic);
-    void create_set();
+    void create_sets();
 
     Gpu gpu_;
     uint32_t max_textures_;
     std::vector<VkSampler> samplers_;
-    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout frame_layout_ = VK_NULL_HANDLE, texture_layout_ = VK_NULL_HANDLE;
     VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    VkDescriptorPool frame_pool_ = VK_NULL_HANDLE, texture_pool_ = VK_NULL_HANDLE;
+    VkDescriptorSet frame_set_ = VK_NULL_HANDLE, texture_set_ = VK_NULL_HANDLE;
     std::vector<uint32_t> free_slots_;
     uint32_t next_slot_ = 0;
 };

@@ -47,7 +47,7 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info()
     VkDebugUtilsMessengerCreateInfoEXT info { VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT };
     info.messageSeverity
         = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
     info.pfnUserCallback = print_validation_message;
     return info;
 }
@@ -146,19 +146,20 @@ int rank_device_type(VkPhysicalDeviceType type)
 }
 
 // Mesa's CPU driver runs our compute BVH up to twice as fast with 512-bit vectors, and its disk cache ignores the width:
-// so a width of its own needs a cache of its own. Both are read when the driver loads.
+// code of one width, found by a program that runs with another, crashes it. So the width is changed only together with a
+// cache of our own. Both are read when the driver loads.
 void prepare_cpu_driver(const std::string& cache_directory)
 {
+    if (cache_directory.empty() || std::getenv("MESA_SHADER_CACHE_DIR"))
+        return;
     constexpr int keep_users_choice = 0;
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw"))
         setenv("LP_NATIVE_VECTOR_WIDTH", "512", keep_users_choice);
 #endif
-    if (!cache_directory.empty()) {
-        const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
-        const std::string directory = fmt::format("{}/driver-{}", cache_directory, width ? width : "default");
-        setenv("MESA_SHADER_CACHE_DIR", directory.c_str(), keep_users_choice);
-    }
+    const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+    const std::string directory = fmt::format("{}/driver-{}", cache_directory, width ? width : "default");
+    setenv("MESA_SHADER_CACHE_DIR", directory.c_str(), keep_users_choice);
 }
 
 } // namespace

@@ -61,7 +61,7 @@ VkSurfaceFormatKHR Swapchain::choose_format() const
     for (const VkSurfaceFormatKHR& format : formats)
         if (format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM)
             return format;
-    return formats.at(0);
+    throw FatalError("the window takes no 8-bit RGBA pictures");
 }
 
 VkPresentModeKHR Swapchain::choose_mode(bool vsync) const
@@ -98,6 +98,7 @@ bool Swapchain::recreate(bool vsync)
         info.minImageCount = surface.minImageCount + 1;
         if (surface.maxImageCount > 0)
             info.minImageCount = std::min(info.minImageCount, surface.maxImageCount);
+        swaps_red_blue_ = format.format == VK_FORMAT_B8G8R8A8_UNORM;
         info.imageFormat = format.format;
         info.imageColorSpace = format.colorSpace;
         info.imageExtent = extent_;
@@ -134,19 +135,17 @@ bool Swapchain::acquire(uint32_t frame_slot)
     return true;
 }
 
-void Swapchain::record_copy(VkCommandBuffer commands, const Image& source)
+void Swapchain::record_copy(VkCommandBuffer commands, const Buffer& words)
 {
     const VkImage picture = pictures_[picture_];
     constexpr VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
     record_barrier(commands,
         { picture, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, transfer, transfer, 0,
             VK_ACCESS_TRANSFER_WRITE_BIT });
-    VkImageBlit region {};
-    region.srcSubresource = region.dstSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 };
-    region.srcOffsets[1] = { int32_t(source.width()), int32_t(source.height()), 1 };
-    region.dstOffsets[1] = { int32_t(extent_.width), int32_t(extent_.height), 1 };
-    vkCmdBlitImage(commands, source.handle(), VK_IMAGE_LAYOUT_GENERAL, picture, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-        &region, VK_FILTER_LINEAR);
+    VkBufferImageCopy region {};
+    region.imageSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 };
+    region.imageExtent = { extent_.width, extent_.height, 1 };
+    vkCmdCopyBufferToImage(commands, words.handle(), picture, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
     record_barrier(commands,
         { picture, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, transfer,
             VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, 0 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The window's pictures. The frame is drawn into an image of our own; present() copies it into the window.
+// The window's pictures. The frame is made in an image of our own and copied into the window's at its end.
 #pragma once
 
 #include "ref_vkpt/vulkan/resources.hpp"
@@ -26,8 +26,11 @@ public:
 
     // Takes a picture; false: the window changed, recreate and try with the next frame.
     bool acquire(uint32_t frame_slot);
-    // Copies `source` (layout GENERAL, written by colour attachment, compute or transfer) into the picture taken.
-    void record_copy(VkCommandBuffer commands, const Image& source);
+    // Copies words in the picture's byte order, row by row, written by the passes before, into the picture taken.
+    void record_copy(VkCommandBuffer commands, const Buffer& words);
+    VkExtent2D extent() const { return extent_; }
+    // The picture's bytes are B, G, R, A instead of R, G, B, A.
+    bool swaps_red_blue() const { return swaps_red_blue_; }
     VkSemaphore acquired(uint32_t frame_slot) const { return acquired_[frame_slot]; }
     VkSemaphore finished() const { return finished_[picture_]; }
     // False: the window changed, recreate.
@@ -43,6 +46,7 @@ private:
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
     VkExtent2D extent_ {};
+    bool swaps_red_blue_ = false;
     bool vsync_ = true;
     std::vector<VkImage> pictures_;
     std::vector<VkSemaphore> finished_; // one per picture: it may be presented

@@ -34,6 +34,14 @@ ask() {
     [[ -z $answer || $answer == [yY]* ]]
 }
 
+# Everything that the scripts write is below build/ and out/ of the checkout.
+check_writable() {
+    if ! mkdir -p "$log_dir" 2>/dev/null || [[ ! -w $log_dir ]]; then
+        die "$(id -un) may not write to $log_dir (the folder of $(stat -c %U "$root"); an earlier run as another user?). \
+Own the checkout, or remove its build/ and start again."
+    fi
+}
+
 # The last non-empty line of a log without control codes, cut to the terminal.
 last_line() {
     local columns=${COLUMNS:-$(tput cols 2>/dev/null || echo 80)}
@@ -73,7 +81,7 @@ watch_step() {
 run_step() {
     local name=$1 title=$2 log
     shift 2
-    mkdir -p "$log_dir" || die "cannot write to $log_dir"
+    check_writable
     log=$log_dir/$name.log
     "$@" >"$log" 2>&1 </dev/null &
     if ! watch_step $! "$title" last_line "$log"; then

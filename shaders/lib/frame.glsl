@@ -17,7 +17,7 @@
 
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 2) uniform sampler samplers[SAMPLER_COUNT];
-layout(set = 0, binding = 3) uniform texture2D textures[];
+layout(set = 1, binding = 0) uniform texture2D textures[];
 
 // load_NAME(pixel index) and store_NAME(pixel index, value) for every screen buffer
 #define VKPT_SCREEN_BUFFER(type, name)                                                                                 \

@@ -24,7 +24,8 @@ const uint max_alpha_layers = 16u;
 // The nearest triangle (with any_hit: some triangle) of the masked ones, alpha taken for opaque.
 RawHit trace_triangles(Ray ray, uint mask, bool any_hit)
 {
-    uint lane = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+    // Not gl_WorkGroupSize: it is only known behind the layout(local_size_x) of the including pass, and 1 before it.
+    uint lane = gl_WorkGroupID.x * PIXEL_GROUP_SIZE + gl_LocalInvocationIndex;
     uint64_t stack = software_stack(frame.scene.trace_stack, lane);
     RawHit hit = software_miss(ray.t_max);
     [[dont_unroll]] for (uint tree = 0u; tree < frame.scene.tree_count; tree++) {

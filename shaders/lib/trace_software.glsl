@@ -124,8 +124,8 @@ void bvh_test_node(BvhRay ray, uint64_t node, int t_max, out int key[8])
 }
 
 // Pluecker's edge tests: an edge's sign depends on nothing but its two corners and the ray, and comes out exactly opposite in
-// the triangle that shares it, so no ray passes between two triangles. Moeller and Trumbore's comparison, 2 % faster, let through
-// 2.6 % of the rays that were aimed at edges. Two-sided, t in (t_min, t_max), edges inclusive.
+// the triangle that shares it, so no ray passes between two triangles. Moeller and Trumbore's comparison, 2 % faster, let
+// 2.6 % of the rays through that were aimed at edges. Two-sided, t in (t_min, t_max), edges inclusive.
 bool bvh_test_triangle(uint64_t address, vec3 origin, vec3 direction, int t_min, int t_max, uint ray_mask, inout RawHit hit)
 {
     BvhWords64 source = BvhWords64(address);
@@ -162,8 +162,8 @@ bool bvh_test_triangle(uint64_t address, vec3 origin, vec3 direction, int t_min,
 
 // Replaces `hit` by the tree's nearest triangle with t in (t_min, hit.t) and (mask & ray_mask) != 0, if there is one; with
 // `any_hit` by the first such triangle found. Call it for one tree after the other to search several; for a short compile, in a
-// loop, so that the generated code has it once (software_trace_all). Every ray ends: zero, infinite and NaN ones meet nothing or
-// something, and read nothing outside the tree. `stack`: software_stack() of this lane.
+// loop, so that the generated code has it once (software_trace_all). Every ray ends: zero, infinite and NaN ones meet nothing
+// or something, and read nothing outside the tree. `stack`: software_stack() of this lane.
 void software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, inout RawHit hit, uint ray_mask, bool any_hit,
     uint64_t stack)
 {

@@ -84,6 +84,15 @@ TEST(Emitters, LitSkyEmitsItsValue)
     EXPECT_FLOAT_EQ(e.radiance.x, 0.5f);
 }
 
+TEST(Emitters, SkyEmitsThoughItIsNotDrawn)
+{
+    formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+    bsp.texinfos[3].flags |= formats::SURF_NODRAW;
+    const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
+    EXPECT_EQ(emitters.count_of_face[3], 2u);
+    EXPECT_TRUE(emitters.messages.empty());
+}
+
 TEST(Emitters, UndrawnAndBlackLightsAreNamed)
 {
     formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
@@ -123,7 +132,7 @@ TEST(Emitters, BrushModelsAreSeparate)
 TEST(PointLights, HaveTheirValueColourAndStyle)
 {
     EmissionScales scales;
-    scales.point = 200;
+    scales.point = 0.002f;
     const StaticEmitters emitters = extract_with_entities(
         R"({ "classname" "worldspawn" } { "classname" "light" "origin" "64 64 64" "light" "150" "_color" "1 .5 0" "style" "5" }
            { "classname" "light" "origin" "200 64 64" } { "classname" "light_mine1" "origin" "64 64 32" })",
@@ -137,10 +146,10 @@ TEST(PointLights, HaveTheirValueColourAndStyle)
     EXPECT_FLOAT_EQ(first.area, 4 * pi * scales.point_light_radius * scales.point_light_radius);
     // Radiant intensity = radiance * cross-section.
     const float cross_section = pi * first.p1.x * first.p1.x;
-    EXPECT_FLOAT_EQ(first.radiance.x * cross_section, 150 * 200);
-    EXPECT_FLOAT_EQ(first.radiance.y * cross_section, 75 * 200);
+    EXPECT_FLOAT_EQ(first.radiance.x * cross_section, 150.0f * 150 * 150 * 0.002f);
+    EXPECT_FLOAT_EQ(first.radiance.y * cross_section, 0.5f * 150 * 150 * 150 * 0.002f);
     EXPECT_EQ(first.radiance.z, 0);
-    EXPECT_FLOAT_EQ(second.radiance.x * cross_section, 300 * 200); // the default
+    EXPECT_FLOAT_EQ(second.radiance.x * cross_section, 300.0f * 300 * 300 * 0.002f); // the default
     EXPECT_EQ(second.lightstyle, 0u);
 }
 
@@ -151,7 +160,7 @@ TEST(PointLights, StayOutOfWalls)
     ASSERT_EQ(close.emitters.size(), 1u);
     const shared::Emitter& e = close.emitters[0];
     EXPECT_LE(e.p1.x, 2);
-    EXPECT_FLOAT_EQ(e.radiance.x * pi * e.p1.x * e.p1.x, 300 * EmissionScales().point);
+    EXPECT_FLOAT_EQ(e.radiance.x * pi * e.p1.x * e.p1.x, 300.0f * 300 * 300 * EmissionScales().point);
 
     const StaticEmitters inside = extract_with_entities(R"({ "classname" "light" "origin" "64 64 130" })");
     ASSERT_EQ(inside.emitters.size(), 1u);

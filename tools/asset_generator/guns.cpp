@@ -7,19 +7,19 @@
 namespace vkpt::tools {
 
 namespace {
-    using M = Material;
-    constexpr std::array all_guns {
-        Gun { "v_blast", nullptr, "w_blaster", 4, 8, 52, 55, 1, 7, 1.3f, M::steel, M::gunmetal, M::glow_amber },
-        Gun { "v_shotg", "g_shotg", "w_shotgun", 7, 18, 36, 39, 1, 13, 1.1f, M::gunmetal, M::dark_steel, M::red_paint },
-        Gun { "v_shotg2", "g_shotg2", "w_sshotgun", 6, 17, 57, 61, 2, 11, 1.1f, M::gunmetal, M::dark_steel, M::wood },
-        Gun { "v_machn", "g_machn", "w_machinegun", 3, 5, 45, 49, 1, 12, 0.8f, M::dark_steel, M::gunmetal, M::teal_paint },
-        Gun { "v_chain", "g_chain", "w_chaingun", 4, 31, 61, 64, 6, 12, 0.6f, M::dark_steel, M::steel, M::amber_paint },
-        Gun { "v_launch", "g_launch", "w_glauncher", 5, 16, 59, 64, 1, 9, 2.0f, M::green_paint, M::gunmetal, M::hazard },
-        Gun { "v_rocket", "g_rocket", "w_rlauncher", 4, 12, 50, 54, 1, 15, 2.2f, M::dark_steel, M::gunmetal, M::red_paint },
-        Gun { "v_hyperb", "g_hyperb", "w_hyperblaster", 5, 20, 49, 53, 3, 9, 0.7f, M::steel, M::gunmetal, M::glow_teal },
-        Gun { "v_rail", "g_rail", "w_railgun", 3, 18, 56, 61, 2, 17, 0.6f, M::white_paint, M::gunmetal, M::glow_blue },
-        Gun { "v_bfg", "g_bfg", "w_bfg", 8, 32, 55, 58, 1, 10, 2.8f, M::gunmetal, M::dark_steel, M::glow_green },
-    };
+using M = Material;
+constexpr std::array all_guns {
+    Gun { "v_blast", nullptr, "w_blaster", 4, 8, 52, 55, 1, 7, 1.3f, M::steel, M::gunmetal, M::glow_amber },
+    Gun { "v_shotg", "g_shotg", "w_shotgun", 7, 18, 36, 39, 1, 13, 1.1f, M::gunmetal, M::dark_steel, M::red_paint },
+    Gun { "v_shotg2", "g_shotg2", "w_sshotgun", 6, 17, 57, 61, 2, 11, 1.1f, M::gunmetal, M::dark_steel, M::wood },
+    Gun { "v_machn", "g_machn", "w_machinegun", 3, 5, 45, 49, 1, 12, 0.8f, M::dark_steel, M::gunmetal, M::teal_paint },
+    Gun { "v_chain", "g_chain", "w_chaingun", 4, 31, 61, 64, 6, 12, 0.6f, M::dark_steel, M::steel, M::amber_paint },
+    Gun { "v_launch", "g_launch", "w_glauncher", 5, 16, 59, 64, 1, 9, 2.0f, M::green_paint, M::gunmetal, M::hazard },
+    Gun { "v_rocket", "g_rocket", "w_rlauncher", 4, 12, 50, 54, 1, 15, 2.2f, M::dark_steel, M::gunmetal, M::red_paint },
+    Gun { "v_hyperb", "g_hyperb", "w_hyperblaster", 5, 20, 49, 53, 3, 9, 0.7f, M::steel, M::gunmetal, M::glow_teal },
+    Gun { "v_rail", "g_rail", "w_railgun", 3, 18, 56, 61, 2, 17, 0.6f, M::white_paint, M::gunmetal, M::glow_blue },
+    Gun { "v_bfg", "g_bfg", "w_bfg", 8, 32, 55, 58, 1, 10, 2.8f, M::gunmetal, M::dark_steel, M::glow_green },
+};
 }
 
 std::span<const Gun> guns() { return all_guns; }
@@ -38,7 +38,7 @@ Mesh make_gun(const Gun& gun)
     // Grip, trigger guard, stock.
     m.tapered_box({ -3.2f, -0.9f, -5.6f }, { -0.4f, 0.9f, -1.4f }, 1.0f, M::rubber);
     m.box({ -0.4f, -0.35f, -3.2f }, { 2.2f, 0.35f, -2.8f }, M::gunmetal);
-    m.box({ -6.6f, -half * 0.7f, -0.8f }, { -4, half * 0.7f, 1.6f }, M::rubber);
+    m.tube({ -5.6f, 0, 0.2f }, { -4, 0, 0.4f }, 0.7f, half * 0.6f, M::rubber, M::gunmetal);
     // Barrels around the axis, with collars.
     for (int i = 0; i < gun.barrels; i++) {
         const float a = 6.2831853f * float(i) / float(gun.barrels) + 0.5236f * float(gun.barrels == 3);

@@ -9,9 +9,9 @@
 namespace vkpt::tools {
 
 struct Gun {
-    const char* view;   // folder under models/weapons/ for the first person
+    const char* view; // folder under models/weapons/ for the first person
     const char* pickup; // folder for the floor; nullptr: none
-    const char* held;   // players/male/NAME.md2
+    const char* held; // players/male/NAME.md2
     // Last frames of raising, firing, resting, lowering, as the game counts them.
     int raised, fired, rested, lowered;
     int barrels;

@@ -22,6 +22,7 @@ int main(int argc, char** argv)
         Subject { "models", write_item_models },
         Subject { "models", write_player_models },
         Subject { "models", write_effect_models },
+        Subject { "sounds", write_sounds },
         Subject { "textures", write_textures },
     };
 

@@ -9,15 +9,15 @@
 namespace vkpt::tools {
 
 namespace {
-    constexpr int cells_per_row = 8;
-    constexpr float margin = 0.04f; // of a cell, against bleeding
-    constexpr float tau = 6.2831853f;
+constexpr int cells_per_row = 8;
+constexpr float margin = 0.04f; // of a cell, against bleeding
+constexpr float tau = 6.2831853f;
 
-    glm::vec2 atlas_position(Material material, glm::vec2 local)
-    {
-        const glm::vec2 cell(int(material) % cells_per_row, int(material) / cells_per_row);
-        return (cell + margin + local * (1 - 2 * margin)) / float(cells_per_row);
-    }
+glm::vec2 atlas_position(Material material, glm::vec2 local)
+{
+    const glm::vec2 cell(int(material) % cells_per_row, int(material) / cells_per_row);
+    return (cell + margin + local * (1 - 2 * margin)) / float(cells_per_row);
+}
 }
 
 uint32_t Mesh::corner(glm::vec3 position, glm::vec3 normal, Material material, glm::vec2 local)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Models built from rigid parts. All of them share one skin, an atlas of materials: each face takes a whole material cell,
-// whose painted rim gives it a bevel. Space: x forward, y left, z up, Quake units.
+// Models built from rigid parts. All of them share one skin, an atlas of materials: each face takes a whole material
+// cell, whose painted rim gives it a bevel. Space: x forward, y left, z up, Quake units.
 #pragma once
 
 #include "formats/image.hpp"
@@ -14,10 +14,38 @@
 namespace vkpt::tools {
 
 enum class Material : int {
-    steel, dark_steel, gunmetal, rubber, amber_paint, teal_paint, red_paint, green_paint,
-    blue_paint, copper, gold, chrome, cloth, skin, white_paint, visor,
-    glow_amber, glow_teal, glow_red, glow_green, glow_blue, glow_violet, glow_white, fire,
-    flesh, bone, hazard, medic, grille, wood, smoke, armour,
+    steel,
+    dark_steel,
+    gunmetal,
+    rubber,
+    amber_paint,
+    teal_paint,
+    red_paint,
+    green_paint,
+    blue_paint,
+    copper,
+    gold,
+    chrome,
+    cloth,
+    skin,
+    white_paint,
+    visor,
+    glow_amber,
+    glow_teal,
+    glow_red,
+    glow_green,
+    glow_blue,
+    glow_violet,
+    glow_white,
+    fire,
+    flesh,
+    bone,
+    hazard,
+    medic,
+    grille,
+    wood,
+    smoke,
+    armour,
     count
 };
 
@@ -26,7 +54,7 @@ inline constexpr std::string_view shared_skin = "models/vkpt/skin.pcx";
 formats::IndexedImage make_skin(glm::vec3 armour);
 
 struct Pose {
-    std::string name;             // at most 15 letters
+    std::string name; // at most 15 letters
     std::vector<glm::mat4> parts; // model from part; a missing one is the identity
 };
 
@@ -41,7 +69,8 @@ public:
     // A box whose upper face is `taper` times the lower one's size (z up).
     void tapered_box(glm::vec3 low, glm::vec3 high, float taper, Material material);
     // A round bar from `from` to `to`; its radii at both ends.
-    void tube(glm::vec3 from, glm::vec3 to, float radius_from, float radius_to, Material side, Material caps, int sides = 8);
+    void tube(
+        glm::vec3 from, glm::vec3 to, float radius_from, float radius_to, Material side, Material caps, int sides = 8);
     void ball(glm::vec3 centre, glm::vec3 radii, Material material, int slices = 8, int stacks = 5);
     // Adds another mesh's faces, moved, as the current part.
     void add(const Mesh& other, const glm::mat4& placement);

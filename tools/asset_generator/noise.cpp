@@ -9,11 +9,11 @@
 namespace vkpt::tools {
 
 namespace {
-    int wrap(int value, int period)
-    {
-        const int rest = value % period;
-        return rest < 0 ? rest + period : rest;
-    }
+int wrap(int value, int period)
+{
+    const int rest = value % period;
+    return rest < 0 ? rest + period : rest;
+}
 }
 
 uint32_t hash_integers(uint32_t x, uint32_t y, uint32_t seed)
@@ -41,10 +41,10 @@ float smooth_noise(glm::vec2 uv, glm::ivec2 cells, uint32_t seed)
     const glm::vec2 base = glm::floor(p);
     const glm::vec2 f = p - base;
     const glm::vec2 w = f * f * f * (f * (f * 6.0f - 15.0f) + 10.0f);
-    const auto corner = [&](int dx, int dy) {
-        return hash_unit(wrap(int(base.x) + dx, cells.x), wrap(int(base.y) + dy, cells.y), seed);
-    };
-    return glm::mix(glm::mix(corner(0, 0), corner(1, 0), w.x), glm::mix(corner(0, 1), corner(1, 1), w.x), w.y);
+    const int x0 = wrap(int(base.x), cells.x), x1 = x0 + 1 < cells.x ? x0 + 1 : 0;
+    const int y0 = wrap(int(base.y), cells.y), y1 = y0 + 1 < cells.y ? y0 + 1 : 0;
+    return glm::mix(glm::mix(hash_unit(x0, y0, seed), hash_unit(x1, y0, seed), w.x),
+        glm::mix(hash_unit(x0, y1, seed), hash_unit(x1, y1, seed), w.x), w.y);
 }
 
 float fractal_noise(glm::vec2 uv, glm::ivec2 cells, int octaves, uint32_t seed)

@@ -3,6 +3,7 @@
 
 #include "tools/asset_generator/output.hpp"
 #include "tools/asset_generator/palette.hpp"
+#include "tools/asset_generator/parallel.hpp"
 
 #include <cmath>
 
@@ -38,7 +39,8 @@ float draw_centred(Canvas& canvas, std::string_view text, float centre_x, float 
 void draw_emblem(Canvas& canvas, glm::vec2 centre, float radius)
 {
     const auto at = [=](float x, float y) { return centre + glm::vec2(x, y) * radius; };
-    const Polygon room { { at(0, -1), at(0.87f, -0.5f), at(0.87f, 0.5f), at(0, 1), at(-0.87f, 0.5f), at(-0.87f, -0.5f) } };
+    const Polygon room { { at(0, -1), at(0.87f, -0.5f), at(0.87f, 0.5f), at(0, 1), at(-0.87f, 0.5f),
+        at(-0.87f, -0.5f) } };
     canvas.paint(room, [=](glm::vec2 p) {
         const glm::vec2 q = (p - centre) / radius;
         const bool floor = q.y > 0.58f * std::abs(q.x);
@@ -56,30 +58,34 @@ void draw_emblem(Canvas& canvas, glm::vec2 centre, float radius)
 }
 
 namespace {
-    formats::Image full_size(const Canvas& canvas)
-    {
-        formats::Image image { canvas.columns(), canvas.rows(), {} };
-        image.pixels.reserve(canvas.pixels.size());
-        for (const glm::vec4& p : canvas.pixels) {
-            const glm::vec4 c = glm::clamp(p, 0.0f, 1.0f) * 255.0f + 0.5f;
-            image.pixels.push_back({ uint8_t(c.x), uint8_t(c.y), uint8_t(c.z), uint8_t(c.w) });
-        }
-        return image;
+formats::Image full_size(const Canvas& canvas)
+{
+    formats::Image image { canvas.columns(), canvas.rows(), {} };
+    image.pixels.reserve(canvas.pixels.size());
+    for (const glm::vec4& p : canvas.pixels) {
+        const glm::vec4 c = glm::clamp(p, 0.0f, 1.0f) * 255.0f + 0.5f;
+        image.pixels.push_back({ uint8_t(c.x), uint8_t(c.y), uint8_t(c.z), uint8_t(c.w) });
     }
+    return image;
+}
 }
 
 void write_pictures(const Output& out)
 {
-    for (auto* list : { &hud_pictures, &icon_pictures, &menu_pictures }) {
-        for (const Picture& picture : list()) {
-            Canvas canvas(picture.width, picture.height, picture.detail);
-            picture.draw(canvas);
-            const std::vector<glm::vec4> small = canvas.shrink();
-            out.write("pics/" + picture.name + ".pcx",
-                formats::write_pcx(quantise(picture.width, picture.height, small, picture.dither, true)));
-            out.write("pics/" + picture.name + ".png", formats::write_png(full_size(canvas)));
-        }
-    }
+    std::vector<Picture> all = menu_pictures(); // the large ones first
+    for (auto* more : { &hud_pictures, &icon_pictures })
+        for (Picture& picture : more())
+            all.push_back(std::move(picture));
+    nearest_index(glm::vec3(0)); // builds the shared table before the threads start
+    for_each_index(all.size(), [&](size_t i) {
+        const Picture& picture = all[i];
+        Canvas canvas(picture.width, picture.height, picture.detail);
+        picture.draw(canvas);
+        const std::vector<glm::vec4> small = canvas.shrink();
+        out.write("pics/" + picture.name + ".pcx",
+            formats::write_pcx(quantise(picture.width, picture.height, small, picture.dither, true)));
+        out.write("pics/" + picture.name + ".png", formats::write_png(full_size(canvas)));
+    });
 }
 
 } // namespace vkpt::tools

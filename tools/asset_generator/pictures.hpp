@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The 2D pictures of HUD and menus, as drawings. Identity: dark plates with cut corners, teal lines, amber for what is alive.
+// The 2D pictures of HUD and menus, as drawings. Identity: dark plates with cut corners, teal lines, amber for what is
+// alive.
 #pragma once
 
 #include "tools/asset_generator/canvas.hpp"
@@ -19,11 +20,11 @@ struct Picture {
 };
 
 namespace ink {
-    inline constexpr glm::vec3 plate { 0.055f, 0.08f, 0.105f }, plate_light { 0.10f, 0.145f, 0.18f };
-    inline constexpr glm::vec3 teal { 0.20f, 0.66f, 0.70f }, teal_dim { 0.10f, 0.32f, 0.37f };
-    inline constexpr glm::vec3 amber { 1.0f, 0.66f, 0.18f }, ember { 0.96f, 0.30f, 0.14f };
-    inline constexpr glm::vec3 pale { 0.86f, 0.93f, 0.95f }, grey { 0.52f, 0.58f, 0.62f };
-    inline constexpr glm::vec3 green { 0.40f, 0.90f, 0.44f }, blue { 0.36f, 0.58f, 1.0f }, violet { 0.80f, 0.46f, 1.0f };
+inline constexpr glm::vec3 plate { 0.055f, 0.08f, 0.105f }, plate_light { 0.10f, 0.145f, 0.18f };
+inline constexpr glm::vec3 teal { 0.20f, 0.66f, 0.70f }, teal_dim { 0.10f, 0.32f, 0.37f };
+inline constexpr glm::vec3 amber { 1.0f, 0.66f, 0.18f }, ember { 0.96f, 0.30f, 0.14f };
+inline constexpr glm::vec3 pale { 0.86f, 0.93f, 0.95f }, grey { 0.52f, 0.58f, 0.62f };
+inline constexpr glm::vec3 green { 0.40f, 0.90f, 0.44f }, blue { 0.36f, 0.58f, 1.0f }, violet { 0.80f, 0.46f, 1.0f };
 }
 
 // A plate with a lit rim filling `low`..`high`.

@@ -13,76 +13,110 @@
 namespace vkpt::tools {
 
 namespace {
-    struct Look {
-        glm::vec3 colour;
-        float rim = 0.5f;  // how dark the cell's border gets, 1 not at all
-        float grain = 0.1f;
-        bool glows = false;
-    };
+struct Look {
+    glm::vec3 colour;
+    float rim = 0.5f; // how dark the cell's border gets, 1 not at all
+    float grain = 0.1f;
+    bool glows = false;
+};
 
-    Look look_of(Material material, glm::vec3 armour)
-    {
-        switch (material) {
-        case Material::steel: return { { 0.58f, 0.60f, 0.63f } };
-        case Material::dark_steel: return { { 0.36f, 0.39f, 0.43f } };
-        case Material::gunmetal: return { { 0.22f, 0.24f, 0.27f } };
-        case Material::rubber: return { { 0.10f, 0.10f, 0.11f }, 0.7f };
-        case Material::amber_paint: return { { 0.80f, 0.48f, 0.12f } };
-        case Material::teal_paint: return { { 0.16f, 0.46f, 0.50f } };
-        case Material::red_paint: return { { 0.66f, 0.16f, 0.11f } };
-        case Material::green_paint: return { { 0.24f, 0.46f, 0.22f } };
-        case Material::blue_paint: return { { 0.20f, 0.32f, 0.66f } };
-        case Material::copper: return { { 0.68f, 0.43f, 0.29f } };
-        case Material::gold: return { { 0.76f, 0.60f, 0.28f } };
-        case Material::chrome: return { { 0.76f, 0.78f, 0.80f }, 0.75f, 0.04f };
-        case Material::cloth: return { { 0.30f, 0.28f, 0.24f }, 0.75f, 0.3f };
-        case Material::skin: return { { 0.74f, 0.52f, 0.40f }, 0.85f, 0.06f };
-        case Material::white_paint: return { { 0.74f, 0.74f, 0.72f } };
-        case Material::visor: return { { 0.08f, 0.26f, 0.30f }, 0.5f, 0.02f };
-        case Material::glow_amber: return { { 1.0f, 0.64f, 0.16f }, 0.8f, 0, true };
-        case Material::glow_teal: return { { 0.30f, 0.95f, 1.0f }, 0.8f, 0, true };
-        case Material::glow_red: return { { 1.0f, 0.22f, 0.12f }, 0.8f, 0, true };
-        case Material::glow_green: return { { 0.36f, 1.0f, 0.40f }, 0.8f, 0, true };
-        case Material::glow_blue: return { { 0.32f, 0.52f, 1.0f }, 0.8f, 0, true };
-        case Material::glow_violet: return { { 0.86f, 0.44f, 1.0f }, 0.8f, 0, true };
-        case Material::glow_white: return { { 1.0f, 0.98f, 0.92f }, 0.9f, 0, true };
-        case Material::fire: return { { 1.0f, 0.58f, 0.14f }, 1.0f, 0.5f, true };
-        case Material::flesh: return { { 0.52f, 0.12f, 0.10f }, 0.8f, 0.5f };
-        case Material::bone: return { { 0.78f, 0.72f, 0.58f }, 0.8f, 0.15f };
-        case Material::hazard: return { { 0.80f, 0.60f, 0.10f } };
-        case Material::medic: return { { 0.76f, 0.77f, 0.76f } };
-        case Material::grille: return { { 0.30f, 0.31f, 0.33f } };
-        case Material::wood: return { { 0.44f, 0.29f, 0.17f }, 0.7f, 0.3f };
-        case Material::smoke: return { { 0.34f, 0.32f, 0.31f }, 1.0f, 0.4f };
-        case Material::armour: return { armour };
-        case Material::count: break;
-        }
-        return { glm::vec3(0.5f) };
+Look look_of(Material material, glm::vec3 armour)
+{
+    switch (material) {
+    case Material::steel:
+        return { { 0.58f, 0.60f, 0.63f } };
+    case Material::dark_steel:
+        return { { 0.36f, 0.39f, 0.43f } };
+    case Material::gunmetal:
+        return { { 0.22f, 0.24f, 0.27f } };
+    case Material::rubber:
+        return { { 0.10f, 0.10f, 0.11f }, 0.7f };
+    case Material::amber_paint:
+        return { { 0.80f, 0.48f, 0.12f } };
+    case Material::teal_paint:
+        return { { 0.16f, 0.46f, 0.50f } };
+    case Material::red_paint:
+        return { { 0.66f, 0.16f, 0.11f } };
+    case Material::green_paint:
+        return { { 0.24f, 0.46f, 0.22f } };
+    case Material::blue_paint:
+        return { { 0.20f, 0.32f, 0.66f } };
+    case Material::copper:
+        return { { 0.68f, 0.43f, 0.29f } };
+    case Material::gold:
+        return { { 0.76f, 0.60f, 0.28f } };
+    case Material::chrome:
+        return { { 0.76f, 0.78f, 0.80f }, 0.75f, 0.04f };
+    case Material::cloth:
+        return { { 0.30f, 0.28f, 0.24f }, 0.75f, 0.3f };
+    case Material::skin:
+        return { { 0.74f, 0.52f, 0.40f }, 0.85f, 0.06f };
+    case Material::white_paint:
+        return { { 0.74f, 0.74f, 0.72f } };
+    case Material::visor:
+        return { { 0.08f, 0.26f, 0.30f }, 0.5f, 0.02f };
+    case Material::glow_amber:
+        return { { 1.0f, 0.64f, 0.16f }, 0.8f, 0, true };
+    case Material::glow_teal:
+        return { { 0.30f, 0.95f, 1.0f }, 0.8f, 0, true };
+    case Material::glow_red:
+        return { { 1.0f, 0.22f, 0.12f }, 0.8f, 0, true };
+    case Material::glow_green:
+        return { { 0.36f, 1.0f, 0.40f }, 0.8f, 0, true };
+    case Material::glow_blue:
+        return { { 0.32f, 0.52f, 1.0f }, 0.8f, 0, true };
+    case Material::glow_violet:
+        return { { 0.86f, 0.44f, 1.0f }, 0.8f, 0, true };
+    case Material::glow_white:
+        return { { 1.0f, 0.98f, 0.92f }, 0.9f, 0, true };
+    case Material::fire:
+        return { { 1.0f, 0.58f, 0.14f }, 1.0f, 0.5f, true };
+    case Material::flesh:
+        return { { 0.52f, 0.12f, 0.10f }, 0.8f, 0.5f };
+    case Material::bone:
+        return { { 0.78f, 0.72f, 0.58f }, 0.8f, 0.15f };
+    case Material::hazard:
+        return { { 0.80f, 0.60f, 0.10f } };
+    case Material::medic:
+        return { { 0.76f, 0.77f, 0.76f } };
+    case Material::grille:
+        return { { 0.30f, 0.31f, 0.33f } };
+    case Material::wood:
+        return { { 0.44f, 0.29f, 0.17f }, 0.7f, 0.3f };
+    case Material::smoke:
+        return { { 0.34f, 0.32f, 0.31f }, 1.0f, 0.4f };
+    case Material::armour:
+        return { armour };
+    case Material::count:
+        break;
     }
+    return { glm::vec3(0.5f) };
+}
 
-    glm::vec3 paint_cell(Material material, const Look& look, glm::vec2 uv, uint32_t seed)
-    {
-        const glm::vec2 edge2 = glm::min(uv, 1.0f - uv);
-        const float edge = std::min(edge2.x, edge2.y);
-        const float noise = fractal_noise(uv, 6, 4, seed) - 0.5f;
-        glm::vec3 colour = look.colour * (1.0f + look.grain * 2.4f * noise);
-        if (look.glows)
-            return glm::clamp(glm::mix(colour, glm::vec3(1, 1, 0.96f), 0.55f * glm::smoothstep(0.1f, 0.5f, edge)), 0.0f, 1.0f);
-        if (material == Material::hazard && glm::fract((uv.x + uv.y) * 2.5f) < 0.5f)
-            colour = glm::vec3(0.09f);
-        if (material == Material::grille && glm::fract(uv.y * 6) < 0.45f)
-            colour *= 0.3f;
-        if (material == Material::medic) {
-            const glm::vec2 q = glm::abs(uv - 0.5f);
-            if (std::max(q.x, q.y) < 0.32f && std::min(q.x, q.y) < 0.1f)
-                colour = glm::vec3(0.16f, 0.62f, 0.26f);
-        }
-        const float bright_line = glm::smoothstep(0.04f, 0.07f, edge) * glm::smoothstep(0.13f, 0.09f, edge);
-        colour *= glm::mix(look.rim, 1.0f, glm::smoothstep(0.0f, 0.08f, edge));
-        colour *= 1.0f + 0.25f * bright_line;
-        colour *= 1.0f - 0.18f * (uv.y - 0.5f); // light from above
-        return glm::clamp(colour, 0.0f, 1.0f);
+glm::vec3 paint_cell(Material material, const Look& look, glm::vec2 uv, uint32_t seed)
+{
+    const glm::vec2 edge2 = glm::min(uv, 1.0f - uv);
+    const float edge = std::min(edge2.x, edge2.y);
+    const float noise = fractal_noise(uv, 6, 4, seed) - 0.5f;
+    glm::vec3 colour = look.colour * (1.0f + look.grain * 2.4f * noise);
+    if (look.glows)
+        return glm::clamp(
+            glm::mix(colour, glm::vec3(1, 1, 0.96f), 0.55f * glm::smoothstep(0.1f, 0.5f, edge)), 0.0f, 1.0f);
+    if (material == Material::hazard && glm::fract((uv.x + uv.y) * 2.5f) < 0.5f)
+        colour = glm::vec3(0.09f);
+    if (material == Material::grille && glm::fract(uv.y * 6) < 0.45f)
+        colour *= 0.3f;
+    if (material == Material::medic) {
+        const glm::vec2 q = glm::abs(uv - 0.5f);
+        if (std::max(q.x, q.y) < 0.32f && std::min(q.x, q.y) < 0.1f)
+            colour = glm::vec3(0.16f, 0.62f, 0.26f);
     }
+    const float bright_line = glm::smoothstep(0.04f, 0.07f, edge) * glm::smoothstep(0.13f, 0.09f, edge);
+    colour *= glm::mix(look.rim, 1.0f, glm::smoothstep(0.0f, 0.08f, edge));
+    colour *= 1.0f + 0.25f * bright_line;
+    colour *= 1.0f - 0.18f * (uv.y - 0.5f); // light from above
+    return glm::clamp(colour, 0.0f, 1.0f);
+}
 }
 
 formats::IndexedImage make_skin(glm::vec3 armour)

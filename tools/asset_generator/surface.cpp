@@ -9,31 +9,31 @@
 namespace vkpt::tools {
 
 namespace {
-    glm::vec2 wrap_difference(glm::vec2 d) { return d - glm::round(d); }
+glm::vec2 wrap_difference(glm::vec2 d) { return d - glm::round(d); }
 
-    float chamfered(glm::vec2 uv, const Plate& plate, const PlateStyle& style)
-    {
-        const glm::vec2 half = (plate.high - plate.low) * 0.5f - style.gap;
-        const glm::vec2 q = glm::abs(wrap_difference(uv - (plate.low + plate.high) * 0.5f)) - half;
-        return std::max({ q.x, q.y, (q.x + q.y + style.cut) * 0.7071f });
-    }
+float chamfered(glm::vec2 uv, const Plate& plate, const PlateStyle& style)
+{
+    const glm::vec2 half = (plate.high - plate.low) * 0.5f - style.gap;
+    const glm::vec2 q = glm::abs(wrap_difference(uv - (plate.low + plate.high) * 0.5f)) - half;
+    return std::max({ q.x, q.y, (q.x + q.y + style.cut) * 0.7071f });
+}
 
-    // A round bolt head near each corner: colour and height change.
-    void add_bolts(Surface& surface, glm::vec2 uv, const Plate& plate)
-    {
-        constexpr float radius = 0.011f;
-        for (int corner = 0; corner < 4; corner++) {
-            const glm::vec2 at(corner & 1 ? plate.high.x - plate.bolt_inset : plate.low.x + plate.bolt_inset,
-                corner & 2 ? plate.high.y - plate.bolt_inset : plate.low.y + plate.bolt_inset);
-            const float d = wrapped_distance(uv, at) / radius;
-            if (d < 1.35f)
-                surface.colour *= 0.55f; // shadow line around the head
-            if (d < 1) {
-                surface.colour = glm::vec3(0.46f, 0.47f, 0.48f);
-                surface.height += 0.7f * std::sqrt(1 - d * d);
-            }
+// A round bolt head near each corner: colour and height change.
+void add_bolts(Surface& surface, glm::vec2 uv, const Plate& plate)
+{
+    constexpr float radius = 0.011f;
+    for (int corner = 0; corner < 4; corner++) {
+        const glm::vec2 at(corner & 1 ? plate.high.x - plate.bolt_inset : plate.low.x + plate.bolt_inset,
+            corner & 2 ? plate.high.y - plate.bolt_inset : plate.low.y + plate.bolt_inset);
+        const float d = wrapped_distance(uv, at) / radius;
+        if (d < 1.35f)
+            surface.colour *= 0.55f; // shadow line around the head
+        if (d < 1) {
+            surface.colour = glm::vec3(0.46f, 0.47f, 0.48f);
+            surface.height += 0.7f * std::sqrt(1 - d * d);
         }
     }
+}
 }
 
 float wrapped_box(glm::vec2 uv, glm::vec2 low, glm::vec2 high)
@@ -75,9 +75,8 @@ Surface plates(glm::vec2 uv, std::span<const Plate> list, const PlateStyle& styl
 
 std::vector<glm::vec3> render_surface(const Recipe& recipe, int size)
 {
-    const auto at = [size](int x, int y) {
-        return size_t((y + size) % size) * size_t(size) + size_t((x + size) % size);
-    };
+    const auto at
+        = [size](int x, int y) { return size_t((y + size) % size) * size_t(size) + size_t((x + size) % size); };
     std::vector<Surface> samples(size_t(size) * size_t(size));
     for (int y = 0; y < size; y++)
         for (int x = 0; x < size; x++)

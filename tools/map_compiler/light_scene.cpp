@@ -16,7 +16,8 @@ Occlusion::Occlusion(const Bsp& bsp)
     };
     for (const BspNode& node : bsp.nodes) {
         const BspPlane& plane = bsp.planes[size_t(node.plane)];
-        nodes_.push_back({ plane.normal, plane.dist, { child(node.children[0]), child(node.children[1]) } });
+        nodes_.push_back({ plane.normal, plane.dist, std::min(plane.type, 3),
+            { child(node.children[0]), child(node.children[1]) } });
     }
     root_ = child(bsp.models[0].head_node);
 }
@@ -31,7 +32,9 @@ bool Occlusion::is_blocked_below(int index, const glm::vec3& from, const glm::ve
     constexpr float tolerance = 0.1f; // grazing a surface does not block
     while (index >= 0) {
         const FlatNode& node = nodes_[size_t(index)];
-        const float a = glm::dot(node.normal, from) - node.dist, b = glm::dot(node.normal, to) - node.dist;
+        const bool axial = node.axis < 3;
+        const float a = (axial ? from[node.axis] : glm::dot(node.normal, from)) - node.dist;
+        const float b = (axial ? to[node.axis] : glm::dot(node.normal, to)) - node.dist;
         if (a >= -tolerance && b >= -tolerance) {
             index = node.children[0];
         } else if (a < tolerance && b < tolerance) {

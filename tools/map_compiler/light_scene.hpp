@@ -34,6 +34,7 @@ private:
     struct FlatNode {
         glm::vec3 normal;
         float dist;
+        int axis; // 0..2: the normal is that axis, 3: any
         int children[2]; // < 0: leaf; -1 solid, -2 open
     };
     bool is_blocked_below(int index, const glm::vec3& from, const glm::vec3& to) const;

@@ -96,11 +96,10 @@ struct FaceLight {
 double light_amount(const LightSource& source, const dvec3& point, const dvec3& normal)
 {
     const dvec3 way = source.position - point;
-    const double distance = glm::length(way);
-    if (!(distance > 0))
+    const double towards = glm::dot(way, normal), away = -glm::dot(way, source.normal);
+    if (towards <= 0 || (source.kind == LightSource::Kind::surface && away <= 0))
         return 0;
-    const dvec3 direction = way / distance;
-    const double receive = glm::dot(direction, normal), send = -glm::dot(direction, source.normal);
+    const double distance = glm::length(way), receive = towards / distance, send = away / distance;
     if (receive <= 0.001)
         return 0;
     switch (source.kind) {
