@@ -8,15 +8,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace vkpt {
 
 namespace {
-
-// Sky pictures show the sky as bright as a white wall under this lightmap value / 128 at full picture value. Measured with
-// tools/calibrate_light.
-constexpr float sky_picture_radiance = 1.0f;
 
 // Models of one map at most, several times what the engine can ask for.
 constexpr size_t max_models = 4096;
@@ -158,8 +155,12 @@ void Scene::end_registration()
     for (Model& model : models_)
         if (model.registration != registration_)
             model = {};
-    if (world_)
-        set_sky_radiance(*world_, sky_.average * sky_picture_radiance);
+    if (world_) {
+        const float luminance = glm::dot(sky_.average, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+        sky_.scale = world_->lit_sky_luminance > 0 && luminance > 0 ? world_->lit_sky_luminance / luminance
+                                                                    : EmissionScales().sky;
+        set_sky_radiance(*world_, sky_.average * sky_.scale);
+    }
     textures_.end_registration();
 }
 
@@ -170,7 +171,7 @@ shared::Sky Scene::make_sky(float time) const
         = glm::rotate(glm::mat4(1), glm::radians(sky_.degrees_per_second * time), sky_.axis);
     for (int i = 0; i < 3; i++)
         sky.rotation[i] = glm::vec3(turn[i]);
-    const float scale = sky_picture_radiance * cvars::values().pt_sky_scale;
+    const float scale = sky_.scale * cvars::values().pt_sky_scale;
     sky.present = sky_.present ? 1 : 0;
     sky.radiance = sky_.present ? glm::vec3(scale) : sky_.average * scale;
     for (size_t i = 0; i < 6; i++)

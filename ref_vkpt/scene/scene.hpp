@@ -62,6 +62,7 @@ private:
         float degrees_per_second = 0;
         glm::vec3 axis { 0, 0, 1 };
         glm::vec3 average { 0 };
+        float scale = 1; // from picture to radiance
     };
     std::optional<Model> load_model(const std::string& name) const;
     Model* keep_model(Model model);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <map>
 
 namespace vkpt {
@@ -108,6 +109,24 @@ MapGeometry make_brush_geometry(
     return geometry;
 }
 
+float luminance(glm::vec3 colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+float find_lit_sky_luminance(const Bsp& bsp, const StaticEmitters& emitters)
+{
+    float power = 0, area = 0;
+    for (size_t face = 0; face < bsp.faces.size(); face++) {
+        const uint32_t flags = bsp.texinfos[bsp.faces[face].texinfo].flags;
+        if (!(flags & SURF_SKY) || !(flags & SURF_LIGHT) || emitters.first_of_face[face] < 0)
+            continue;
+        for (uint32_t i = 0; i < emitters.count_of_face[face]; i++) {
+            const shared::Emitter& emitter = emitters.emitters[size_t(emitters.first_of_face[face]) + i];
+            power += luminance(emitter.radiance) * emitter.area;
+            area += emitter.area;
+        }
+    }
+    return area > 0 ? power / area : 0;
+}
+
 Bvh build_world_bvh(const MapGeometry& geometry)
 {
     std::vector<BvhTriangle> triangles(geometry.triangles.size());
@@ -202,6 +221,7 @@ std::unique_ptr<World> load_world(
     StaticEmitters emitters = extract_emitters(world.bsp, colour, scales);
     world.emission = emitters.face_emission;
     world.messages = emitters.messages;
+    world.lit_sky_luminance = find_lit_sky_luminance(world.bsp, emitters);
 
     const std::vector<int> face_clusters = find_face_clusters(world.bsp);
     world.models.push_back(

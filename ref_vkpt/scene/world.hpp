@@ -49,6 +49,8 @@ struct World {
     std::vector<glm::vec3> emission;    // per texinfo: Material::emission
     LightLists light_lists;
     Bvh bvh; // of model 0
+    // Mean luminance of the sky faces that the map's author gave a light value; 0: none. Their sky is as bright as that.
+    float lit_sky_luminance = 0;
     std::vector<std::string> messages; // what could not be used; for the console
 
     // The materials of a moment: [0, n) animate with time; [n, 2n) show each texinfo's own picture, for brush models that

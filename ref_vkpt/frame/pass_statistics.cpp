@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/frame/pass_statistics.hpp"
+
+#include "ref_vkpt/engine/engine.hpp"
+
+#include <algorithm>
+
+namespace vkpt {
+
+namespace {
+
+// Nearest rank: the smallest value that `fraction` of all values do not exceed.
+float find_quantile(std::vector<float> values, double fraction)
+{
+    const size_t rank = std::min(size_t(fraction * double(values.size())), values.size() - 1);
+    std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(rank));
+    return values[rank];
+}
+
+} // namespace
+
+void PassStatistics::add(std::string_view name, double milliseconds)
+{
+    auto pass = std::ranges::find(passes_, name, &Pass::name);
+    if (pass == passes_.end())
+        pass = passes_.insert(passes_.end(), { std::string(name), {} });
+    pass->milliseconds.push_back(float(milliseconds));
+}
+
+void PassStatistics::print() const
+{
+    for (const Pass& pass : passes_)
+        engine::print("ref_vkpt: pass {} median {:.3f} ms, p95 {:.3f} ms", pass.name,
+            find_quantile(pass.milliseconds, 0.5), find_quantile(pass.milliseconds, 0.95));
+}
+
+} // namespace vkpt
