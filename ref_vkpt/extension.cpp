@@ -146,8 +146,10 @@ void print_info()
     engine::print("driver         {}", info.driver);
     engine::print("Vulkan         {}", info.vulkan_version);
     engine::print("trace backend  {}", info.trace_backend);
-    engine::print("map            {} triangles, {} moving, {} clusters, {} emitters, {} light list entries", info.triangles,
-        info.dynamic_triangles, info.clusters, info.emitters, info.light_list_entries);
+    engine::print("triangles      {} ({} moving)", info.triangles + info.dynamic_triangles, info.dynamic_triangles);
+    engine::print("clusters       {}", info.clusters);
+    engine::print("emitters       {}", info.emitters);
+    engine::print("light lists    {} entries", info.light_list_entries);
     engine::print("textures       {}, {:.1f} MiB", info.textures, mib(info.texture_bytes));
     engine::print("memory (MiB)   geometry {:.1f}, acceleration {:.1f}, lights {:.1f}, images {:.1f}, staging {:.1f}",
         mib(info.geometry_bytes), mib(info.acceleration_bytes), mib(info.light_bytes), mib(info.image_bytes),

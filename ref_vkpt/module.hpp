@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ref_vkpt/draw2d/draw2d.hpp"
+#include "ref_vkpt/frame/capture.hpp"
 #include "ref_vkpt/frame/frame.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/scene/scene.hpp"
@@ -23,6 +24,9 @@ struct Module {
     // The scene that pt_accumulate froze; also what measure_irradiance lights.
     std::optional<SceneSnapshot> snapshot;
     bool snapshot_is_frozen = false;
+    bool frame_has_view = false; // the frame that is being recorded
+    FrameCapture capture;
+    PassStatistics pass_statistics; // with pt_times 1
 };
 
 // nullptr outside of InitContext .. ShutdownContext.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 
 namespace vkpt {
@@ -20,6 +21,13 @@ std::unique_ptr<Module> running;
 // The window size that Init agreed on with the engine; what a host without a window gets its pictures in.
 VkExtent2D agreed_size { 640, 480 };
 
+// For what driver and module compile. Many game folders can share one.
+std::string cache_directory()
+{
+    const char* chosen = std::getenv("VKPT_CACHE_DIR");
+    return chosen && *chosen ? chosen : engine::game_directory() + "/vkpt_cache";
+}
+
 GraphicsSettings graphics_settings(void* sdl_window)
 {
     const CvarValues& cvars = cvars::values();
@@ -27,7 +35,7 @@ GraphicsSettings graphics_settings(void* sdl_window)
     settings.sdl_window = sdl_window;
     settings.size = agreed_size;
     settings.device_name_part = cvars.pt_device;
-    settings.cache_directory = engine::game_directory() + "/vkpt_cache";
+    settings.cache_directory = cache_directory();
     settings.validation = cvars.pt_validation != 0;
     settings.vsync = cvars.r_vsync != 0;
     return settings;
@@ -64,15 +72,48 @@ Filtering filtering()
     return { cvars.r_2D_unfiltered != 0, cvars.r_videos_unfiltered != 0, cvars.r_nolerp_list, cvars.r_lerp_list };
 }
 
+// The last frame as shown; it waits for the device. Empty: there was none.
+formats::Image read_picture()
+{
+    static_assert(sizeof(formats::Rgba8) == 4);
+    const ImageSize size = extension_table().frame_size();
+    formats::Image picture { size.width, size.height, {} };
+    picture.pixels.resize(size_t(size.width) * size_t(size.height));
+    if (picture.pixels.empty() || !extension_table().capture_display(&picture.pixels[0].r))
+        return {};
+    return picture;
+}
+
 void take_screenshot()
 {
-    Module* m = module();
-    if (!m)
-        return;
-    const VkExtent2D size = m->graphics.size();
-    std::vector<uint8_t> pixels(size_t(size.width) * size.height * 4);
-    if (extension_table().capture_display(pixels.data()))
-        engine::write_screenshot({ int(size.width), int(size.height) }, 4, pixels.data());
+    const formats::Image picture = read_picture();
+    if (!picture.pixels.empty())
+        engine::write_screenshot({ picture.width, picture.height }, 4, picture.pixels.data());
+}
+
+// nullptr: pt_times is 0.
+PassStatistics* wanted_statistics()
+{
+    return running && cvars::values().pt_times != 0 ? &running->pass_statistics : nullptr;
+}
+
+void print_pass_statistics(Module& m)
+{
+    if (!m.graphics.is_recording()) {
+        m.graphics.finish();
+        for (uint32_t i = 0; i < frames_in_flight; i++) // the oldest first
+            m.graphics.timer.read_back((m.graphics.slot() + i) % frames_in_flight);
+    }
+    if (m.pass_statistics.empty())
+        engine::print("ref_vkpt: no times were collected: set pt_times 1");
+    m.pass_statistics.print();
+}
+
+void close_module()
+{
+    const std::unique_ptr<Module> closing = std::move(running);
+    if (closing && !closing->pass_statistics.empty())
+        print_pass_statistics(*closing);
 }
 
 struct Command {
@@ -82,6 +123,7 @@ struct Command {
 // Each wrapped, so that what it throws becomes the engine's error.
 constexpr Command commands[] = {
     { "pt_info", [] { run_command(print_info); } },
+    { "pt_times_print", [] { run_command([] { module() ? print_pass_statistics(*module()) : void(); }); } },
     { "screenshot", [] { run_command(take_screenshot); } },
     { "imagelist", [] { run_command([] { module() ? module()->textures.print_list() : void(); }); } },
     { "modellist", [] { run_command([] { module() ? module()->scene.print_models() : void(); }); } },
@@ -113,7 +155,7 @@ int prepare_for_window()
 
 bool init_context(void* sdl_window)
 {
-    running = nullptr;
+    close_module();
     running = std::make_unique<Module>(graphics_settings(sdl_window));
     const Device& device = running->graphics.device;
     engine::print("ref_vkpt: {} ({}), Vulkan {}, rays traced in software", device.properties.deviceName, device.driver,
@@ -121,7 +163,7 @@ bool init_context(void* sdl_window)
     return true;
 }
 
-void shutdown_context() { running = nullptr; }
+void shutdown_context() { close_module(); }
 
 bool init()
 {
@@ -150,7 +192,7 @@ void shutdown()
         for (const Command& command : commands)
             engine::remove_command(command.name);
     commands_added = false;
-    running = nullptr;
+    close_module();
 }
 
 bool is_vsync_active() { return running && running->graphics.is_vsync_active(); }
@@ -204,10 +246,27 @@ void begin_frame(float)
         check_light_sampler();
         m.graphics.set_vsync(cvars::values().r_vsync != 0);
     }
+    m.graphics.timer.collect_into(wanted_statistics());
+    m.frame_has_view = false;
     if (m.graphics.begin_frame())
         m.draw2d.set_output(m.graphics.screen.output());
     m.draw2d.begin_frame(m.graphics.slot(), filtering());
     m.frame.begin();
+}
+
+static SceneSnapshot take_snapshot(const engine::RefDef& refdef)
+{
+    const CpuTimer timer(wanted_statistics(), "cpu scene");
+    return running->scene.take_snapshot(refdef);
+}
+
+static void record_view(const engine::RefDef& refdef, SceneSnapshot& snapshot, const GpuWorld* gpu_world, bool average)
+{
+    Module& m = *running;
+    const CpuTimer timer(wanted_statistics(), "cpu record");
+    m.textures.flush_if_needed();
+    m.draw2d.record(m.graphics.commands());
+    m.frame.record_view(make_view(refdef, m.graphics.size()), snapshot, gpu_world, average);
 }
 
 void render_view(const engine::RefDef& refdef)
@@ -218,23 +277,19 @@ void render_view(const engine::RefDef& refdef)
     const bool has_world = !(refdef.flags & engine::RDF_NOWORLDMODEL);
     if (has_world && !m.scene.world())
         throw LevelError("a view of a world was asked for before any map was registered");
-    const bool freeze = has_world && cvars::values().pt_accumulate != 0;
-    if (!freeze || !m.snapshot_is_frozen || !m.snapshot) {
-        SceneSnapshot snapshot = m.scene.take_snapshot(refdef);
-        if (has_world) {
-            m.snapshot = std::move(snapshot);
-            m.snapshot_is_frozen = freeze;
-            m.frame.restart_accumulation();
-        } else {
-            m.textures.flush_if_needed();
-            m.draw2d.record(m.graphics.commands());
-            m.frame.record_view(make_view(refdef, m.graphics.size()), snapshot, nullptr, false);
-            return;
-        }
+    m.frame_has_view = true;
+    if (!has_world) {
+        SceneSnapshot snapshot = take_snapshot(refdef);
+        record_view(refdef, snapshot, nullptr, false);
+        return;
     }
-    m.textures.flush_if_needed();
-    m.draw2d.record(m.graphics.commands());
-    m.frame.record_view(make_view(refdef, m.graphics.size()), *m.snapshot, &m.gpu_world, freeze);
+    const bool freeze = cvars::values().pt_accumulate != 0;
+    if (!freeze || !m.snapshot_is_frozen || !m.snapshot) {
+        m.snapshot = take_snapshot(refdef);
+        m.snapshot_is_frozen = freeze;
+        m.frame.restart_accumulation();
+    }
+    record_view(refdef, *m.snapshot, &m.gpu_world, freeze);
 }
 
 void end_frame()
@@ -250,6 +305,8 @@ void end_frame()
     constexpr float server_scale = 150 * 0.5f;
     if (m.scene.world())
         engine::set_cvar("r_lightlevel", server_scale * m.frame.light_level());
+    if (m.frame_has_view)
+        m.capture.end_view(read_picture);
 }
 
 bool end_world_renderpass() { return true; }

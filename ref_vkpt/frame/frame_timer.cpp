@@ -47,6 +47,9 @@ void FrameTimer::read_back(uint32_t frame_slot)
             else
                 times_.push_back({ slot.names[i], milliseconds });
         }
+        if (statistics_)
+            for (const PassTime& time : times_)
+                statistics_->add(time.name, time.milliseconds);
     }
     slot.names.clear();
 }

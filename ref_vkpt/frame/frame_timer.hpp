@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ref_vkpt/extension.hpp"
+#include "ref_vkpt/frame/pass_statistics.hpp"
 #include "ref_vkpt/vulkan/swapchain.hpp"
 
 #include <array>
@@ -25,6 +26,8 @@ public:
     const std::vector<PassTime>& times() const { return times_; }
     // Reads the slot's times now; the device must have finished it.
     void read_back(uint32_t frame_slot);
+    // Every frame that is read back from now on is added to these, too; nullptr: to none.
+    void collect_into(PassStatistics* statistics) { statistics_ = statistics; }
 
 private:
     struct Slot {
@@ -35,6 +38,7 @@ private:
     std::array<Slot, frames_in_flight> slots_;
     uint32_t slot_ = 0;
     std::vector<PassTime> times_;
+    PassStatistics* statistics_ = nullptr;
 };
 
 } // namespace vkpt

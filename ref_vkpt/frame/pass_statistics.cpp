@@ -4,15 +4,16 @@
 #include "ref_vkpt/engine/engine.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vkpt {
 
 namespace {
 
-// Nearest rank: the smallest value that `fraction` of all values do not exceed.
+// Nearest rank: the smallest value that at least `fraction` of all values do not exceed.
 float find_quantile(std::vector<float> values, double fraction)
 {
-    const size_t rank = std::min(size_t(fraction * double(values.size())), values.size() - 1);
+    const size_t rank = size_t(std::ceil(fraction * double(values.size()))) - 1;
     std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(rank));
     return values[rank];
 }
