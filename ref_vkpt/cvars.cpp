@@ -23,8 +23,7 @@ static_assert(debug_view("off") == shared::DEBUG_VIEW_OFF && debug_view("albedo"
     && debug_view("emission") == shared::DEBUG_VIEW_EMISSION && debug_view("cluster") == shared::DEBUG_VIEW_CLUSTER
     && debug_view("list_length") == shared::DEBUG_VIEW_LIST_LENGTH
     && debug_view("irradiance") == shared::DEBUG_VIEW_IRRADIANCE
-    && debug_view("roughness") == shared::DEBUG_VIEW_ROUGHNESS && debug_view("motion") == shared::DEBUG_VIEW_MOTION
-    && debug_view("triangle") == shared::DEBUG_VIEW_TRIANGLE && debug_view("light") == shared::DEBUG_VIEW_LIGHT);
+    && debug_view("roughness") == shared::DEBUG_VIEW_ROUGHNESS);
 
 struct State {
     std::array<engine::Cvar*, row_count> cvars {}; // the engine's, in the order of the rows

@@ -18,6 +18,9 @@ namespace {
 
 std::unique_ptr<Module> running;
 
+// Between a door's opening and its success: whatever leaves by an exception in between has been told to the console.
+bool start_failed = false;
+
 // The window size that Init agreed on with the engine; what a host without a window gets its pictures in.
 VkExtent2D agreed_size { 640, 480 };
 
@@ -149,14 +152,18 @@ namespace renderer {
 
 int prepare_for_window()
 {
+    start_failed = true;
     load_vulkan_library();
+    start_failed = false;
     return sdl_vulkan_window_flag;
 }
 
 bool init_context(void* sdl_window)
 {
     close_module();
+    start_failed = true;
     running = std::make_unique<Module>(graphics_settings(sdl_window));
+    start_failed = false;
     const Device& device = running->graphics.device;
     engine::print("ref_vkpt: {} ({}), Vulkan {}, rays traced in software", device.properties.deviceName, device.driver,
         describe_api_version(device.properties.apiVersion));
@@ -174,13 +181,15 @@ bool init()
     commands_added = true;
     const engine::VideoSize wanted = wanted_size();
     agreed_size = { uint32_t(wanted.width), uint32_t(wanted.height) };
+    start_failed = false;
     const auto size = engine::init_graphics(cvars::values().vid_fullscreen, wanted);
-    if (!size) {
-        engine::print("ref_vkpt: the engine could not open a window of {} x {}", wanted.width, wanted.height);
+    if (!size || !running) {
+        if (!start_failed)
+            engine::print("ref_vkpt: the engine could not open a window of {} x {} for Vulkan; is a Vulkan driver "
+                          "installed (vulkaninfo tells)? On a machine without GPU: mesa-vulkan-drivers",
+                wanted.width, wanted.height);
         return false;
     }
-    if (!running)
-        return false; // init_context has said why
     agreed_size = { uint32_t(size->width), uint32_t(size->height) };
     running->graphics.set_size(agreed_size);
     return true;

@@ -187,6 +187,8 @@ void Host::add_console_text(std::string_view text)
         }
         if (options_.verbose)
             std::fprintf(stderr, "%s\n", console_line_.c_str());
+        if (options_.on_line)
+            options_.on_line(console_line_);
         console_.push_back(std::exchange(console_line_, {}));
         if (console_.size() > kept_console_lines)
             console_.pop_front();

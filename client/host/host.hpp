@@ -8,6 +8,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@ struct HostOptions {
     int width = 640, height = 480;
     std::vector<std::pair<std::string, std::string>> cvars; // set before the module starts
     bool verbose = false; // console lines to stderr as they come
+    std::function<void(const std::string& line)> on_line; // every console line as it comes
 };
 
 // One at a time: the refresh API has no place for a context pointer.

@@ -44,9 +44,10 @@ glm::vec3 normalise_colour(glm::vec3 colour)
 
 glm::vec3 average_radiance(const BspTexinfo& texinfo, const AverageColour& colour, const EmissionScales& scales)
 {
-    const glm::vec3 average = glm::max(colour(texinfo.texture), glm::vec3(0));
+    const PictureColour picture = colour(texinfo.texture);
+    const glm::vec3 average = glm::max(picture.average, glm::vec3(0));
     if ((texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0)
-        return scales.face * float(texinfo.value) * normalise_colour(average);
+        return scales.face * float(texinfo.value) * picture.strength * normalise_colour(average);
     return scales.sky * average;
 }
 
@@ -55,8 +56,9 @@ glm::vec3 emission_factor(const BspTexinfo& texinfo, const AverageColour& colour
 {
     if (classify(texinfo) != Emission::face)
         return glm::vec3(0);
-    const float greatest = max_component(colour(texinfo.texture));
-    return greatest > 0 ? glm::vec3(scales.face * float(texinfo.value) / greatest) : glm::vec3(0);
+    const PictureColour picture = colour(texinfo.texture);
+    const float greatest = max_component(picture.average);
+    return greatest > 0 ? glm::vec3(scales.face * float(texinfo.value) * picture.strength / greatest) : glm::vec3(0);
 }
 
 // Where in the tree a face's front lies: leaves are numbered in tree order, so near numbers are near places.
@@ -96,7 +98,7 @@ void report_unused(const Bsp& bsp, const AverageColour& colour, std::vector<std:
         const bool meant = (texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0;
         if (meant && classify(texinfo) == Emission::none)
             undrawn[texinfo.texture]++;
-        else if (meant && !(max_component(colour(texinfo.texture)) > 0))
+        else if (meant && !(max_component(colour(texinfo.texture).average) > 0))
             black[texinfo.texture]++;
     }
     for (const auto& [texture, count] : undrawn)

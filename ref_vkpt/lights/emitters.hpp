@@ -18,23 +18,31 @@ namespace vkpt {
 // What the classic light compiler computes, in lightmap units (our unit: a white diffuse surface under lightmap value
 // 128 has radiance 1, so irradiance / pi = value / 128), and what the measurement made of it:
 // - face: a patch of area A adds 0.4 * texinfo value * colour * A * cos * cos' / d^2. A patch of radiance L adds
-//   L * A * cos * cos' / (pi d^2). Equal for L = 0.4 pi / 128 * value = 0.0098 * value. Over real maps a fifth of that
-//   meets the medians (their authors wrote values of thousands, and where such light is bright lightmaps are clipped).
+//   L * A * cos * cos' / (pi d^2). Equal for L = 0.4 pi / 128 * value = 0.0098 * value.
 // - point: a light adds (light - d) * cos: linear, nothing beyond d = light. A light of intensity I adds
 //   I * cos / (pi d^2). Equal at distance d for I = pi d^2 (light - d) / 128. The value is the light's reach, so that d
-//   goes with it: at a quarter of the reach, I = 0.00115 * light^3. Measured: 0.0013; a map lit by lights of 800 and
+//   goes with it: at a quarter of the reach, I = 0.00115 * light^3. Measured: 0.0011; a map lit by lights of 800 and
 //   one lit by lights of 120 to 350 ask for the same factor within 2, which no factor to the plain value does.
 // - sky: a classic sky is bright in the lightmaps where its picture is not; measured with the stand-in for a missing
-// one.
+//   one.
+// docs/calibration.md has the figures.
 struct EmissionScales {
-    float face = 0.0021f; // radiance = face * texinfo value * normalised picture colour
-    float point = 0.0013f; // radiant intensity of a point light = point * its "light" value cubed
-    float sky = 4.5f; // radiance = sky * sky picture (sky faces that are not SURF_LIGHT; others: as faces)
+    float face = 0.0095f; // radiance = face * texinfo value * normalised picture colour * its strength
+    float point = 0.0011f; // radiant intensity of a point light = point * its "light" value cubed
+    float sky = 3.5f; // radiance = sky * sky picture (sky faces that are not SURF_LIGHT; others: as faces)
     float point_light_radius = 4; // of the spheres that stand for point lights, units; less where walls are nearer
 };
 
-// Average colour of a picture, linear RGB 0..1; asked for by texinfo texture name.
-using AverageColour = std::function<glm::vec3(const std::string& texture)>;
+// What a picture lends to the light that its surface emits.
+struct PictureColour {
+    PictureColour(glm::vec3 average_, float strength_ = 1) : average(average_), strength(strength_) { }
+    glm::vec3 average; // linear RGB 0..1
+    float strength; // of the light: missing_picture_strength where `average` is that of a stand-in
+};
+// The classic light compiler counts a missing picture as half as bright as any that is there.
+inline constexpr float missing_picture_strength = 0.5f;
+// Asked for by texinfo texture name.
+using AverageColour = std::function<PictureColour(const std::string& texture)>;
 
 struct StaticEmitters {
     // Spatially coherent: in the order of BSP leaves, so that strided subsets are representative.

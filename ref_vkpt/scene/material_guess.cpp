@@ -16,8 +16,9 @@ struct Row {
 // highlights; a mirror has to be asked for by name.
 constexpr Row rows[] = {
     { "mirror", { 0.0f, 1.0f } },
-    { "chrome", { 0.12f, 1.0f } },
-    { "glossy", { 0.16f, 0.0f } },
+    { "chrome", { 0.0f, 1.0f } },
+    { "gloss", { 0.2f, 0.0f } },
+    { "tread", { 0.35f, 0.8f } },
     { "marble", { 0.2f, 0.0f } },
     { "tile", { 0.3f, 0.0f } },
     { "glass", { 0.1f, 0.0f } },

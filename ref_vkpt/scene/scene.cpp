@@ -25,7 +25,7 @@ bool ends_with(std::string_view name, std::string_view ending)
 
 WorldPicture describe(const Texture& texture)
 {
-    return { texture.slot, texture.width, texture.height, texture.average, texture.has_alpha };
+    return { texture.slot, texture.width, texture.height, texture.average, texture.has_alpha, texture.missing };
 }
 
 } // namespace
@@ -36,6 +36,12 @@ void Scene::begin_registration(std::string_view map)
 {
     registration_++;
     textures_.begin_registration();
+    // Not two maps in memory at once, and none where the new one cannot be read. Its brush models go with it: the next
+    // map's number 5 is another one, or none.
+    world_ = nullptr;
+    for (Model& model : models_)
+        if (std::holds_alternative<Model::Brush>(model.shape))
+            model = {};
     const std::string path = "maps/" + std::string(map) + ".bsp";
     const std::optional<engine::FileData> file = engine::load_file(path);
     if (!file)
@@ -44,7 +50,6 @@ void Scene::begin_registration(std::string_view map)
     scales.point_light_radius = cvars::values().pt_point_light_radius;
     const FindWorldPicture find
         = [&](const std::string& texture) { return describe(*textures_.find(texture, TextureUse::wall)); };
-    world_ = nullptr; // not two maps in memory at once
     world_ = load_world(file->bytes(), path, find, scales);
     for (const std::string& message : world_->messages)
         engine::print_developer(message);

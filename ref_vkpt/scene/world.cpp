@@ -214,9 +214,10 @@ std::unique_ptr<World> load_world(
             entry->second = find_picture(texinfo.texture);
         world.pictures.push_back(entry->second);
     }
-    const AverageColour colour = [&](const std::string& texture) {
+    const AverageColour colour = [&](const std::string& texture) -> PictureColour {
         const auto entry = by_name.find(texture);
-        return entry != by_name.end() ? entry->second.average : glm::vec3(0.5f);
+        const WorldPicture picture = entry != by_name.end() ? entry->second : WorldPicture();
+        return PictureColour(picture.average, picture.missing ? missing_picture_strength : 1.0f);
     };
     StaticEmitters emitters = extract_emitters(world.bsp, colour, scales);
     world.emission = emitters.face_emission;

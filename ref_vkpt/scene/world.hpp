@@ -34,6 +34,7 @@ struct WorldPicture {
     int width = 64, height = 64; // texels of texinfo space
     glm::vec3 average { 0.5f };  // linear
     bool has_alpha = false;
+    bool missing = false; // a stand-in
 };
 using FindWorldPicture = std::function<WorldPicture(const std::string& texture)>;
 

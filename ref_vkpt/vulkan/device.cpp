@@ -145,24 +145,50 @@ int rank_device_type(VkPhysicalDeviceType type)
     }
 }
 
-// Mesa's CPU driver runs our compute BVH up to twice as fast with 512-bit vectors, and its disk cache ignores the width:
-// code of one width, found by a program that runs with another, crashes it. So the width is changed only together with a
-// cache of our own. Both are read when the driver loads.
-void prepare_cpu_driver(const std::string& cache_directory)
-{
-    if (cache_directory.empty() || std::getenv("MESA_SHADER_CACHE_DIR"))
-        return;
-    constexpr int keep_users_choice = 0;
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw"))
-        setenv("LP_NATIVE_VECTOR_WIDTH", "512", keep_users_choice);
-#endif
-    const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
-    const std::string directory = fmt::format("{}/driver-{}", cache_directory, width ? width : "default");
-    setenv("MESA_SHADER_CACHE_DIR", directory.c_str(), keep_users_choice);
-}
+// Sets an environment variable unless the user did, until the end of life.
+class ScopedVariable {
+public:
+    ScopedVariable(const char* name, const std::string& value) : name_(std::getenv(name) ? nullptr : name)
+    {
+        if (name_)
+            setenv(name_, value.c_str(), 1);
+    }
+    ScopedVariable(const ScopedVariable&) = delete;
+    ScopedVariable& operator=(const ScopedVariable&) = delete;
+    ~ScopedVariable()
+    {
+        if (name_)
+            unsetenv(name_);
+    }
+
+private:
+    const char* name_;
+};
 
 } // namespace
+
+// Mesa's CPU driver runs our compute BVH up to twice as fast with 512-bit vectors, and its disk cache ignores the width:
+// code of one width, found by a program that runs with another, crashes it. So the width is changed only together with a
+// cache of our own. The driver reads the width again and again, so both stay as long as the device. Then they go:
+// Mesa's OpenGL, which an engine that goes on with another renderer loads into the same process, cannot draw with such
+// vectors.
+class CpuDriverSettings {
+public:
+    explicit CpuDriverSettings(const std::string& cache_directory)
+    {
+        if (cache_directory.empty() || std::getenv("MESA_SHADER_CACHE_DIR"))
+            return;
+#if defined(__x86_64__)
+        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw"))
+            width_.emplace("LP_NATIVE_VECTOR_WIDTH", "512");
+#endif
+        const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
+        cache_.emplace("MESA_SHADER_CACHE_DIR", fmt::format("{}/driver-{}", cache_directory, width ? width : "default"));
+    }
+
+private:
+    std::optional<ScopedVariable> width_, cache_;
+};
 
 void check_vulkan(VkResult result, const char* call)
 {
@@ -182,9 +208,9 @@ std::string describe_api_version(uint32_t version)
 uint32_t Device::validation_messages() { return validation_message_count; }
 
 Device::Device(const DeviceSettings& settings)
-    : windowed_(!settings.instance_extensions.empty())
+    : cpu_driver_(std::make_unique<CpuDriverSettings>(settings.cache_directory))
+    , windowed_(!settings.instance_extensions.empty())
 {
-    prepare_cpu_driver(settings.cache_directory);
     load_vulkan_library();
     try {
         create_instance(settings);

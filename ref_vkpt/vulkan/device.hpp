@@ -5,6 +5,7 @@
 #include "ref_vkpt/vulkan/functions.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,8 @@ struct DeviceSettings {
     std::vector<const char*> instance_extensions; // what the window asks for
     std::string cache_directory; // for the driver's shader cache; empty: the driver's own place
 };
+
+class CpuDriverSettings;
 
 class Device {
 public:
@@ -58,6 +61,7 @@ private:
     void create_logical_device();
     void destroy();
 
+    std::unique_ptr<CpuDriverSettings> cpu_driver_;
     bool windowed_;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <unistd.h>
 #include <vector>
 
 namespace vkpt {
@@ -84,11 +85,16 @@ void Pipelines::save_cache() const
     if (vkGetPipelineCacheData(gpu_.device.handle, cache_, &size, data.data()) != VK_SUCCESS)
         return;
     // Written beside and renamed, so that a cut write never leaves half a cache. A cache that cannot be written is no error.
-    const std::string partial = cache_file_ + ".new";
-    if (std::ofstream file(partial, std::ios::binary); !file.write(data.data(), std::streamsize(size)))
-        return;
+    // By process: several may share the folder.
+    const std::string partial = fmt::format("{}.{}.new", cache_file_, getpid());
+    std::ofstream file(partial, std::ios::binary);
+    file.write(data.data(), std::streamsize(size));
+    file.close();
     std::error_code ignored;
-    std::filesystem::rename(partial, cache_file_, ignored);
+    if (file)
+        std::filesystem::rename(partial, cache_file_, ignored);
+    else
+        std::filesystem::remove(partial, ignored);
 }
 
 } // namespace vkpt

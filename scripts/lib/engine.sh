@@ -7,6 +7,7 @@
 # a copy of the engine and links to everything else. The installed engine is never touched.
 
 run_dir=${VKPT_RUN_DIR:-$root/build/run}
+shared_cache_dir=${VKPT_CACHE_DIR:-$run_dir/cache} # for every run, whichever its run directory
 xvfb_pid=
 engine_pid=
 
@@ -75,15 +76,22 @@ as_player() { (exec_as_player "$@"); }
 
 # --- the run directory --------------------------------------------------------------------------------------------
 
+# Prints a folder of ours that every user can enter.
+make_outside_dir() {
+    local dir
+    dir=/var/tmp/ref_vkpt-run-$(id -u)
+    if [[ ! -e $dir ]]; then
+        mkdir -m 755 "$dir" || die "cannot make $dir"
+    fi
+    [[ -d $dir && ! -L $dir && -O $dir ]] || die "$dir exists and is not ours; move it away"
+    echo "$dir"
+}
+
 # Where the player cannot come (a checkout below /root), files are copied to a place where they can.
 choose_run_dir() {
     mkdir -p "$run_dir" || die "cannot write to $run_dir"
     as_player test -x "$run_dir" -a -r "$run_dir" && return 0
-    run_dir=/var/tmp/ref_vkpt-run-$(id -u)
-    if [[ ! -e $run_dir ]]; then
-        mkdir -m 755 "$run_dir" || die "cannot make $run_dir"
-    fi
-    [[ -d $run_dir && ! -L $run_dir && -O $run_dir ]] || die "$run_dir exists and is not ours; move it away"
+    run_dir=$(make_outside_dir) || exit 1
     note "user $player_uid cannot read $root: module and data are copied to $run_dir"
 }
 
@@ -106,19 +114,41 @@ provide() {
 }
 
 # link_game NAME: the engine's own files of a game (game.so and small fixes of maps) beside the engine's copy. A mod
-# without a game.so for this engine gets the stock one.
+# without a game.so for this engine gets the stock one. The engine's yq2.cfg comes with the user's data only: it binds all
+# keys anew, after our default.cfg.
 link_game() {
     local name=$1 engine_dir=$2 file target
     mkdir -p "$run_dir/$name"
     for file in "$engine_dir/$name"/*; do
         [[ -e $file ]] || continue
         target=$run_dir/$name/${file##*/}
+        if [[ ${file##*/} == yq2.cfg && ${find_data:-no} == no ]]; then
+            rm -f "$target"
+            continue
+        fi
         [[ $(readlink "$target") == "$file" ]] || ln -sfn "$file" "$target"
     done
     if [[ ! -e $run_dir/$name/game.so && ! -e ${data_dir:-}/$name/game.so ]]; then
         note "no game.so for '$name' with this engine: the stock game is used with its files"
         ln -sfn "$engine_dir/baseq2/game.so" "$run_dir/$name/game.so"
     fi
+}
+
+# What driver and module compile goes to a folder that the player may write.
+use_cache_dir() {
+    cache_dir=$1
+    mkdir -p "$cache_dir" 2>/dev/null || return 1
+    if is_root; then
+        chown -R "$player_uid:$player_gid" "$cache_dir"
+    fi
+    as_player test -w "$cache_dir"
+}
+choose_cache_dir() {
+    local outside
+    use_cache_dir "$shared_cache_dir" && return 0
+    outside=$(make_outside_dir) || exit 1
+    use_cache_dir "$outside/cache" && return 0
+    die "user $player_uid may not write to $shared_cache_dir; VKPT_CACHE_DIR=DIR names another place"
 }
 
 # prepare_run_dir HOME_NAME: sets home_dir, cache_dir and engine_binary.
@@ -140,11 +170,11 @@ prepare_run_dir() {
     link_game baseq2 "$engine_dir"
     [[ ${game_name:-baseq2} == baseq2 ]] || link_game "$game_name" "$engine_dir"
     home_dir=$run_dir/$1
-    cache_dir=${VKPT_CACHE_DIR:-$run_dir/cache}
-    mkdir -p "$home_dir/.yq2/${game_name:-baseq2}" "$home_dir/.local/share" "$cache_dir"
+    mkdir -p "$home_dir/.yq2/${game_name:-baseq2}" "$home_dir/.local/share"
     if is_root; then
-        chown -R "$player_uid:$player_gid" "$home_dir" "$cache_dir"
+        chown -R "$player_uid:$player_gid" "$home_dir"
     fi
+    choose_cache_dir
     [[ -w $home_dir ]] || die "$home_dir belongs to another user (an earlier run); remove it: sudo rm -r $home_dir"
 }
 
@@ -209,7 +239,7 @@ exec_engine() {
     local data=$1
     shift
     cd "$run_dir" || exit 1
-    export HOME=$home_dir XDG_CACHE_HOME=$cache_dir
+    export HOME=$home_dir XDG_CACHE_HOME=$cache_dir VKPT_CACHE_DIR=$cache_dir
     unset XDG_DATA_HOME XDG_CONFIG_HOME
     exec_as_player "$engine_binary" -datadir "$data" +set vid_renderer "${VKPT_RENDERER:-vkpt}" +set logfile 2 +set allow_download 0 "$@"
 }

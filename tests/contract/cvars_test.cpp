@@ -72,13 +72,13 @@ TEST_F(Cvars, ShadersSeeTheNumbers)
 {
     mock.set("pt_bounces", "3");
     mock.set("pt_exposure_bias", "-1.5");
-    mock.set("pt_debug_view", "light");
+    mock.set("pt_debug_view", "roughness");
     mock.set("pt_tone_map", "none");
     cvars::update();
     const shared::ShaderCvars numbers = cvars::shader_values();
     EXPECT_EQ(numbers.pt_bounces, 3);
     EXPECT_EQ(numbers.pt_exposure_bias, -1.5f);
-    EXPECT_EQ(numbers.pt_debug_view, shared::DEBUG_VIEW_LIGHT);
+    EXPECT_EQ(numbers.pt_debug_view, shared::DEBUG_VIEW_ROUGHNESS);
     EXPECT_EQ(numbers.pt_tone_map, shared::TONE_MAP_NONE);
 }
 

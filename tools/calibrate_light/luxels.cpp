@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tools/calibrate_light/luxels.hpp"
 
+#include "formats/entities.hpp"
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -16,7 +18,7 @@ using formats::Bsp;
 
 constexpr float luxel_size = 16; // texels
 constexpr float lightmap_unit = 128; // the value under which a white diffuse surface has radiance 1
-constexpr uint8_t clipped_value = 240; // compilers cut at 255 and some squeeze what is near
+constexpr uint8_t clipped_value = 190; // compilers scale brighter samples down to 196: those say only "at least"
 constexpr float least_value = 6; // luminance; below, rounding to integers is more than 8 %
 constexpr float edge_margin = 1; // units inside of the face's edges
 constexpr float clearance = 1; // units in front of the face that must be open
@@ -84,18 +86,28 @@ std::optional<size_t> find_steady_lightmap(const Bsp& bsp, size_t face, glm::ive
     return std::nullopt;
 }
 
+// What a compiler added to every lightmap, whatever shines there: worldspawn's keys. It comes from no light.
+float find_ambient(const Bsp& bsp)
+{
+    for (const formats::EntityText& entity : formats::parse_entities(bsp.entity_text, bsp.name))
+        if (entity.class_name() == "worldspawn")
+            return std::max(0.0f, entity.number("light", entity.number("_minlight", 0)))
+                + std::max(0.0f, entity.number("_sun_ambient", 0));
+    return 0;
+}
+
 // Nothing where it is clipped or too dark.
-std::optional<glm::vec3> read_baked(const Bsp& bsp, size_t offset)
+std::optional<glm::vec3> read_baked(const Bsp& bsp, size_t offset, float ambient)
 {
     const uint8_t* rgb = bsp.lighting.data() + offset;
-    const glm::vec3 value(rgb[0], rgb[1], rgb[2]);
+    const glm::vec3 value = glm::vec3(rgb[0], rgb[1], rgb[2]) - ambient;
     if (std::max({ rgb[0], rgb[1], rgb[2] }) >= clipped_value
         || glm::dot(value, glm::vec3(0.2126f, 0.7152f, 0.0722f)) < least_value)
         return std::nullopt;
     return value / lightmap_unit;
 }
 
-void collect_face(const Bsp& bsp, size_t face, std::vector<Luxel>& luxels)
+void collect_face(const Bsp& bsp, size_t face, float ambient, std::vector<Luxel>& luxels)
 {
     const uint32_t flags = bsp.texinfos[bsp.faces[face].texinfo].flags;
     if (flags & (formats::SURF_SKY | formats::SURF_WARP | formats::SURF_NODRAW | formats::SURF_LIGHT))
@@ -110,7 +122,7 @@ void collect_face(const Bsp& bsp, size_t face, std::vector<Luxel>& luxels)
     for (int y = 0; y < extent.size.y; y++)
         for (int x = 0; x < extent.size.x; x++) {
             const std::optional<glm::vec3> baked
-                = read_baked(bsp, *lightmap + 3 * (size_t(y) * size_t(extent.size.x) + size_t(x)));
+                = read_baked(bsp, *lightmap + 3 * (size_t(y) * size_t(extent.size.x) + size_t(x)), ambient);
             const glm::vec3 position = frame.find_position(extent.min_st + luxel_size * glm::vec2(x, y));
             if (baked && is_inside(outline, normal, position) && is_open(bsp, position + clearance * normal))
                 luxels.push_back({ face, position, normal, *baked });
@@ -124,8 +136,9 @@ std::vector<Luxel> collect_luxels(const Bsp& bsp)
     std::vector<Luxel> luxels;
     if (bsp.models.empty())
         return luxels;
+    const float ambient = find_ambient(bsp);
     for (int32_t i = 0; i < bsp.models[0].face_count; i++)
-        collect_face(bsp, size_t(bsp.models[0].first_face + i), luxels);
+        collect_face(bsp, size_t(bsp.models[0].first_face + i), ambient, luxels);
     return luxels;
 }
 

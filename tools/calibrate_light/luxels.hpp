@@ -13,7 +13,7 @@ struct Luxel {
     size_t face;
     glm::vec3 position; // on the face
     glm::vec3 normal;
-    glm::vec3 baked; // irradiance / pi: lightmap value / 128, of lightstyle 0
+    glm::vec3 baked; // irradiance / pi: lightmap value / 128, of lightstyle 0, without the map's ambient light
 };
 
 // The luxels of the world's faces that tell something: steady light only, inside of their face (lightmaps reach

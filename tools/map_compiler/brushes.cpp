@@ -323,6 +323,7 @@ private:
         const int index = int(world_.texinfos.size());
         const TextureInfo& texture = textures_.find(info.texture);
         world_.texinfos.push_back(info);
+        world_.light_colour.push_back(texture.light_colour);
         world_.reflectivity.push_back(texture.reflectivity);
         if (!texture.next_animation.empty()) {
             BspTexinfo next = info;

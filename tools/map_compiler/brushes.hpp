@@ -55,7 +55,7 @@ struct World {
     MapSource source;
     PlaneSet planes;
     std::vector<formats::BspTexinfo> texinfos;
-    std::vector<dvec3> reflectivity; // per texinfo, for the light
+    std::vector<dvec3> light_colour, reflectivity; // per texinfo, see TextureInfo
     std::vector<BrushModel> models;
     int area_portal_count = 0;
 

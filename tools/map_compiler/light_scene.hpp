@@ -6,9 +6,9 @@
 // the source:
 //   point light    L = (light - d) (n.w)                        linear, with no reach beyond its value
 //   spot light     the same inside the cone (cosine of "_cone", 10 degrees unless told), else nothing
-//   surface light  L = 0.4 value R A (n.w) (-n'.w) / d^2        R: reflectivity (see textures.cpp), A: the patch's area
+//   surface light  L = 0.4 value C A (n.w) (-n'.w) / d^2        C: light colour (see textures.cpp), A: the patch's area
 //   bounces        radiosity between patches of at most 64 units; a patch's transfers (n.w)(-n'.w) A / d^2 are scaled
-//                  to add up to 1, and what leaves is what came in times R
+//                  to add up to 1, and what leaves is what came in times the reflectivity
 #pragma once
 
 #include "tools/map_compiler/brushes.hpp"

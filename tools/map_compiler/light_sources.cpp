@@ -136,7 +136,7 @@ void make_patches(LightScene& scene)
         patch.absorbs = info.flags & SURF_SKY;
         patch.reflectivity = scene.world.reflectivity[texinfo];
         if (info.flags & SURF_LIGHT)
-            patch.emission = patch.reflectivity * double(info.value);
+            patch.emission = scene.world.light_colour[texinfo] * double(info.value);
         Winding winding;
         for (const glm::vec3& p : scene.bsp.face_polygon(face))
             winding.push_back(dvec3(p) + scene.face_origin[face]);

@@ -5,6 +5,7 @@
 #include "tools/map_compiler/map_source.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 namespace vkpt::tools {
@@ -101,23 +102,28 @@ TextureInfo TextureLibrary::load(const std::string& name)
     info.value = wall.value;
     info.next_animation = wall.next_animation;
     if (palette_)
-        info.reflectivity = read_reflectivity(file, path.string());
+        read_colours(file, path.string(), info);
     return info;
 }
 
-// The picture's mean colour as stored (not linearised), scaled until its largest part is 1, or, for dark pictures,
-// until it is 2 m (m: the largest part before): the classic tool's answer to the game's dim textures.
-glm::dvec3 TextureLibrary::read_reflectivity(formats::Bytes file, const std::string& name) const
+// Emitted light takes the picture's mean colour as stored (not linearised), scaled until its largest part is 1, or, for dark
+// pictures, until it is 2 m (m: the largest part before): so the classic tool reads light values. It reflects by the same
+// colour, which makes every wall nearly white; we reflect by the picture's linear mean, as the path tracer does.
+void TextureLibrary::read_colours(formats::Bytes file, const std::string& name, TextureInfo& info) const
 {
     const formats::Image image = formats::read_wal(file, name, *palette_);
-    glm::dvec3 sum(0);
-    for (const formats::Rgba8& pixel : image.pixels)
-        sum += glm::dvec3(pixel.r, pixel.g, pixel.b);
-    const glm::dvec3 mean = sum / (255.0 * double(std::max<size_t>(1, image.pixels.size())));
+    glm::dvec3 stored(0), linear(0);
+    for (const formats::Rgba8& pixel : image.pixels) {
+        const glm::dvec3 colour = glm::dvec3(pixel.r, pixel.g, pixel.b) / 255.0;
+        stored += colour;
+        for (int i = 0; i < 3; i++)
+            linear[i] += colour[i] <= 0.04045 ? colour[i] / 12.92 : std::pow((colour[i] + 0.055) / 1.055, 2.4);
+    }
+    const double count = double(std::max<size_t>(1, image.pixels.size()));
+    info.reflectivity = linear / count;
+    const glm::dvec3 mean = stored / count;
     const double largest = std::max({ mean.x, mean.y, mean.z });
-    if (!(largest > 0))
-        return glm::dvec3(0);
-    return mean / largest * (largest < 0.5 ? 2 * largest : 1.0);
+    info.light_colour = largest > 0 ? mean / largest * (largest < 0.5 ? 2 * largest : 1.0) : glm::dvec3(0);
 }
 
 } // namespace vkpt::tools

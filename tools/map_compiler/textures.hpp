@@ -21,7 +21,8 @@ struct TextureInfo {
     uint32_t flags = 0, contents = 0;
     int value = 0;
     std::string next_animation;
-    glm::dvec3 reflectivity { 0.5 }; // 0..1, as the classic light tool sees it; see read_reflectivity
+    glm::dvec3 light_colour { 0.5 }; // 0..1, of the light that it emits; see read_colours
+    glm::dvec3 reflectivity { 0.5 }; // 0..1, linear: the share of light that a surface sends back
     bool found = false;
     // By the name: or-ed in even where the map or the .wal gives its own.
     uint32_t tool_flags = 0, tool_contents = 0;
@@ -38,7 +39,7 @@ public:
 
 private:
     TextureInfo load(const std::string& name);
-    glm::dvec3 read_reflectivity(formats::Bytes file, const std::string& name) const;
+    void read_colours(formats::Bytes file, const std::string& name, TextureInfo& info) const;
 
     std::filesystem::path folder_;
     std::optional<formats::Palette> palette_;

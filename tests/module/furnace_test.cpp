@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A closed box whose matte walls emit and reflect: every order of reflection adds the same share of the one before.
+#include "ref_vkpt/lights/emitters.hpp"
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace vkpt::tests {
+namespace {
+
+constexpr int light_value = 200;
+constexpr uint8_t grey = 188; // reflects about half
+
+class Furnace : public testing::Test {
+protected:
+    // A box of walls with this picture; the greatest component of its radiance is 1 - that of its albedo.
+    void start(uint8_t picture)
+    {
+        albedo_ = linear_colour(picture);
+        const float greatest = std::max({ albedo_.x, albedo_.y, albedo_.z });
+        emission_ = albedo_ / greatest * (1 - greatest);
+        folder_.add_wall("glow", picture);
+        MapBuilder map;
+        map.add_room(glm::vec3(-64), glm::vec3(64), map.add_material("glow", 0, light_value));
+        folder_.add_map("furnace", map.finish());
+        session_ = std::make_unique<Session>(folder_, CvarList { { "pt_roughness_default", "1" } });
+        session_->set("pt_emission_scale", (1 - greatest) / (EmissionScales().face * light_value));
+        session_->load_map("furnace");
+        session_->look({ 5, -10, 3 }, { 64, 40, 20 });
+    }
+
+    // Emission and `reflections` reflections of it.
+    glm::vec3 series(int reflections) const
+    {
+        glm::vec3 sum(0);
+        for (int i = 0; i < 3; i++)
+            sum[i] = emission_[i] * (1 - std::pow(albedo_[i], float(reflections + 1))) / (1 - albedo_[i]);
+        return sum;
+    }
+
+    void expect_uniform(glm::vec3 expected, int frames)
+    {
+        const Radiance picture = session_->accumulate(frames);
+        constexpr float tolerance = 0.005f;
+        constexpr int block = 16;
+        for (int channel = 0; channel < 3; channel++)
+            EXPECT_NEAR(picture.mean()[channel] / expected[channel], 1, tolerance) << "channel " << channel;
+        for (int y = 0; y < picture.height; y += block)
+            for (int x = 0; x < picture.width; x += block)
+                EXPECT_NEAR(picture.mean({ x, y }, { x + block, y + block }).y / expected.y, 1, 2 * tolerance)
+                    << "block at " << x << ", " << y;
+    }
+
+    GameFolder folder_;
+    glm::vec3 albedo_, emission_;
+    std::unique_ptr<Session> session_;
+};
+
+TEST_F(Furnace, GrowsAsAGeometricSeries)
+{
+    start(grey);
+    for (int bounces = 0; bounces <= 3; bounces++) {
+        SCOPED_TRACE(bounces);
+        session_->set("pt_bounces", bounces);
+        // The picture holds the emission, its direct reflection, and one more reflection a bounce.
+        const glm::vec3 expected = series(bounces + 1);
+        EXPECT_NEAR(expected.y, 1 - std::pow(albedo_.y, float(bounces + 2)), 1e-5f);
+        expect_uniform(expected, 128);
+    }
+}
+
+TEST_F(Furnace, ReachesRadianceOne)
+{
+    start(grey);
+    session_->set("pt_bounces", 8);
+    expect_uniform(glm::vec3(1), 160);
+}
+
+TEST_F(Furnace, KeepsColoursApart)
+{
+    start(green_index);
+    session_->set("pt_bounces", 2);
+    expect_uniform(series(3), 128);
+}
+
+TEST_F(Furnace, EverySamplerAgrees)
+{
+    start(grey);
+    session_->set("pt_bounces", 1);
+    for (const char* const* name = session_->extension().info().light_samplers; *name; name++) {
+        const std::string sampler = *name;
+        SCOPED_TRACE(sampler);
+        session_->set("pt_light_sampler", sampler);
+        expect_uniform(series(2), 256);
+    }
+}
+
+} // namespace
+} // namespace vkpt::tests

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One run of the real module: started with validation, a map registered, frames drawn, pictures taken.
+// Any line of the validation layers fails the running test.
+#pragma once
+
+#include "client/host/host.hpp"
+#include "tests/module/game_folder.hpp"
+#include "tests/module/picture.hpp"
+
+#include <array>
+#include <span>
+
+namespace vkpt::tests {
+
+using CvarList = std::vector<std::pair<std::string, std::string>>;
+
+class Session {
+public:
+    // Pictures are repeatable (pt_seed 1) and not exposed automatically, unless `cvars` say otherwise.
+    explicit Session(const std::filesystem::path& base_folder, const CvarList& cvars = {}, glm::ivec2 size = { 64, 48 });
+    explicit Session(const GameFolder& folder, const CvarList& cvars = {}, glm::ivec2 size = { 64, 48 });
+    ~Session();
+
+    client::Host& host() { return *host_; }
+    client::FileSystem& files() { return files_; }
+    const engine::Exports8& module() { return host_->module(); }
+    const Extension& extension() { return host_->extension(); }
+    const std::vector<std::string>& lines() const { return lines_; } // the console's
+    bool has_line(std::string_view part) const;
+
+    void set(const std::string& name, const std::string& value) { host_->cvars().set(name, value); }
+    void set(const std::string& name, double value);
+    // As the engine's client registers maps/NAME.bsp. Throws client::Failure where the module drops the level.
+    void load_map(const std::string& name, const std::string& sky = "none");
+    void look(glm::vec3 eye, glm::vec3 target, float fov_x = 90);
+    void light_style(size_t style, float scale);
+
+    engine::RefDef view; // what is drawn: the whole picture, every lightstyle at 1
+    void draw(int frames = 1);
+    Radiance capture();
+    // A converged picture: `frames` frames averaged from the start.
+    Radiance accumulate(int frames);
+    formats::Image capture_display();
+    // Irradiance / pi.
+    std::vector<glm::vec3> probe(std::span<const IrradianceProbe> probes, uint32_t samples);
+
+private:
+    std::vector<std::string> lines_;
+    client::FileSystem files_;
+    std::unique_ptr<client::Host> host_;
+    std::array<engine::Lightstyle, engine::max_lightstyles> lightstyles_ {};
+};
+
+engine::Entity make_entity(void* model, glm::vec3 origin, int32_t flags = 0);
+
+} // namespace vkpt::tests

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Who sees what: translucent surfaces, the view weapon, the player's own body, things that come and go.
+// Single frames with one seed: where nothing changed, pictures are the same bit for bit.
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <array>
+#include <gtest/gtest.h>
+
+namespace vkpt::tests {
+namespace {
+
+constexpr float cube_half = 8;
+
+// A floor, a lamp high above, and a mirror at y = 100.
+class Visibility : public testing::Test {
+protected:
+    Visibility()
+    {
+        folder_.add_wall("wall", 180);
+        folder_.add_wall("mirror", white_index);
+        folder_.add_wall("lamp", white_index);
+        folder_.add_wall("glass", 100);
+        cube_path_ = folder_.add_cube("cube", cube_half, red_index);
+    }
+
+    void start(MapBuilder& map, const CvarList& cvars = {})
+    {
+        folder_.add_map("room", map.finish());
+        CvarList all { { "r_gunfov", "0" } };
+        all.insert(all.end(), cvars.begin(), cvars.end());
+        session_ = std::make_unique<Session>(folder_, all);
+        session_->load_map("room");
+        cube_ = session_->module().register_model(cube_path_.c_str());
+        ASSERT_TRUE(cube_);
+    }
+
+    void add_floor(MapBuilder& map)
+    {
+        map.add(rectangle({ 0, 0, 0 }, { 256, 0, 0 }, { 0, 256, 0 }), map.add_material("wall"));
+    }
+
+    void add_lamp(MapBuilder& map)
+    {
+        map.add(rectangle({ 0, 0, 200 }, { 0, 16, 0 }, { 16, 0, 0 }), map.add_material("lamp", 0, 4000));
+    }
+
+    Radiance picture_with(const std::vector<engine::Entity>& entities)
+    {
+        session_->view.entities = entities.data();
+        session_->view.entity_count = int32_t(entities.size());
+        session_->draw();
+        session_->view.entities = nullptr;
+        session_->view.entity_count = 0;
+        return session_->capture();
+    }
+
+    // Whether the ray through the middle of pixel x, y meets a cube at `origin`, made larger by `margin`.
+    bool covers(glm::vec3 origin, int x, int y, float margin)
+    {
+        const float half = cube_half + margin;
+        return meets_box(
+            camera_ray(session_->view, { float(x) + 0.5f, float(y) + 0.5f }), origin - half, origin + half);
+    }
+
+    struct Changes {
+        int inside = 0, outside = 0; // pixels that differ, within and outside of the cube's outline
+        int covered = 0;
+    };
+    Changes compare(const Radiance& a, const Radiance& b, glm::vec3 cube)
+    {
+        Changes changes;
+        for (int y = 0; y < a.height; y++)
+            for (int x = 0; x < a.width; x++) {
+                const bool differs = a.at(x, y) != b.at(x, y);
+                changes.inside += differs && covers(cube, x, y, 0.1f);
+                changes.outside += differs && !covers(cube, x, y, 0.1f);
+                changes.covered += covers(cube, x, y, -0.1f);
+            }
+        return changes;
+    }
+
+    GameFolder folder_;
+    std::string cube_path_;
+    std::unique_ptr<Session> session_;
+    void* cube_ = nullptr;
+};
+
+TEST_F(Visibility, ViewWeaponIsSeenAndCastsNoShadow)
+{
+    MapBuilder map;
+    add_floor(map);
+    add_lamp(map);
+    start(map);
+    session_->look({ -60, 0, 60 }, { 0, 0, 20 });
+    const glm::vec3 place(-20, 0, 30);
+    const Radiance without = picture_with({});
+    const Changes weapon
+        = compare(without, picture_with({ make_entity(cube_, place, engine::RF_WEAPONMODEL) }), place);
+    EXPECT_GT(weapon.covered, 50);
+    EXPECT_GE(weapon.inside, weapon.covered * 9 / 10);
+    EXPECT_EQ(weapon.outside, 0);
+    // The same thing as a part of the world does cast one.
+    EXPECT_GT(compare(without, picture_with({ make_entity(cube_, place) }), place).outside, 20);
+}
+
+TEST_F(Visibility, OwnBodyIsSeenInTheMirrorOnly)
+{
+    constexpr float mirror_y = 100;
+    MapBuilder map;
+    add_floor(map);
+    add_lamp(map);
+    map.add(rectangle({ 0, mirror_y, 100 }, { 100, 0, 0 }, { 0, 0, 100 }), map.add_material("mirror"));
+    start(map);
+    session_->look({ 0, -60, 60 }, { 0, 0, 60 }, 60);
+    const glm::vec3 place(0, -20, 60), mirrored(0, 2 * mirror_y + 20, 60);
+    const Radiance picture = picture_with(
+        { make_entity(cube_, place, engine::RF_VIEWERMODEL | engine::RF_FULLBRIGHT) });
+    const glm::vec3 red = linear_colour(red_index);
+    const auto is_red = [&](int x, int y) {
+        const glm::vec3 d = picture.at(x, y) - red;
+        return std::abs(d.x) + std::abs(d.y) + std::abs(d.z) < 0.02f;
+    };
+    int direct = 0, in_mirror = 0;
+    for (int y = 0; y < picture.height; y++)
+        for (int x = 0; x < picture.width; x++) {
+            if (covers(mirrored, x, y, -0.3f)) {
+                in_mirror++;
+                EXPECT_TRUE(is_red(x, y)) << "mirror image at " << x << ", " << y;
+            } else if (covers(place, x, y, 0) && !covers(mirrored, x, y, 0.3f)) {
+                direct++;
+                EXPECT_FALSE(is_red(x, y)) << "the body itself at " << x << ", " << y;
+            }
+        }
+    EXPECT_GT(in_mirror, 8);
+    EXPECT_GT(direct, 100);
+}
+
+TEST_F(Visibility, WhatMovesAwayLeavesNoTrace)
+{
+    MapBuilder map;
+    add_floor(map);
+    add_lamp(map);
+    start(map);
+    session_->look({ -60, 0, 60 }, { 0, 0, 0 });
+    const Radiance before = picture_with({});
+    const Radiance there = picture_with({ make_entity(cube_, { 0, 0, 20 }) });
+    EXPECT_FALSE(there == before);
+    EXPECT_FALSE(picture_with({ make_entity(cube_, { 10, 20, 20 }) }) == there);
+    EXPECT_TRUE(picture_with({ make_entity(cube_, { 0, 0, 20 }) }) == there);
+    // Behind the camera, far off, and its shadow with it.
+    EXPECT_TRUE(picture_with({ make_entity(cube_, { -2000, 0, 20 }) }) == before);
+    EXPECT_TRUE(picture_with({}) == before);
+}
+
+TEST_F(Visibility, GlowingBrushModelTakesItsLightAlong)
+{
+    MapBuilder map;
+    add_floor(map);
+    map.begin_brush_model();
+    map.add(rectangle({ 0, 0, 60 }, { 0, 16, 0 }, { 16, 0, 0 }), map.add_material("lamp", 0, 4000));
+    start(map, { { "pt_bounces", "0" } });
+    void* lamp = session_->module().register_model("*1");
+    ASSERT_TRUE(lamp);
+    session_->look({ -60, 0, 40 }, { 0, 0, 0 });
+    const Radiance dark = picture_with({});
+    const Radiance lit = picture_with({ make_entity(lamp, { 0, 0, 0 }) });
+    EXPECT_GT(luminance(lit.mean()), luminance(dark.mean()) + 0.1f);
+    EXPECT_FALSE(picture_with({ make_entity(lamp, { 0, 60, 0 }) }) == lit);
+    EXPECT_TRUE(picture_with({ make_entity(lamp, { 0, 0, 0 }) }) == lit);
+    EXPECT_TRUE(picture_with({}) == dark);
+}
+
+// Closed, so that nothing but the light is seen.
+TEST_F(Visibility, DynamicLightGoesOutAtOnce)
+{
+    MapBuilder map;
+    map.add_room({ -128, -128, 0 }, { 128, 128, 128 }, map.add_material("wall"));
+    start(map, { { "pt_bounces", "2" } });
+    session_->look({ -60, 0, 60 }, { 0, 0, 0 });
+    EXPECT_TRUE(is_black(picture_with({})));
+    const engine::DynamicLight light { { 20, 0, 40 }, { 1, 1, 1 }, 200 };
+    session_->view.dlights = &light;
+    session_->view.dlight_count = 1;
+    const Radiance lit = picture_with({});
+    EXPECT_GT(luminance(lit.mean()), 0.01f);
+    session_->set("pt_dlight_scale", 2);
+    const Radiance brighter = picture_with({});
+    EXPECT_NEAR(luminance(brighter.mean()), 2 * luminance(lit.mean()), 1e-3f * luminance(lit.mean()));
+    session_->view.dlight_count = 0;
+    EXPECT_TRUE(is_black(picture_with({})));
+}
+
+// What a lamp throws on the floor through a sheet of this material.
+class Sheet : public Visibility {
+protected:
+    float light_through(uint32_t flags, bool present)
+    {
+        constexpr size_t copies = 512;
+        MapBuilder map;
+        add_floor(map);
+        add_lamp(map);
+        const uint16_t glass = map.add_material("glass", flags);
+        if (present)
+            map.add(rectangle({ 0, 0, 100 }, { 100, 0, 0 }, { 0, 100, 0 }), glass);
+        start(map, { { "pt_bounces", "0" } });
+        const std::vector<IrradianceProbe> probes(copies, { { 10, 5, 0 }, { 0, 0, 1 } });
+        glm::vec3 sum(0);
+        for (const glm::vec3& value : session_->probe(probes, 16))
+            sum += value;
+        session_ = nullptr;
+        return sum.y / copies;
+    }
+};
+
+TEST_F(Sheet, TranslucentOnesLetLightPass)
+{
+    const float open = light_through(0, false);
+    EXPECT_GT(open, 0);
+    EXPECT_EQ(light_through(0, true), 0);
+    for (const uint32_t flags : { uint32_t(formats::SURF_TRANS33), uint32_t(formats::SURF_TRANS66),
+             formats::SURF_TRANS66 | formats::SURF_WARP })
+        EXPECT_NEAR(light_through(flags, true), open, 1e-5f * open) << "flags " << flags;
+}
+
+TEST_F(Visibility, TranslucentSurfacesAreSeenByTheirShare)
+{
+    MapBuilder map;
+    map.add_room({ -128, -128, 0 }, { 128, 128, 128 }, map.add_material("lamp", 0, 500));
+    map.add(rectangle({ 0, 0, 64 }, { 0, 120, 0 }, { 0, 0, 60 }), map.add_material("glass", formats::SURF_TRANS33));
+    start(map, { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } });
+    // The wall behind shows its emission and its reflection; the sheet is grey and lit. A third of the sheet covers it.
+    session_->look({ 60, 0, 64 }, { 0, 0, 64 }, 20);
+    const glm::vec3 through = session_->accumulate(256).mean();
+    session_->look({ -60, 0, 64 }, { -128, 0, 64 }, 20);
+    const glm::vec3 wall = session_->accumulate(256).mean();
+    EXPECT_LT(through.y, wall.y);
+    EXPECT_GT(through.y, 0.67f * wall.y * 0.98f);
+}
+
+TEST_F(Visibility, PreviewLeavesTheBackground)
+{
+    MapBuilder map;
+    add_floor(map);
+    start(map);
+    session_->draw();
+    session_->look({ 0, 0, 0 }, { 1, 0, 0 }, 60);
+    const glm::vec3 place(50, 0, 0);
+    const engine::Entity cube = make_entity(cube_, place);
+    engine::RefDef preview = session_->view;
+    preview.flags = engine::RDF_NOWORLDMODEL;
+    preview.lightstyles = nullptr;
+    preview.entities = &cube;
+    preview.entity_count = 1;
+    const engine::Exports8& module = session_->module();
+    module.begin_frame(0);
+    module.draw_fill(0, 0, preview.width, preview.height, green_index);
+    module.render_frame(&preview);
+    module.end_frame();
+    const formats::Image picture = session_->capture_display();
+    int shown = 0, background = 0;
+    for (int y = 0; y < picture.height; y++)
+        for (int x = 0; x < picture.width; x++) {
+            const bool is_background = picture.at(x, y) == test_palette()[green_index];
+            if (covers(place, x, y, -0.3f)) {
+                shown++;
+                EXPECT_FALSE(is_background) << "the model at " << x << ", " << y;
+            } else if (!covers(place, x, y, 0.3f)) {
+                background++;
+                EXPECT_TRUE(is_background) << "the background at " << x << ", " << y;
+            }
+        }
+    EXPECT_GT(shown, 50);
+    EXPECT_GT(background, 500);
+    // Lit, too: some of it is bright.
+    EXPECT_GT(picture.at(picture.width / 2, picture.height / 2).r, 40);
+}
+
+} // namespace
+} // namespace vkpt::tests
