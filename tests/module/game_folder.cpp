@@ -63,10 +63,10 @@ const formats::Palette& test_palette()
     return palette;
 }
 
-glm::vec3 linear_colour(uint8_t index)
+glm::vec3 linear_colour(uint8_t index, float offset)
 {
-    const auto linear = [](uint8_t value) {
-        const double v = value / 255.0;
+    const auto linear = [offset](uint8_t value) {
+        const double v = (value + double(offset)) / 255;
         return float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
     };
     const formats::Rgba8& entry = test_palette()[index];

@@ -125,7 +125,7 @@ TEST_P(Lambert, PictureAgrees)
     Session session(folder_, matte, { 32, 24 });
     session.set("pt_light_sampler", GetParam().sampler);
     session.load_map("lambert");
-    session.look({ 20, -140, 90 }, { 0, 10, 0 }, 60);
+    session.look({ 20, -140, 90 }, { 0, -50, 0 }, 60);
     const Radiance picture = session.accumulate(1024);
     const auto expected_at = [&](glm::vec2 place) {
         const CameraRay ray = camera_ray(session.view, place);
