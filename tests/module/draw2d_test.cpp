@@ -21,8 +21,7 @@ std::vector<std::byte> make_font()
     for (int y = 0; y < font_size; y++)
         for (int x = 0; x < font_size; x++) {
             const int code = y / character_size * characters_per_row + x / character_size;
-            image.pixels.push_back(
-                is_drawn(x % character_size, y % character_size) ? uint8_t(code) : transparent);
+            image.pixels.push_back(is_drawn(x % character_size, y % character_size) ? uint8_t(code) : transparent);
         }
     return formats::write_pcx(image);
 }
@@ -59,8 +58,8 @@ protected:
         int wrong = 0;
         for (int y = 0; y < shown.height; y++)
             for (int x = 0; x < shown.width; x++)
-                if (const formats::Rgba8 wanted = colour(x, y).value_or(plain.at(x, y)); shown.at(x, y) != wanted
-                    && wrong++ < 5) {
+                if (const formats::Rgba8 wanted = colour(x, y).value_or(plain.at(x, y));
+                    shown.at(x, y) != wanted && wrong++ < 5) {
                     const formats::Rgba8 seen = shown.at(x, y);
                     ADD_FAILURE() << "pixel " << x << ", " << y << ": " << int(seen.r) << " " << int(seen.g) << " "
                                   << int(seen.b) << " " << int(seen.a) << " instead of " << int(wanted.r) << " "

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A closed box whose matte walls emit and reflect: every order of reflection adds the same share of the one before.
-#include "ref_vkpt/lights/emitters.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 namespace vkpt::tests {
@@ -24,11 +22,20 @@ protected:
         const glm::vec3 albedo = linear_colour(picture);
         const float greatest = std::max({ albedo.x, albedo.y, albedo.z });
         folder_.add_wall("glow", picture);
-        MapBuilder map;
-        map.add_room(glm::vec3(-64), glm::vec3(64), map.add_material("glow", 0, light_value));
-        folder_.add_map("furnace", map.finish());
+        MapBuilder furnace, wall;
+        furnace.add_room(glm::vec3(-64), glm::vec3(64), furnace.add_material("glow", 0, light_value));
+        folder_.add_map("furnace", furnace.finish());
+        wall.add(rectangle({ 64, 0, 0 }, { 0, 0, 64 }, { 0, 64, 0 }), wall.add_material("glow", 0, light_value));
+        folder_.add_map("wall", wall.finish());
         session_ = std::make_unique<Session>(folder_, CvarList { { "pt_roughness_default", "1" } });
-        session_->set("pt_emission_scale", (1 - greatest) / (EmissionScales().face * light_value));
+        // One wall alone shows what it emits.
+        session_->load_map("wall");
+        session_->look({ 0, 0, 0 }, { 64, 0, 0 }, 10);
+        session_->draw();
+        const glm::vec3 shown = session_->capture().mean();
+        const float scale = (1 - greatest) / std::max({ shown.x, shown.y, shown.z });
+        emission_ = shown * scale;
+        session_->set("pt_emission_scale", scale);
         session_->load_map("furnace");
         session_->look({ 5, -10, 3 }, { 64, 40, 20 });
     }
@@ -37,11 +44,9 @@ protected:
     glm::vec3 series(int reflections, float offset = 0) const
     {
         const glm::vec3 albedo = linear_colour(picture_, offset);
-        const float greatest = std::max({ albedo.x, albedo.y, albedo.z });
         glm::vec3 sum(0);
         for (int i = 0; i < 3; i++)
-            sum[i] = albedo[i] / greatest * (1 - greatest) * (1 - std::pow(albedo[i], float(reflections + 1)))
-                / (1 - albedo[i]);
+            sum[i] = emission_[i] * (1 - std::pow(albedo[i], float(reflections + 1))) / (1 - albedo[i]);
         return sum;
     }
 
@@ -65,6 +70,7 @@ protected:
 
     GameFolder folder_;
     uint8_t picture_ = 0;
+    glm::vec3 emission_ { 0 };
     std::unique_ptr<Session> session_;
 };
 
@@ -90,10 +96,9 @@ TEST_F(Furnace, ReachesRadianceOne)
 
 TEST_F(Furnace, KeepsColoursApart)
 {
-    start(green_index);
+    start(warm_index);
     session_->set("pt_bounces", 2);
-    const glm::vec3 one = series(3, -0.5f), other = series(3, 0.5f);
-    expect_uniform(glm::min(one, other), glm::max(one, other), 128);
+    expect_uniform(series(3, -0.5f), series(3, 0.5f), 128);
 }
 
 TEST_F(Furnace, EverySamplerAgrees)

@@ -58,6 +58,7 @@ const formats::Palette& test_palette()
         entries[red_index] = { 220, 60, 30, 255 };
         entries[green_index] = { 40, 200, 70, 255 };
         entries[blue_index] = { 30, 80, 230, 255 };
+        entries[warm_index] = { 230, 200, 150, 255 };
         return entries;
     }();
     return palette;

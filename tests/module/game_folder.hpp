@@ -12,9 +12,10 @@
 namespace vkpt::tests {
 
 // The palette: entries below 224 are greys of that value, the named ones as they say, the rest are all different.
-inline constexpr uint8_t white_index = 224, red_index = 225, green_index = 226, blue_index = 227;
+inline constexpr uint8_t white_index = 224, red_index = 225, green_index = 226, blue_index = 227, warm_index = 228;
 const formats::Palette& test_palette();
-// Linear colour of a palette entry; `offset` is added to its bytes. Drivers may be wrong by half a byte when they decode.
+// Linear colour of a palette entry; `offset` is added to its bytes. Drivers may be wrong by half a byte when they
+// decode.
 glm::vec3 linear_colour(uint8_t index, float offset = 0);
 
 class GameFolder {

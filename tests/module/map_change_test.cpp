@@ -72,8 +72,8 @@ TEST(MapChange, FiftyInARowLeaveNothingBehind)
         const bool is_large = change % 2;
         session.load_map(is_large ? "large" : "small");
         // The large map's model goes with it.
-        const engine::Entity entity = make_entity(
-            is_large ? session.module().register_model(cube.c_str()) : nullptr, { 0, 0, 40 });
+        const engine::Entity entity
+            = make_entity(is_large ? session.module().register_model(cube.c_str()) : nullptr, { 0, 0, 40 });
         session.view.entities = &entity;
         session.view.entity_count = 1;
         session.draw(2);

@@ -34,8 +34,7 @@ bool is_black(const Radiance& picture)
 CameraRay camera_ray(const engine::RefDef& view, glm::vec2 place)
 {
     const float pitch = glm::radians(view.view_angles[0]), yaw = glm::radians(view.view_angles[1]);
-    const glm::vec3 forward(
-        std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), -std::sin(pitch));
+    const glm::vec3 forward(std::cos(pitch) * std::cos(yaw), std::cos(pitch) * std::sin(yaw), -std::sin(pitch));
     const glm::vec3 right(std::sin(yaw), -std::cos(yaw), 0), up = glm::cross(right, forward);
     const glm::vec2 screen = place / glm::vec2(view.width, view.height) * 2.0f - 1.0f;
     const glm::vec3 direction = forward + right * screen.x * std::tan(glm::radians(view.fov_x) / 2)

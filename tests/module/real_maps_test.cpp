@@ -49,8 +49,8 @@ void expect_lit(Session& session, const std::string& map)
         const Radiance picture = session.capture();
         EXPECT_EQ(count_broken(picture), 0u);
         EXPECT_GT(luminance(picture.mean()), 0.005f);
-        const size_t lit = size_t(std::ranges::count_if(
-            picture.pixels, [](const glm::vec3& pixel) { return luminance(pixel) > 0; }));
+        const size_t lit = size_t(
+            std::ranges::count_if(picture.pixels, [](const glm::vec3& pixel) { return luminance(pixel) > 0; }));
         EXPECT_GT(lit, picture.pixels.size() / 2);
     }
 }

@@ -15,9 +15,9 @@ struct Side {
     uint8_t index; // palette entry of its picture
 };
 // As the engine's own renderers place them.
-constexpr Side sides[] = { { "rt", { 1, 0, 0 }, red_index }, { "bk", { 0, 1, 0 }, green_index },
-    { "lf", { -1, 0, 0 }, blue_index }, { "ft", { 0, -1, 0 }, 128 }, { "up", { 0, 0, 1 }, 200 },
-    { "dn", { 0, 0, -1 }, 60 } };
+constexpr Side sides[]
+    = { { "rt", { 1, 0, 0 }, red_index }, { "bk", { 0, 1, 0 }, green_index }, { "lf", { -1, 0, 0 }, blue_index },
+          { "ft", { 0, -1, 0 }, 128 }, { "up", { 0, 0, 1 }, 200 }, { "dn", { 0, 0, -1 }, 60 } };
 
 class Sky : public testing::Test {
 protected:

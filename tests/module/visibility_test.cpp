@@ -95,8 +95,7 @@ TEST_F(Visibility, ViewWeaponIsSeenAndCastsNoShadow)
     session_->look({ -60, 0, 60 }, { 0, 0, 20 });
     const glm::vec3 place(-20, 0, 30);
     const Radiance without = picture_with({});
-    const Changes weapon
-        = compare(without, picture_with({ make_entity(cube_, place, engine::RF_WEAPONMODEL) }), place);
+    const Changes weapon = compare(without, picture_with({ make_entity(cube_, place, engine::RF_WEAPONMODEL) }), place);
     EXPECT_GT(weapon.covered, 50);
     EXPECT_GE(weapon.inside, weapon.covered * 9 / 10);
     EXPECT_EQ(weapon.outside, 0);
@@ -114,8 +113,8 @@ TEST_F(Visibility, OwnBodyIsSeenInTheMirrorOnly)
     start(map);
     session_->look({ 0, -60, 60 }, { 0, 0, 60 }, 60);
     const glm::vec3 place(0, -20, 60), mirrored(0, 2 * mirror_y + 20, 60);
-    const Radiance picture = picture_with(
-        { make_entity(cube_, place, engine::RF_VIEWERMODEL | engine::RF_FULLBRIGHT) });
+    const Radiance picture
+        = picture_with({ make_entity(cube_, place, engine::RF_VIEWERMODEL | engine::RF_FULLBRIGHT) });
     const glm::vec3 red = linear_colour(red_index);
     const auto is_red = [&](int x, int y) {
         const glm::vec3 d = picture.at(x, y) - red;
