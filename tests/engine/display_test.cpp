@@ -48,7 +48,8 @@ TEST(Engine, ChangesModes)
         + "r_mode -2\nvid_fullscreen 2\nvid_restart\nwait_25\n" + capture_into("desktop")
         + "r_mode -1\nvid_fullscreen 0\nr_customwidth 161\nr_customheight 97\nr_vsync 0\nvid_restart\nwait_25\n"
         + capture_into("odd") + "quit\n";
-    options.arguments = { "+map", own_map, "+exec", "test.cfg" };
+    // The window's size is what counts here; the 3D view may be coarse, for a CPU renders it.
+    options.arguments = { "+set", "pt_view_scale", "25", "+map", own_map, "+exec", "test.cfg" };
     options.limit = std::chrono::seconds(240);
     const EngineRun run(options);
     run.expect_clean();
