@@ -234,14 +234,38 @@ stop_children() {
 
 console_log() { echo "$home_dir/.yq2/${game_name:-baseq2}/qconsole.log"; }
 
+# write_settings ARGUMENTS...: moves "+set NAME VALUE" into autoexec.cfg, which the engine reads before it starts the renderer:
+# it takes no more than 50 words on its command line. What is left is in $engine_words.
+write_settings() {
+    local game=baseq2 lines=""
+    engine_words=()
+    while (($#)); do
+        if [[ $1 == +set && $# -ge 3 ]]; then
+            case $2 in
+            game) game=$3 ;&
+            vid_renderer | logfile) engine_words+=("$1" "$2" "$3") ;;
+            *) lines+="set $2 \"$3\""$'\n' ;;
+            esac
+            shift 3
+        else
+            engine_words+=("$1")
+            shift
+        fi
+    done
+    local folder=$home_dir/.yq2/$game
+    as_player mkdir -p "$folder"
+    printf '%s' "$lines" | as_player tee "$folder/autoexec.cfg" >/dev/null
+}
+
 # exec_engine DATA ARGUMENTS...: replaces the calling (sub)shell by the engine.
 exec_engine() {
     local data=$1
     shift
+    write_settings +set vid_renderer "${VKPT_RENDERER:-vkpt}" +set logfile 2 +set allow_download 0 "$@"
     cd "$run_dir" || exit 1
     export HOME=$home_dir XDG_CACHE_HOME=$cache_dir VKPT_CACHE_DIR=$cache_dir
     unset XDG_DATA_HOME XDG_CONFIG_HOME
-    exec_as_player "$engine_binary" -datadir "$data" +set vid_renderer "${VKPT_RENDERER:-vkpt}" +set logfile 2 +set allow_download 0 "$@"
+    exec_as_player "$engine_binary" -datadir "$data" "${engine_words[@]}"
 }
 
 # Why the engine did not keep our module, from its console; nothing where it did.
