@@ -16,43 +16,44 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 vec4 sample_picture(uint slot, uint sampler_index, vec2 uv)
 {
-    // The samplers are named one by one, so that their index never varies within a call.
-    switch (sampler_index) {
-    case SAMPLER_REPEAT:
-        return textureLod(sampler2D(textures[nonuniformEXT(slot)], samplers[SAMPLER_REPEAT]), uv, 0.0);
-    case SAMPLER_CLAMP:
-        return textureLod(sampler2D(textures[nonuniformEXT(slot)], samplers[SAMPLER_CLAMP]), uv, 0.0);
-    case SAMPLER_REPEAT_NEAREST:
-        return textureLod(sampler2D(textures[nonuniformEXT(slot)], samplers[SAMPLER_REPEAT_NEAREST]), uv, 0.0);
-    default:
-        return textureLod(sampler2D(textures[nonuniformEXT(slot)], samplers[SAMPLER_CLAMP_NEAREST]), uv, 0.0);
-    }
+    return textureLod(sampler2D(textures[slot], samplers[sampler_index]), uv, 0.0);
 }
 
-vec4 blend_quads(vec4 below, QuadTile tile, vec2 point)
+// What a lane holds of a tile: one pixel of each 8 x 8 quarter. A quad is read once for all of them.
+const uint quarters = 4u;
+
+ivec2 pixel_of_quarter(ivec2 first, uint quarter) { return first + ivec2(quarter & 1u, quarter >> 1u) * 8; }
+
+vec4 blend(vec4 below, Quad quad, vec2 point)
 {
-    for (uint i = 0u; i < tile.count; i++) {
-        const Quad quad = QuadList(push.quads).v[QuadIndexList(push.quad_indices).v[tile.first + i]];
-        if (any(lessThan(point, quad.corner_min)) || any(greaterThanEqual(point, quad.corner_max)))
-            continue;
+    const bool inside = all(greaterThanEqual(point, quad.corner_min)) && all(lessThan(point, quad.corner_max));
+    vec4 color = unpackUnorm4x8(quad.color);
+    if ((quad.flags & QUAD_PLAIN) == 0u) {
         const vec2 place = (point - quad.corner_min) / (quad.corner_max - quad.corner_min);
-        const vec2 uv = mix(quad.uv_min, quad.uv_max, place);
-        const vec4 color = unpackUnorm4x8(quad.color) * sample_picture(quad.texture_slot, quad.sampler_index, uv);
-        below.rgb = mix(below.rgb, color.rgb, color.a);
-        below.a = color.a + below.a * (1.0 - color.a);
+        color *= sample_picture(quad.texture_slot, quad.sampler_index, mix(quad.uv_min, quad.uv_max, place));
     }
-    return below;
+    const float alpha = inside ? color.a : 0.0;
+    return vec4(mix(below.rgb, color.rgb, alpha), alpha + below.a * (1.0 - alpha));
 }
 
 void main()
 {
     const QuadTile tile = QuadTileList(push.tiles).v[gl_WorkGroupID.x];
-    for (uint y = gl_LocalInvocationID.y; y < QUAD_TILE_SIZE; y += 8u)
-        for (uint x = gl_LocalInvocationID.x; x < QUAD_TILE_SIZE; x += 8u) {
-            const uvec2 pixel = tile.origin + uvec2(x, y);
-            if (any(greaterThanEqual(pixel, push.output_size)))
-                continue;
-            const vec4 below = imageLoad(picture, ivec2(pixel));
-            imageStore(picture, ivec2(pixel), blend_quads(below, tile, vec2(pixel) + 0.5));
-        }
+    const ivec2 first = ivec2(tile.origin + gl_LocalInvocationID.xy);
+    vec4 colors[quarters];
+    [[unroll]] for (uint i = 0u; i < quarters; i++)
+        colors[i] = vec4(0.0);
+    if (tile.covered == 0u)
+        [[unroll]] for (uint i = 0u; i < quarters; i++)
+            colors[i] = imageLoad(picture, pixel_of_quarter(first, i));
+    for (uint place = 0u; place < tile.count; place++) {
+        const Quad quad = QuadList(push.quads).v[QuadIndexList(push.quad_indices).v[tile.first + place]];
+        [[unroll]] for (uint i = 0u; i < quarters; i++)
+            colors[i] = blend(colors[i], quad, vec2(pixel_of_quarter(first, i)) + 0.5);
+    }
+    [[unroll]] for (uint i = 0u; i < quarters; i++) {
+        const ivec2 pixel = pixel_of_quarter(first, i);
+        if (all(lessThan(pixel, ivec2(push.output_size))))
+            imageStore(picture, pixel, colors[i]);
+    }
 }

@@ -66,7 +66,15 @@ uint32_t Draw2d::choose_sampler(const Texture& texture) const
 
 void Draw2d::add_quad(const Texture& texture, glm::vec2 low, glm::vec2 high, uint32_t color)
 {
-    quads_.push_back({ low, high, { 0, 0 }, { 1, 1 }, color, texture.slot, choose_sampler(texture) });
+    const bool opaque = !texture.has_alpha && color >> 24 == 255;
+    quads_.push_back({ low, high, { 0, 0 }, { 1, 1 }, color, texture.slot, choose_sampler(texture),
+        opaque ? shared::QUAD_OPAQUE : 0 });
+}
+
+void Draw2d::add_plain_quad(glm::vec2 low, glm::vec2 high, uint32_t color)
+{
+    add_quad(textures_.white(), low, high, color);
+    quads_.back().flags |= shared::QUAD_PLAIN;
 }
 
 void Draw2d::draw_picture(const Texture& texture, int x, int y, float scale, const float* tint_rgb)
@@ -117,12 +125,12 @@ void Draw2d::draw_fill(const Rectangle& place, int palette_index)
     if (is_empty(place))
         return;
     const formats::Rgba8 color = textures_.palette()[size_t(palette_index & 255)];
-    add_quad(textures_.white(), low_corner(place), high_corner(place), pack_opaque(color.r, color.g, color.b));
+    add_plain_quad(low_corner(place), high_corner(place), pack_opaque(color.r, color.g, color.b));
 }
 
 void Draw2d::draw_fade()
 {
-    add_quad(textures_.white(), { 0, 0 }, { float(size_.width), float(size_.height) }, pack_color(0, 0, 0, fade_alpha));
+    add_plain_quad({ 0, 0 }, { float(size_.width), float(size_.height) }, pack_color(0, 0, 0, fade_alpha));
 }
 
 void Draw2d::set_palette(const uint8_t* rgb)

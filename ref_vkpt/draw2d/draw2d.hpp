@@ -78,6 +78,7 @@ private:
 
     uint32_t choose_sampler(const Texture& texture) const;
     void add_quad(const Texture& texture, glm::vec2 low, glm::vec2 high, uint32_t color = 0xffffffff);
+    void add_plain_quad(glm::vec2 low, glm::vec2 high, uint32_t color);
     size_t prepare_raw_picture(int columns, int rows);
     void sort_into_tiles();
     shared::QuadPush upload_lists();
@@ -95,6 +96,7 @@ private:
     std::vector<shared::QuadTile> tiles_;
     std::vector<uint32_t> quad_indices_;
     std::vector<uint32_t> ends_; // of each tile's part of quad_indices_, while sorting
+    std::vector<uint32_t> lowest_; // the first quad that can be seen in each tile
 
     std::vector<FrameMemory> frames_;
     size_t frame_ = 0;

@@ -50,6 +50,15 @@ template <class Visit> void visit_tiles(const TileRange& range, int columns, Vis
             visit(size_t(y) * size_t(columns) + size_t(x));
 }
 
+// Whether nothing below the quad is seen in the pixels of the tile with this corner.
+bool hides(const shared::Quad& quad, glm::vec2 tile, VkExtent2D output)
+{
+    const glm::vec2 first = tile + 0.5f;
+    const glm::vec2 last = glm::min(tile + float(tile_pixels), glm::vec2(output.width, output.height)) - 0.5f;
+    return (quad.flags & shared::QUAD_OPAQUE) && quad.corner_min.x <= first.x && quad.corner_min.y <= first.y
+        && quad.corner_max.x > last.x && quad.corner_max.y > last.y;
+}
+
 VkDeviceSize align(VkDeviceSize bytes) { return (bytes + 15) & ~VkDeviceSize(15); }
 
 } // namespace
@@ -96,29 +105,41 @@ void Draw2d::record(VkCommandBuffer commands)
     raw_copies_.clear();
 }
 
-// A counting sort: quads stay in drawing order within each tile, tiles without quads are left out.
+// A counting sort: quads stay in drawing order within each tile; tiles without quads are left out, and quads that are
+// hidden all over a tile.
 void Draw2d::sort_into_tiles()
 {
     tiles_.clear();
     const int columns = (int(size_.width) + tile_pixels - 1) / tile_pixels;
     const int rows = (int(size_.height) + tile_pixels - 1) / tile_pixels;
     ends_.assign(size_t(columns) * size_t(rows), 0);
-    for (const shared::Quad& quad : quads_)
-        visit_tiles(find_tiles(quad, columns, rows), columns, [&](size_t tile) { ends_[tile]++; });
+    lowest_.assign(ends_.size(), 0);
+    const auto place_of = [&](size_t tile) {
+        return glm::uvec2(tile % size_t(columns), tile / size_t(columns)) * shared::QUAD_TILE_SIZE;
+    };
+    for (size_t quad = 0; quad < quads_.size(); quad++)
+        visit_tiles(find_tiles(quads_[quad], columns, rows), columns, [&](size_t tile) {
+            if (hides(quads_[quad], place_of(tile), size_)) {
+                ends_[tile] = 0;
+                lowest_[tile] = uint32_t(quad);
+            }
+            ends_[tile]++;
+        });
     uint32_t total = 0;
     for (size_t tile = 0; tile < ends_.size(); tile++) {
         const uint32_t count = ends_[tile];
         ends_[tile] = total;
         if (count == 0)
             continue;
-        const glm::uvec2 place(tile % size_t(columns), tile / size_t(columns));
-        tiles_.push_back({ place * shared::QUAD_TILE_SIZE, total, count });
+        tiles_.push_back({ place_of(tile), total, count, hides(quads_[lowest_[tile]], place_of(tile), size_) });
         total += count;
     }
     quad_indices_.resize(total);
     for (size_t quad = 0; quad < quads_.size(); quad++)
-        visit_tiles(find_tiles(quads_[quad], columns, rows), columns,
-            [&](size_t tile) { quad_indices_[ends_[tile]++] = uint32_t(quad); });
+        visit_tiles(find_tiles(quads_[quad], columns, rows), columns, [&](size_t tile) {
+            if (quad >= lowest_[tile])
+                quad_indices_[ends_[tile]++] = uint32_t(quad);
+        });
 }
 
 // Appends to what this frame has used already; a buffer that is too small stays alive until the frame is done.

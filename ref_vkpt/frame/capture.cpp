@@ -67,8 +67,8 @@ bool FrameCapture::is_wanted()
         if (directory_.empty())
             give_up("pt_capture_dir does not say where to");
         else if (!stays_in_game_directory(directory_))
-            give_up(fmt::format("pt_capture_dir \"{}\" must be a folder below the game's, without \"..\" and backslashes",
-                directory_));
+            give_up(fmt::format(
+                "pt_capture_dir \"{}\" must be a folder below the game's, without \"..\" and backslashes", directory_));
     }
     return !gave_up_ && (frame_number_ - 1) % uint32_t(every_) == 0;
 }
@@ -78,8 +78,8 @@ void FrameCapture::end_view(const std::function<formats::Image()>& read_picture)
     frame_number_++;
     if (!is_wanted())
         return;
-    const std::filesystem::path path = std::filesystem::path(engine::game_directory()) / directory_
-        / fmt::format("frame{:06}.png", frame_number_);
+    const std::filesystem::path path
+        = std::filesystem::path(engine::game_directory()) / directory_ / fmt::format("frame{:06}.png", frame_number_);
     const std::string reason = write_file(path, formats::write_png(read_picture()));
     if (!reason.empty())
         give_up(fmt::format("{}: {}", path.string(), reason));

@@ -12,8 +12,8 @@ namespace vkpt {
 
 class FrameCapture {
 public:
-    // After a frame with a 3D view was submitted. Calls `read_picture`, which waits for the device, only if this frame is
-    // to be captured. Frames are counted from the start of the renderer; the first one has the number 1.
+    // After a frame with a 3D view was submitted. Calls `read_picture`, which waits for the device, only if this frame
+    // is to be captured. Frames are counted from the start of the renderer; the first one has the number 1.
     void end_view(const std::function<formats::Image()>& read_picture);
 
 private:

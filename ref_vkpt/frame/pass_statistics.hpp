@@ -28,7 +28,9 @@ private:
 class CpuTimer {
 public:
     CpuTimer(PassStatistics* statistics, const char* name)
-        : statistics_(statistics), name_(name), start_(std::chrono::steady_clock::now())
+        : statistics_(statistics)
+        , name_(name)
+        , start_(std::chrono::steady_clock::now())
     {
     }
     CpuTimer(const CpuTimer&) = delete;

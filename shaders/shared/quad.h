@@ -17,16 +17,21 @@ struct Quad {
     uint color;         // RGBA8, red in the lowest byte, sRGB-encoded like the picture; multiplies it
     uint texture_slot;  // bindless index
     uint sampler_index; // SAMPLER_*
+    uint flags;         // QUAD_*
 };
-VKPT_ASSERT_SIZE(Quad, 44);
+VKPT_ASSERT_SIZE(Quad, 48);
+
+VKPT_CONST uint QUAD_OPAQUE = 1u; // hides what lies below it
+VKPT_CONST uint QUAD_PLAIN = 2u;  // its colour alone, no picture
 
 // A tile that some quad touches; its quads in drawing order are quad_indices[first .. first + count).
 struct QuadTile {
     uvec2 origin; // pixels
     uint first;
     uint count;
+    uint covered; // 1: its first quad hides all of the picture below
 };
-VKPT_ASSERT_SIZE(QuadTile, 16);
+VKPT_ASSERT_SIZE(QuadTile, 20);
 
 struct QuadPush {
     uint64_t quads;        // Quad
