@@ -29,7 +29,7 @@ TextureFolder::TextureFolder()
     colormap.pixels.resize(256);
     colormap.palette[0] = { 0, 0, 0, 255 };
     colormap.palette[1] = { 255, 255, 255, 255 };
-    colormap.palette[2] = { 32, 64, 64, 255 };
+    colormap.palette[2] = { 137, 188, 188, 255 };
     write(root_ / "pics" / "colormap.pcx", formats::write_pcx(colormap));
     fs::create_directories(textures());
 }

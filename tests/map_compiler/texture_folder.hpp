@@ -8,8 +8,7 @@
 namespace vkpt::tests {
 
 // A game folder of its own for one test: pics/colormap.pcx and textures/*.wal. Removed at the end.
-// Palette: index 0 black, 1 white, 2 dark (32, 64, 64), which the light takes for
-// a reflectivity of (0.25, 0.5, 0.5).
+// Palette: index 0 black, 1 white, 2 grey (137, 188, 188): in linear light, and so as a reflectivity, (0.25, 0.5, 0.5).
 class TextureFolder {
 public:
     TextureFolder();
