@@ -29,7 +29,7 @@ namespace vkpt {
 struct EmissionScales {
     float face = 0.0095f; // radiance = face * texinfo value * normalised picture colour * its strength
     float point = 0.0011f; // radiant intensity of a point light = point * its "light" value cubed
-    float sky = 3.3f; // radiance = sky * sky picture (sky faces that are not SURF_LIGHT; others: as faces)
+    float sky = 3.1f; // radiance = sky * sky picture (sky faces that are not SURF_LIGHT; others: as faces)
     float point_light_radius = 4; // of the spheres that stand for point lights, units; less where walls are nearer
 };
 

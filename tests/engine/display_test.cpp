@@ -60,6 +60,26 @@ TEST(Engine, ChangesModes)
     expect_size(run, "odd", 161, 97);
 }
 
+// What a desktop does to a window while the game runs: other sizes, out of sight, back again.
+TEST(Engine, FollowsItsWindow)
+{
+    const std::string window = "xdotool search --class quake2 ";
+    EngineOptions options;
+    options.script = "wait_25\n" + capture_into("first") + display_mark + capture_into("resized") + display_mark
+        + display_mark + capture_into("shown") + display_mark + "wait_25\nvid_restart\nwait_25\n" + capture_into("restarted")
+        + "quit\n";
+    options.display_commands = { window + "windowsize 402 299", window + "windowunmap", window + "windowmap",
+        window + "windowsize 97 61" };
+    options.arguments = { "+set", "pt_view_scale", "25", "+map", own_map, "+exec", "test.cfg" };
+    options.limit = std::chrono::seconds(240);
+    const EngineRun run(options);
+    run.expect_clean();
+    expect_size(run, "first", options.width, options.height);
+    expect_size(run, "resized", 402, 299);
+    expect_size(run, "shown", 402, 299);
+    expect_size(run, "restarted", options.width, options.height); // r_customwidth holds again
+}
+
 TEST(Engine, ChangesSettingsWhileRunning)
 {
     EngineOptions options;

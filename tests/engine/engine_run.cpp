@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
@@ -66,7 +67,7 @@ std::string wait_aliases()
 EngineRun::EngineRun(const EngineOptions& options)
 {
     make_folder(options);
-    watch(start(options), options.limit);
+    watch(start(options), options);
     outcome.console = read_text(outcome.game_folder / "qconsole.log");
     outcome.output = read_text(folder / "output.txt");
 }
@@ -115,31 +116,43 @@ int EngineRun::start(const EngineOptions& options)
     _exit(127);
 }
 
-void EngineRun::watch(int process, std::chrono::seconds limit)
+void EngineRun::watch(int process, const EngineOptions& options)
 {
     const auto started = Clock::now();
     int status = 0;
     while (waitpid(process, &status, WNOHANG) == 0) {
-        note_marks();
-        if (Clock::now() - started > limit && !outcome.timed_out) {
+        note_marks(options);
+        if (Clock::now() - started > options.limit && !outcome.timed_out) {
             outcome.timed_out = true;
             kill(-process, SIGTERM);
         }
-        if (Clock::now() - started > limit + grace)
+        if (Clock::now() - started > options.limit + grace)
             kill(-process, SIGKILL);
         std::this_thread::sleep_for(poll_interval);
     }
     outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-void EngineRun::note_marks()
+void EngineRun::note_marks(const EngineOptions& options)
 {
-    const size_t marks = count_occurrences(read_text(outcome.game_folder / "qconsole.log"), "memory mark");
-    if (marks == outcome.marked_memory.size())
-        return;
-    int engine = 0;
-    std::ifstream(folder / "engine.pid") >> engine;
-    outcome.marked_memory.resize(marks, read_resident_memory(engine));
+    const std::string console = read_text(outcome.game_folder / "qconsole.log");
+    const size_t marks = count_occurrences(console, "memory mark");
+    if (marks != outcome.marked_memory.size()) {
+        int engine = 0;
+        std::ifstream(folder / "engine.pid") >> engine;
+        outcome.marked_memory.resize(marks, read_resident_memory(engine));
+    }
+    const size_t commands = std::min(count_occurrences(console, "display mark"), options.display_commands.size());
+    while (display_marks < commands)
+        run_on_display(options.display_commands[display_marks++]);
+}
+
+void EngineRun::run_on_display(const std::string& command)
+{
+    std::string number = read_text(folder / "home" / "display");
+    number.erase(std::remove(number.begin(), number.end(), '\n'), number.end());
+    const std::string line = "DISPLAY=:" + number + "; export DISPLAY; " + command;
+    EXPECT_EQ(std::system(line.c_str()), 0) << line;
 }
 
 std::vector<std::string> EngineRun::lines_with(const std::string& text) const

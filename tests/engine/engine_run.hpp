@@ -18,6 +18,7 @@ struct EngineOptions {
     std::vector<std::string> arguments; // the engine's, in order
     std::string script; // console commands, one a line; run with "+exec test.cfg"
     std::vector<std::string> environment; // NAME=VALUE
+    std::vector<std::string> display_commands; // one for each `display_mark`; run by a shell on the engine's display
     int width = 320, height = 180;
     std::chrono::seconds limit { 120 };
     bool validation = true; // Vulkan's validation layers
@@ -37,6 +38,9 @@ std::string wait_aliases();
 // A line for EngineOptions::script that makes the harness note the engine's memory.
 inline constexpr const char* memory_mark = "echo memory mark\nwait_25\n";
 
+// A line for EngineOptions::script: here the harness runs the next of EngineOptions::display_commands.
+inline constexpr const char* display_mark = "echo display mark\nwait_25\nwait_25\n";
+
 // Owns the run's folder; the result is valid as long as it lives.
 class EngineRun {
 public:
@@ -55,11 +59,13 @@ public:
 private:
     void make_folder(const EngineOptions& options);
     int start(const EngineOptions& options);
-    void watch(int process, std::chrono::seconds limit);
-    void note_marks();
+    void watch(int process, const EngineOptions& options);
+    void note_marks(const EngineOptions& options);
+    void run_on_display(const std::string& command);
 
     std::filesystem::path folder;
     EngineResult outcome;
+    size_t display_marks = 0;
 };
 
 } // namespace vkpt::tests
