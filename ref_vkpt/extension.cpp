@@ -12,7 +12,6 @@ namespace vkpt {
 
 namespace {
 
-constexpr const char* trace_backends[] = { "software", nullptr };
 constexpr const char* denoisers[] = { "off", nullptr };
 
 ImageSize frame_size()
@@ -76,6 +75,19 @@ void fill_world_counts(ModuleInfo& info, const Module& m)
     info.light_list_entries = world->light_lists.static_indices().size() + world->light_lists.dynamic_indices().size();
 }
 
+void fill_trace(ModuleInfo& info, const Module& m)
+{
+    static std::vector<const char*> offered;
+    offered.clear();
+    for (const TraceBackend backend : offered_backends(m.graphics.device))
+        offered.push_back(name_of(backend).data()); // literals
+    offered.push_back(nullptr);
+    info.trace_backends = offered.data();
+    info.trace_backend = name_of(m.frame.trace_backend()).data();
+    if (const World* world = m.scene.world())
+        info.structure_bytes_per_triangle = m.frame.bytes_per_triangle(m.gpu_world, *world);
+}
+
 ModuleInfo module_info()
 {
     static std::string version;
@@ -89,8 +101,9 @@ ModuleInfo module_info()
 
     ModuleInfo info {};
     info.device = info.driver = info.vulkan_version = "";
-    info.trace_backend = trace_backends[0];
-    info.trace_backends = trace_backends;
+    info.trace_backend = "";
+    static const char* const no_backends[] = { nullptr };
+    info.trace_backends = no_backends;
     info.light_samplers = samplers.data();
     info.denoisers = denoisers;
     const int32_t apis[] = { 5, 6, 7, 8 };
@@ -107,6 +120,7 @@ ModuleInfo module_info()
     info.driver = device.driver.c_str();
     info.vulkan_version = version.c_str();
     info.max_image_size = int32_t(device.properties.limits.maxImageDimension2D);
+    fill_trace(info, *m);
     fill_world_counts(info, *m);
     info.textures = m->textures.count();
     const MemoryAllocator& memory = m->graphics.memory;
@@ -129,12 +143,20 @@ bool measure_irradiance(const IrradianceProbe* probes, size_t count, uint32_t sa
     return true;
 }
 
+double trace_rays(const TracedRay* rays, size_t count, const TraceRequest* request, TracedHit* hits)
+{
+    Module* m = module();
+    if (!m || !m->snapshot || m->graphics.is_recording())
+        return -1;
+    return m->frame.trace_rays({ rays, count }, *request, *m->snapshot, m->gpu_world, hits);
+}
+
 } // namespace
 
 const Extension& extension_table()
 {
     static const Extension table { extension_version, sizeof(Extension), frame_size, capture_display, capture_radiance,
-        accumulated_frames, pass_times, module_info, measure_irradiance };
+        accumulated_frames, pass_times, module_info, measure_irradiance, trace_rays };
     return table;
 }
 
@@ -146,7 +168,8 @@ void print_info()
     engine::print("driver         {}", info.driver);
     engine::print("Vulkan         {}", info.vulkan_version);
     engine::print("trace backend  {}", info.trace_backend);
-    engine::print("triangles      {} ({} moving)", info.triangles + info.dynamic_triangles, info.dynamic_triangles);
+    engine::print("triangles      {} ({} moving), {:.0f} bytes each of the map's in the acceleration structure",
+        info.triangles + info.dynamic_triangles, info.dynamic_triangles, info.structure_bytes_per_triangle);
     engine::print("clusters       {}", info.clusters);
     engine::print("emitters       {}", info.emitters);
     engine::print("light lists    {} entries", info.light_list_entries);

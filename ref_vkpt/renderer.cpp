@@ -40,6 +40,7 @@ GraphicsSettings graphics_settings(void* sdl_window)
     settings.device_name_part = cvars.pt_device;
     settings.cache_directory = cache_directory();
     settings.validation = cvars.pt_validation != 0;
+    settings.ray_tracing = cvars.pt_device_rays != 0;
     settings.vsync = cvars.r_vsync != 0;
     return settings;
 }
@@ -224,6 +225,7 @@ void begin_registration(std::string_view map)
     m.graphics.finish();
     m.snapshot.reset();
     m.gpu_world = {};
+    m.frame.forget_world();
     m.frame.restart_accumulation();
     m.scene.begin_registration(map);
     m.gpu_world = upload_world(*m.scene.world(), m.graphics.uploader);
@@ -253,6 +255,7 @@ void begin_frame(float)
     Module& m = *running;
     if (cvars::update()) {
         check_light_sampler();
+        m.frame.set_trace_backend(find_trace_backend(cvars::values().pt_trace).value_or(TraceBackend::software));
         m.graphics.set_vsync(cvars::values().r_vsync != 0);
     }
     m.graphics.timer.collect_into(wanted_statistics());

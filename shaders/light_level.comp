@@ -5,40 +5,31 @@
 #include "lib/frame.glsl"
 #include "lib/lighting.glsl"
 
-layout(local_size_x = PIXEL_GROUP_SIZE) in;
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LightLevelBuffer { float v[]; };
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LightLevelBuffer { float v; };
-
-// Each lane takes so many samples.
+// Each lane takes so many samples; the CPU averages the lanes.
 const uint samples_per_lane = 4u;
 
-shared float sums[PIXEL_GROUP_SIZE];
-
-float sample_floor(Surface surface, int cluster)
+float sample_floor(Surface surface, int cluster, uint lane)
 {
     float sum = 0.0;
     [[dont_unroll]] for (uint i = 0u; i < samples_per_lane; i++) {
-        Random random = make_random(uvec2(gl_LocalInvocationIndex, i), frame.frame_index, frame.seed);
+        Random random = make_random(uvec2(lane, i), frame.frame_index, frame.seed);
         sum += luminance(sample_direct_light(surface, cluster, random).diffuse);
     }
     return sum / float(samples_per_lane);
 }
 
-void main()
+void look_down(uint lane)
 {
-    uint lane = gl_LocalInvocationIndex;
     Ray down = Ray(frame.camera.eye, vec3(0.0, 0.0, -1.0), 0.0, ray_far);
     RawHit raw = trace_nearest(down, MASK_OPAQUE);
-    sums[lane] = 0.0;
+    float level = 0.0;
     if (raw.triangle != TRACE_MISS) {
         HitSurface hit = fetch_surface(raw, down, 1.0);
-        sums[lane] = sample_floor(hit.surface, hit.cluster) + luminance(hit.emission);
+        level = sample_floor(hit.surface, hit.cluster, lane) + luminance(hit.emission);
     }
-    barrier();
-    if (lane != 0u)
-        return;
-    float total = 0.0;
-    for (uint i = 0u; i < PIXEL_GROUP_SIZE; i++)
-        total += sums[i];
-    LightLevelBuffer(frame.light_level).v = total / float(PIXEL_GROUP_SIZE);
+    LightLevelBuffer(frame.light_level).v[lane] = level;
 }
+
+VKPT_RUN_OVER_LANES(look_down)

@@ -4,7 +4,9 @@
 #include "ref_vkpt/engine/engine.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <numeric>
 #include <string>
 
 namespace vkpt {
@@ -16,14 +18,10 @@ constexpr uint32_t max_views = 16;
 // With a fixed pt_seed the numbers of a run do not depend on how long the game has been running.
 constexpr float first_frame_seconds = 1.0f / 60;
 
-constexpr VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-constexpr VkAccessFlags shader_access = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+constexpr size_t light_level_bytes = sizeof(float) * shared::LIGHT_LEVEL_LANES;
+static_assert(shared::LIGHT_LEVEL_LANES == shared::PIXEL_GROUP_SIZE);
 
-// What one pass wrote, the next one reads.
-void record_pass_barrier(VkCommandBuffer commands)
-{
-    record_memory_barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT, compute, shader_access);
-}
+constexpr VkAccessFlags shader_access = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
 
 shared::BvhView make_bvh_view(const Bvh& bvh, VkDeviceAddress nodes, VkDeviceAddress triangles)
 {
@@ -72,6 +70,7 @@ Frame::Frame(Graphics& graphics)
     , uploads_(graphics.gpu, MemoryKind::staging)
     , triangles_(graphics.gpu, MemoryKind::geometry, "triangles")
     , emitters_(graphics.gpu, MemoryKind::lights, "emitters")
+    , structures_(graphics.gpu)
 {
     const VkDeviceSize alignment = graphics.device.properties.limits.minUniformBufferOffsetAlignment;
     uniform_stride_ = (sizeof(shared::FrameUniforms) + alignment - 1) / alignment * alignment;
@@ -80,7 +79,7 @@ Frame::Frame(Graphics& graphics)
     exposure_ = graphics.uploader.make_buffer(
         std::vector<shared::ExposureState>(1), MemoryKind::images, "exposure");
     readback_ = Buffer(
-        graphics.gpu, sizeof(float) * frames_in_flight, BufferHome::readback, MemoryKind::staging, "light level");
+        graphics.gpu, light_level_bytes * frames_in_flight, BufferHome::readback, MemoryKind::staging, "light level");
     std::memset(readback_.mapped(), 0, readback_.size());
     graphics.bindings.bind_uniforms(uniforms_, sizeof(shared::FrameUniforms));
     graphics.uploader.flush();
@@ -92,7 +91,10 @@ void Frame::begin()
 {
     views_this_frame_ = 0;
     uploads_.begin_frame(graphics_.slot());
-    std::memcpy(&light_level_, readback_.mapped() + graphics_.slot() * sizeof(float), sizeof(float));
+    structures_.begin_frame(graphics_.slot());
+    std::array<float, shared::LIGHT_LEVEL_LANES> lanes;
+    std::memcpy(lanes.data(), readback_.mapped() + graphics_.slot() * light_level_bytes, light_level_bytes);
+    light_level_ = std::accumulate(lanes.begin(), lanes.end(), 0.0f) / float(lanes.size());
     // Room for the largest view now: once recording refers to the buffers, they cannot be replaced.
     const VkExtent2D output = graphics_.size();
     reserve(scaled_size({ output.width, output.height }));
@@ -123,7 +125,7 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.camera = view.camera;
     uniforms.screen = graphics_.screen.addresses();
     uniforms.exposure = exposure_.address();
-    uniforms.light_level = readback_.address() + graphics_.slot() * sizeof(float);
+    uniforms.light_level = readback_.address() + graphics_.slot() * light_level_bytes;
     uniforms.size = size;
     uniforms.output_origin = glm::uvec2(view.origin);
     uniforms.output_size = view.size;
@@ -151,6 +153,7 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     out.lightstyles = uploads_.push(scene.lightstyles);
     out.trace_stack = graphics_.screen.trace_stack();
     out.sky = scene.sky;
+    fill_structures(out, scene, gpu_world);
 
     const shared::BvhView moving
         = make_bvh_view(scene.bvh, uploads_.push(scene.bvh.nodes), uploads_.push(scene.bvh.triangles));
@@ -175,6 +178,39 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     out.light_list_count = uint32_t(lights.lists().size());
 }
 
+void Frame::fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world)
+{
+    if (backend_ == TraceBackend::software)
+        return;
+    // Only Mesa's CPU driver depends on the order, and sorting costs time every frame.
+    const bool sorts = graphics_.device.is_cpu;
+    const bool has_world = scene.world && gpu_world;
+    if (has_world && !structures_.holds_world(gpu_world->version)) {
+        const MapGeometry& map = scene.world->models[0];
+        structures_.build_world(group_triangles({ map.triangles, map.masks, map.has_holes, 0 },
+                                    sorts ? TriangleOrder::halves_best : TriangleOrder::as_given),
+            gpu_world->version, graphics_.uploader);
+    }
+    std::vector<uint8_t> has_holes(scene.triangles.size());
+    for (size_t i = 0; i < has_holes.size(); i++)
+        has_holes[i] = (scene.materials[scene.triangles[i].material].flags & shared::MATERIAL_ALPHA_TEST) != 0;
+    const uint32_t first_id = scene.world ? uint32_t(scene.world->models[0].triangles.size()) : 0;
+    const GroupedTriangles moving = group_triangles({ scene.triangles, scene.masks, has_holes, first_id },
+        sorts ? TriangleOrder::halves_quick : TriangleOrder::as_given);
+    const AccelerationStructures::View view = structures_.record_view(commands_, moving, has_world);
+    out.structure = view.structure;
+    out.structure_ids[0] = view.ids[0];
+    out.structure_ids[1] = view.ids[1];
+}
+
+double Frame::bytes_per_triangle(const GpuWorld& gpu_world, const World& world) const
+{
+    if (backend_ != TraceBackend::software)
+        return structures_.world_bytes_per_triangle();
+    const size_t count = world.models[0].triangles.size();
+    return count > 0 ? double(gpu_world.bvh_nodes.size() + gpu_world.bvh_triangles.size()) / double(count) : 0;
+}
+
 uint32_t Frame::write_uniforms(const shared::FrameUniforms& uniforms)
 {
     const uint32_t offset = uint32_t(uniform_stride_) * (graphics_.slot() * max_views + views_this_frame_++);
@@ -182,38 +218,69 @@ uint32_t Frame::write_uniforms(const shared::FrameUniforms& uniforms)
     return offset;
 }
 
-void Frame::record_pipeline(const char* name, const std::string& shader, uint32_t groups)
+void Frame::bind(uint32_t uniform_offset) const
 {
-    vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, graphics_.pipelines.compute(shader));
-    vkCmdDispatch(commands_, groups, 1, 1);
-    record_pass_barrier(commands_);
+    graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, uniform_offset);
+    if (backend_ == TraceBackend::pipeline)
+        graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, uniform_offset);
+}
+
+// What one pass wrote, the next one reads.
+void Frame::finish_pass(const char* name)
+{
+    const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
+    record_memory_barrier(commands_, shaders, VK_ACCESS_SHADER_WRITE_BIT, shaders, shader_access);
     graphics_.timer.mark(commands_, name);
 }
 
 void Frame::record_pass(const char* name, uint32_t groups)
 {
-    record_pipeline(name, std::string(name) + ".comp", groups);
+    vkCmdBindPipeline(
+        commands_, VK_PIPELINE_BIND_POINT_COMPUTE, graphics_.pipelines.compute(std::string(name) + ".comp"));
+    vkCmdDispatch(commands_, groups, 1, 1);
+    finish_pass(name);
 }
 
-// A pass that chooses lights: its shader was built once for each light sampler.
-void Frame::record_lit_pass(const char* name, uint32_t groups)
+// A pass that traces: its shader was built once for each backend.
+void Frame::record_traced_pass(const char* name, const Work& work) { record_traced(name, "", work); }
+
+// A pass that chooses lights, and traces: its shader was built once for each light sampler, too.
+void Frame::record_lit_pass(const char* name, const Work& work)
 {
-    record_pipeline(name, std::string(name) + ".comp:" + cvars::values().pt_light_sampler, groups);
+    record_traced(name, ":" + cvars::values().pt_light_sampler, work);
+}
+
+void Frame::record_traced(const char* name, const std::string& variant, const Work& work)
+{
+    const std::string shader = std::string(name) + ".comp" + variant + ":" + std::string(name_of(backend_));
+    if (backend_ == TraceBackend::pipeline) {
+        const RayPipeline& pipeline = graphics_.pipelines.ray(shader);
+        vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.handle);
+        vkCmdTraceRaysKHR(commands_, &pipeline.generation, &pipeline.miss, &pipeline.hit, &pipeline.callable,
+            work.launch.x, work.launch.y, 1);
+    } else {
+        vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, graphics_.pipelines.compute(shader));
+        vkCmdDispatch(commands_, work.groups, 1, 1);
+    }
+    finish_pass(name);
 }
 
 // The whole image pipeline. A pass is its shader's name; what it reads and writes is in shared/screen_buffers.def.
 void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfaces, bool world)
 {
-    const uint32_t pixels = pixel_groups(uniforms.size);
-    record_pass(surfaces == Surfaces::camera ? "primary_visibility" : "probe_surfaces", pixels);
+    const Work pixels = pixel_work(uniforms.size);
+    if (surfaces == Surfaces::camera)
+        record_traced_pass("primary_visibility", pixels);
+    else
+        record_pass("probe_surfaces", pixels.groups);
     record_lit_pass("direct_light", pixels);
     if (uniforms.cvars.pt_bounces > 0)
         record_lit_pass("indirect_light", pixels);
-    record_pass("accumulate", pixels);
+    record_pass("accumulate", pixels.groups);
     if (surfaces == Surfaces::probes)
         return;
     if (world)
-        record_lit_pass("light_level", 1);
+        record_lit_pass("light_level", { 1, { shared::LIGHT_LEVEL_LANES, 1 } });
     record_pass("exposure", 1);
     record_pass("tone_map", pixel_groups(uniforms.output_size));
 }
@@ -239,12 +306,13 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
     uniforms.time = scene.time;
     uniforms.flags |= (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0) | (scene.world ? 0 : shared::FRAME_NO_WORLD)
         | (average ? shared::FRAME_JITTER : 0);
-    graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, write_uniforms(uniforms));
+    bind(write_uniforms(uniforms));
+    const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
     // The picture may just have been cleared or drawn on, and the last frame may still be read.
-    record_memory_barrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT, compute, shader_access);
+    record_memory_barrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT, shaders, shader_access);
     graphics_.timer.mark(commands_, "2d");
     record_passes(uniforms, Surfaces::camera, scene.world != nullptr);
-    record_memory_barrier(commands_, compute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    record_memory_barrier(commands_, shaders, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     accumulated_frames_++;
 }
 
@@ -255,7 +323,7 @@ bool Frame::read_radiance(float* rgb)
         return false;
     const Buffer copy(graphics_.gpu, bytes, BufferHome::readback, MemoryKind::staging, "radiance readback");
     graphics_.run_once([&](VkCommandBuffer commands) {
-        record_memory_barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+        record_memory_barrier(commands, graphics_.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
         const VkBufferCopy region { 0, 0, bytes };
         vkCmdCopyBuffer(commands, graphics_.screen.accumulated().handle(), copy.handle(), 1, &region);
         record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
@@ -285,7 +353,7 @@ void Frame::measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t
             uniforms.probes = uploads_.push(std::as_bytes(probes));
             uniforms.probe_count = uint32_t(probes.size());
             uniforms.flags = shared::FRAME_PROBES | (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0);
-            graphics_.bindings.bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, write_uniforms(uniforms));
+            bind(write_uniforms(uniforms));
             graphics_.timer.begin_frame(commands, graphics_.slot());
             record_passes(uniforms, Surfaces::probes, true);
         });
@@ -294,6 +362,62 @@ void Frame::measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t
     read_radiance(picture.data());
     std::copy_n(picture.data(), probes.size() * 3, rgb);
     restart_accumulation();
+}
+
+double Frame::trace_rays(std::span<const TracedRay> rays, const TraceRequest& request, SceneSnapshot& scene,
+    const GpuWorld& gpu_world, TracedHit* hits)
+{
+    constexpr uint32_t pixels_at_once = 1u << 18; // screen buffers are made for as many
+    const uint32_t row = std::clamp(request.row_length, 1u, pixels_at_once);
+    const size_t chunk = size_t(pixels_at_once / row) * row;
+    double seconds = 0;
+    for (size_t first = 0; first < rays.size(); first += chunk)
+        trace_chunk(rays.subspan(first, std::min(chunk, rays.size() - first)), row, request, scene, gpu_world, hits + first,
+            seconds);
+    restart_accumulation();
+    return seconds / std::max(request.rounds, 1u);
+}
+
+void Frame::trace_chunk(std::span<const TracedRay> rays, uint32_t row, const TraceRequest& request, SceneSnapshot& scene,
+    const GpuWorld& gpu_world, TracedHit* hits, double& seconds)
+{
+    static_assert(sizeof(TracedRay) == 8 * sizeof(float) && sizeof(TracedHit) == 5 * sizeof(float));
+    const Buffer result(graphics_.gpu, rays.size() * sizeof(TracedHit), BufferHome::readback, MemoryKind::staging, "traced hits");
+    View view;
+    view.size = { row, (uint32_t(rays.size()) + row - 1) / row };
+    graphics_.finish();
+    reserve(view.size);
+    uint32_t offset = 0;
+    graphics_.run_once([&](VkCommandBuffer commands) {
+        commands_ = commands;
+        begin();
+        shared::FrameUniforms uniforms = make_uniforms(view, view.size);
+        fill_scene(uniforms.scene, scene, &gpu_world);
+        uniforms.probes = uploads_.push(std::as_bytes(rays));
+        uniforms.probe_count = uint32_t(rays.size());
+        uniforms.probe_hits = result.address();
+        uniforms.probe_mask = request.ray_mask;
+        uniforms.flags = (request.visibility ? shared::FRAME_PROBE_VISIBILITY : 0)
+            | (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0);
+        offset = write_uniforms(uniforms);
+    });
+    const auto run = [&](uint32_t rounds) {
+        graphics_.run_once([&](VkCommandBuffer commands) {
+            commands_ = commands;
+            graphics_.timer.begin_frame(commands, graphics_.slot());
+            bind(offset);
+            for (uint32_t round = 0; round < rounds; round++)
+                record_traced_pass("probe_rays", pixel_work(view.size));
+            record_memory_barrier(commands, graphics_.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT,
+                VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+        });
+    };
+    if (request.rounds > 1) // drivers compile at the first dispatch
+        run(1);
+    const auto start = std::chrono::steady_clock::now();
+    run(std::max(request.rounds, 1u));
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::memcpy(static_cast<void*>(hits), result.mapped(), rays.size() * sizeof(TracedHit));
 }
 
 } // namespace vkpt

@@ -7,6 +7,8 @@
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/frame/uploads.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
+#include "ref_vkpt/trace/acceleration_structures.hpp"
+#include "ref_vkpt/trace/backend.hpp"
 
 #include <chrono>
 #include <span>
@@ -35,6 +37,14 @@ public:
     // Records one view. `gpu_world` belongs to scene.world. `average`: go on averaging if nothing changed since the last
     // view, else start anew.
     void record_view(const View& view, SceneSnapshot& scene, const GpuWorld* gpu_world, bool average);
+    // How the next views' rays are traced; the device offers it.
+    void set_trace_backend(TraceBackend backend) { backend_ = backend; }
+    TraceBackend trace_backend() const { return backend_; }
+    // The map has gone; the device is idle.
+    void forget_world() { structures_.forget_world(); }
+    // Bytes of the map's acceleration structure per triangle, in the backend that is used.
+    double bytes_per_triangle(const GpuWorld& gpu_world, const World& world) const;
+
     // Forgets what was averaged: the next view is the first.
     void restart_accumulation() { accumulated_frames_ = 0; }
     uint32_t accumulated_frames() const { return accumulated_frames_; }
@@ -48,22 +58,39 @@ public:
     // Irradiance / pi at points, see Extension. Between frames.
     void measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t samples, SceneSnapshot& scene,
         const GpuWorld& gpu_world, float* rgb);
+    // Traces rays through the scene by the backend in use, see Extension. Between frames. Returns the seconds of one round.
+    double trace_rays(std::span<const TracedRay> rays, const TraceRequest& request, SceneSnapshot& scene,
+        const GpuWorld& gpu_world, TracedHit* hits);
 
 private:
     enum class Surfaces { camera, probes };
+    // How much a pass has to do: workgroups, or launch indices where it is a ray generation shader.
+    struct Work {
+        uint32_t groups;
+        glm::uvec2 launch;
+    };
+    static Work pixel_work(glm::uvec2 size) { return { pixel_groups(size), size }; }
     shared::FrameUniforms make_uniforms(const View& view, glm::uvec2 size);
     void fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world);
+    void fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world);
     uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
+    void bind(uint32_t uniform_offset) const;
     void record_passes(const shared::FrameUniforms& uniforms, Surfaces surfaces, bool world);
     void record_pass(const char* name, uint32_t groups);
-    void record_lit_pass(const char* name, uint32_t groups);
-    void record_pipeline(const char* name, const std::string& shader, uint32_t groups);
+    void record_traced_pass(const char* name, const Work& work);
+    void record_lit_pass(const char* name, const Work& work);
+    void record_traced(const char* name, const std::string& variant, const Work& work);
+    void finish_pass(const char* name);
+    void trace_chunk(std::span<const TracedRay> rays, uint32_t row, const TraceRequest& request, SceneSnapshot& scene,
+        const GpuWorld& gpu_world, TracedHit* hits, double& seconds);
     static glm::uvec2 scaled_size(glm::uvec2 size); // by pt_view_scale
     void reserve(glm::uvec2 size);
 
     Graphics& graphics_;
     FrameUploads uploads_;
     PrefixedUpload triangles_, emitters_;
+    AccelerationStructures structures_;
+    TraceBackend backend_ = TraceBackend::software;
     Buffer uniforms_, exposure_, readback_;
     VkDeviceSize uniform_stride_;
     uint32_t views_this_frame_ = 0;

@@ -15,6 +15,7 @@ DeviceSettings device_settings(const GraphicsSettings& settings, const Window& w
     DeviceSettings result;
     result.name_part = settings.device_name_part;
     result.validation = settings.validation;
+    result.ray_tracing = settings.ray_tracing;
     result.instance_extensions = window.instance_extensions();
     result.cache_directory = settings.cache_directory;
     // A cache that cannot be made is done without.

@@ -20,6 +20,7 @@ struct GraphicsSettings {
     std::string device_name_part;
     std::string cache_directory;
     bool validation = false;
+    bool ray_tracing = true; // use the device's own where it has it
     bool vsync = true;
 };
 

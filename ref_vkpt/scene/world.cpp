@@ -47,6 +47,24 @@ uint32_t triangle_mask(const BspTexinfo& texinfo)
     return texinfo.flags & SURF_ALPHATEST ? shared::MASK_ALPHA_TEST : shared::MASK_OPAQUE;
 }
 
+// The texinfos of an animation, starting with `first`; one alone: no animation. read_bsp cut chains that never come back.
+std::vector<uint32_t> animation_chain(const Bsp& bsp, uint32_t first)
+{
+    std::vector<uint32_t> chain { first };
+    for (int next = bsp.texinfos[first].next; next >= 0 && uint32_t(next) != first && chain.size() < bsp.texinfos.size();
+         next = bsp.texinfos[size_t(next)].next)
+        chain.push_back(uint32_t(next));
+    return chain;
+}
+
+// One frame of an animation with holes makes all of them count: structures on the device are built before it is known which
+// frame is shown.
+bool has_holes(const Bsp& bsp, uint32_t texinfo)
+{
+    return std::ranges::any_of(
+        animation_chain(bsp, texinfo), [&](uint32_t frame) { return (bsp.texinfos[frame].flags & SURF_ALPHATEST) != 0; });
+}
+
 struct FaceContext {
     const Bsp& bsp;
     const std::vector<WorldPicture>& pictures;
@@ -76,7 +94,8 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
         triangle.cluster = context.is_world ? std::max(context.face_clusters[face], -1) : -1;
         geometry.triangles.push_back(triangle);
         geometry.masks.push_back(triangle_mask(texinfo));
-        geometry.has_alpha_test |= geometry.masks.back() == shared::MASK_ALPHA_TEST;
+        geometry.has_holes.push_back(has_holes(bsp, texinfo_index) ? 1 : 0);
+        geometry.has_alpha_test |= geometry.has_holes.back() != 0;
     }
 }
 
@@ -136,16 +155,6 @@ Bvh build_world_bvh(const MapGeometry& geometry)
         triangles[i].mask = geometry.masks[i];
     }
     return build_bvh(triangles, BvhQuality::best);
-}
-
-// The texinfos of an animation, starting with `first`; one alone: no animation. read_bsp cut chains that never come back.
-std::vector<uint32_t> animation_chain(const Bsp& bsp, uint32_t first)
-{
-    std::vector<uint32_t> chain { first };
-    for (int next = bsp.texinfos[first].next; next >= 0 && uint32_t(next) != first && chain.size() < bsp.texinfos.size();
-         next = bsp.texinfos[size_t(next)].next)
-        chain.push_back(uint32_t(next));
-    return chain;
 }
 
 // Flowing surfaces move by one picture of 64 texels in 1.6 seconds, to the left, as players know them.

@@ -24,6 +24,7 @@ inline constexpr uint32_t lightstyle_count = 258;
 struct MapGeometry {
     std::vector<shared::Triangle> triangles; // material = texinfo; emitter = index into `emitters`
     std::vector<uint32_t> masks;             // MASK_* per triangle
+    std::vector<uint8_t> has_holes; // per triangle, 1: the alpha of one of its pictures decides what is met
     std::vector<shared::Emitter> emitters;
     bool has_alpha_test = false;
 };

@@ -34,18 +34,6 @@ constexpr uint32_t max_triangles = 1u << 24;
 // Areas of larger boxes and distances to them would not fit a float.
 constexpr float max_coordinate = 1e15f;
 
-bool is_usable(const BvhTriangle& triangle)
-{
-    for (glm::vec3 p : triangle.positions)
-        for (int axis = 0; axis < 3; axis++)
-            if (!(std::abs(p[axis]) <= max_coordinate)) // NaN as well
-                return false;
-    glm::dvec3 corner = triangle.positions[0];
-    glm::dvec3 normal
-        = glm::cross(glm::dvec3(triangle.positions[1]) - corner, glm::dvec3(triangle.positions[2]) - corner);
-    return normal != glm::dvec3(0.0) && triangle.id <= BVH_ID_MASK;
-}
-
 // 16-bit positions in the root's box, on every axis with a margin.
 struct Grid {
     glm::vec3 origin { 0 };
@@ -218,6 +206,18 @@ void write_triangles(
 
 } // namespace
 
+bool can_be_met(const BvhTriangle& triangle)
+{
+    for (glm::vec3 p : triangle.positions)
+        for (int axis = 0; axis < 3; axis++)
+            if (!(std::abs(p[axis]) <= max_coordinate)) // NaN as well
+                return false;
+    glm::dvec3 corner = triangle.positions[0];
+    glm::dvec3 normal
+        = glm::cross(glm::dvec3(triangle.positions[1]) - corner, glm::dvec3(triangle.positions[2]) - corner);
+    return normal != glm::dvec3(0.0) && triangle.id <= BVH_ID_MASK;
+}
+
 Bvh build_bvh(std::span<const BvhTriangle> triangles, BvhQuality quality)
 {
     std::vector<uint32_t> usable;
@@ -225,7 +225,7 @@ Bvh build_bvh(std::span<const BvhTriangle> triangles, BvhQuality quality)
     usable.reserve(triangles.size());
     boxes.reserve(triangles.size());
     for (size_t i = 0; i < triangles.size() && usable.size() < max_triangles; i++) {
-        if (!is_usable(triangles[i]))
+        if (!can_be_met(triangles[i]))
             continue;
         Box& box = boxes.emplace_back();
         for (glm::vec3 p : triangles[i].positions)

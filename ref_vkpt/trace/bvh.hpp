@@ -31,6 +31,9 @@ struct Bvh {
     uint32_t max_depth = 0; // of the wide tree, in nodes
 };
 
+// Whether a ray can meet it: false for degenerate, infinite and NaN triangles, corners beyond 1e15 and ids of 2^24 and more.
+bool can_be_met(const BvhTriangle& triangle);
+
 // Never fails: degenerate, infinite and NaN triangles are left out, as are corners beyond 1e15, ids of 2^24 and more
 // and triangles after the first 2^24 usable ones; compare triangle_count where that matters. No triangle gives a valid,
 // empty tree. No tree needs more than TRACE_STACK_ENTRIES (shaders/shared/trace.h) to walk.

@@ -134,6 +134,25 @@ const char* require_features(const Features& has, Features& use)
     return nullptr;
 }
 
+// What the device's own ray tracing needs, asked for only where its extensions are.
+struct RayTracingFeatures {
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structures {
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR
+    };
+    VkPhysicalDeviceRayQueryFeaturesKHR query { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR };
+    VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline {
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR
+    };
+};
+
+// Links a feature or property struct into the chain behind `head`.
+template <class Head, class Link>
+void chain(Head& head, Link& link)
+{
+    link.pNext = head.pNext;
+    head.pNext = &link;
+}
+
 int rank_device_type(VkPhysicalDeviceType type)
 {
     switch (type) {
@@ -215,7 +234,7 @@ Device::Device(const DeviceSettings& settings)
     try {
         create_instance(settings);
         choose_physical_device(settings);
-        create_logical_device();
+        create_logical_device(settings.ray_tracing);
     } catch (...) {
         destroy();
         throw;
@@ -337,18 +356,51 @@ void Device::choose_physical_device(const DeviceSettings& settings)
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
 }
 
-void Device::create_logical_device()
+void Device::create_logical_device(bool ray_tracing)
 {
+    const std::vector<VkExtensionProperties> offered = device_extensions(physical);
+    std::vector<const char*> extensions;
+    has_swapchain = windowed_ && contains(offered, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (has_swapchain)
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+
+    const bool structures = ray_tracing && contains(offered, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME)
+        && contains(offered, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
+    const bool query = structures && contains(offered, VK_KHR_RAY_QUERY_EXTENSION_NAME);
+    const bool pipeline = structures && contains(offered, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+
     Features has, use;
+    RayTracingFeatures has_rays, use_rays;
+    if (structures)
+        chain(has.core, has_rays.structures);
+    if (query)
+        chain(has.core, has_rays.query);
+    if (pipeline)
+        chain(has.core, has_rays.pipeline);
     vkGetPhysicalDeviceFeatures2(physical, &has.core);
     require_features(has, use);
     has_anisotropy = has.core.features.samplerAnisotropy;
     use.core.features.samplerAnisotropy = has.core.features.samplerAnisotropy;
 
-    std::vector<const char*> extensions;
-    has_swapchain = windowed_ && contains(device_extensions(physical), VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-    if (has_swapchain)
-        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    has_ray_query = has_rays.structures.accelerationStructure && has_rays.query.rayQuery;
+    has_ray_pipeline = has_rays.structures.accelerationStructure && has_rays.pipeline.rayTracingPipeline;
+    if (has_acceleration_structures()) {
+        extensions.push_back(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME);
+        extensions.push_back(VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
+        use_rays.structures.accelerationStructure = VK_TRUE;
+        chain(use.core, use_rays.structures);
+    }
+    if (has_ray_query) {
+        extensions.push_back(VK_KHR_RAY_QUERY_EXTENSION_NAME);
+        use_rays.query.rayQuery = VK_TRUE;
+        chain(use.core, use_rays.query);
+    }
+    if (has_ray_pipeline) {
+        extensions.push_back(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+        use_rays.pipeline.rayTracingPipeline = VK_TRUE;
+        chain(use.core, use_rays.pipeline);
+    }
+    read_ray_tracing_limits();
 
     const float priority = 1;
     VkDeviceQueueCreateInfo queues { VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO };
@@ -365,6 +417,26 @@ void Device::create_logical_device()
     VKPT_CHECK(vkCreateDevice(physical, &info, nullptr, &handle));
     load_device_functions(handle);
     vkGetDeviceQueue(handle, queue_family, 0, &queue);
+}
+
+void Device::read_ray_tracing_limits()
+{
+    VkPhysicalDeviceProperties2 limits { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2 };
+    VkPhysicalDeviceAccelerationStructurePropertiesKHR structures {
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR
+    };
+    VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline {
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR
+    };
+    if (has_acceleration_structures())
+        chain(limits, structures);
+    if (has_ray_pipeline)
+        chain(limits, pipeline);
+    vkGetPhysicalDeviceProperties2(physical, &limits);
+    scratch_alignment = std::max(structures.minAccelerationStructureScratchOffsetAlignment, 1u);
+    shader_group_bytes = pipeline.shaderGroupHandleSize;
+    shader_group_alignment = std::max(pipeline.shaderGroupHandleAlignment, 1u);
+    shader_table_alignment = std::max(pipeline.shaderGroupBaseAlignment, 1u);
 }
 
 void Device::wait_idle() const { VKPT_CHECK(vkDeviceWaitIdle(handle)); }

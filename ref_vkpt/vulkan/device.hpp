@@ -20,6 +20,7 @@ struct DeviceSettings {
     std::string name_part; // empty: the best device
     bool validation = false;
     std::vector<const char*> instance_extensions; // what the window asks for
+    bool ray_tracing = true; // enable the device's own ray tracing where it has it
     std::string cache_directory; // for the driver's shader cache; empty: the driver's own place
 };
 
@@ -47,6 +48,20 @@ public:
     bool has_debug_utils = false;
     bool has_anisotropy = false;
     uint32_t max_textures = 0;
+
+    // The device's own ray tracing. Shaders read acceleration structures through addresses.
+    bool has_ray_query = false;
+    bool has_ray_pipeline = false;
+    bool has_acceleration_structures() const { return has_ray_query || has_ray_pipeline; }
+    VkDeviceSize scratch_alignment = 1; // of acceleration structure builds
+    uint32_t shader_group_bytes = 0, shader_group_alignment = 1, shader_table_alignment = 1; // of ray tracing pipelines
+    // Where our shaders run.
+    VkPipelineStageFlags shader_stages() const
+    {
+        return VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT
+            | (has_ray_pipeline ? VkPipelineStageFlags(VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR) : 0);
+    }
+
     // How many validation messages have been printed.
     static uint32_t validation_messages();
 
@@ -58,7 +73,8 @@ public:
 private:
     void create_instance(const DeviceSettings& settings);
     void choose_physical_device(const DeviceSettings& settings);
-    void create_logical_device();
+    void create_logical_device(bool ray_tracing);
+    void read_ray_tracing_limits();
     void destroy();
 
     std::unique_ptr<CpuDriverSettings> cpu_driver_;

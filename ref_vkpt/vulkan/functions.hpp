@@ -118,7 +118,15 @@
     X(vkQueuePresentKHR)                                                                                               \
     X(vkCmdBeginDebugUtilsLabelEXT)                                                                                    \
     X(vkCmdEndDebugUtilsLabelEXT)                                                                                      \
-    X(vkSetDebugUtilsObjectNameEXT)
+    X(vkSetDebugUtilsObjectNameEXT)                                                                                    \
+    X(vkCreateAccelerationStructureKHR)                                                                                \
+    X(vkDestroyAccelerationStructureKHR)                                                                               \
+    X(vkGetAccelerationStructureBuildSizesKHR)                                                                         \
+    X(vkGetAccelerationStructureDeviceAddressKHR)                                                                      \
+    X(vkCmdBuildAccelerationStructuresKHR)                                                                             \
+    X(vkCreateRayTracingPipelinesKHR)                                                                                  \
+    X(vkGetRayTracingShaderGroupHandlesKHR)                                                                            \
+    X(vkCmdTraceRaysKHR)
 
 #define VKPT_DECLARE(name) extern PFN_##name name;
 VKPT_DECLARE(vkGetInstanceProcAddr)

@@ -3,8 +3,10 @@
 
 #include "ref_vkpt/engine/errors.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -20,6 +22,22 @@ std::vector<char> read_file(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
     return { std::istreambuf_iterator<char>(file), {} };
+}
+
+// The stages of a ray tracing pipeline, and its groups in the order of the shader binding table.
+enum RayStage : uint32_t { stage_generation, stage_miss, stage_closest_hit, stage_any_hit, stage_count };
+enum RayGroup : uint32_t { group_generation, group_miss, group_hit, group_count };
+
+VkRayTracingShaderGroupCreateInfoKHR make_group(uint32_t general, uint32_t closest_hit, uint32_t any_hit)
+{
+    VkRayTracingShaderGroupCreateInfoKHR group { VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR };
+    group.type = general == VK_SHADER_UNUSED_KHR ? VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR
+                                                 : VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
+    group.generalShader = general;
+    group.closestHitShader = closest_hit;
+    group.anyHitShader = any_hit;
+    group.intersectionShader = VK_SHADER_UNUSED_KHR;
+    return group;
 }
 
 } // namespace
@@ -40,6 +58,8 @@ Pipelines::~Pipelines()
     save_cache();
     for (auto& [name, pipeline] : compute_)
         vkDestroyPipeline(gpu_.device.handle, pipeline, nullptr);
+    for (auto& [name, pipeline] : ray_)
+        vkDestroyPipeline(gpu_.device.handle, pipeline.handle, nullptr);
     vkDestroyPipelineCache(gpu_.device.handle, cache_, nullptr);
 }
 
@@ -74,6 +94,69 @@ VkPipeline Pipelines::compute(std::string_view shader)
     gpu_.device.name_object(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shader);
     compute_.emplace(shader, pipeline);
     return pipeline;
+}
+
+VkPipeline Pipelines::make_ray_pipeline(std::string_view shader) const
+{
+    const std::string_view names[stage_count] = { shader, "trace.rmiss", "trace.rchit", "trace.rahit" };
+    constexpr VkShaderStageFlagBits kinds[stage_count] = { VK_SHADER_STAGE_RAYGEN_BIT_KHR, VK_SHADER_STAGE_MISS_BIT_KHR,
+        VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, VK_SHADER_STAGE_ANY_HIT_BIT_KHR };
+    VkPipelineShaderStageCreateInfo stages[stage_count] {};
+    for (uint32_t i = 0; i < stage_count; i++) {
+        stages[i].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        stages[i].stage = kinds[i];
+        stages[i].module = make_module(names[i]);
+        stages[i].pName = "main";
+    }
+    VkRayTracingShaderGroupCreateInfoKHR groups[group_count];
+    groups[group_generation] = make_group(stage_generation, VK_SHADER_UNUSED_KHR, VK_SHADER_UNUSED_KHR);
+    groups[group_miss] = make_group(stage_miss, VK_SHADER_UNUSED_KHR, VK_SHADER_UNUSED_KHR);
+    groups[group_hit] = make_group(VK_SHADER_UNUSED_KHR, stage_closest_hit, stage_any_hit);
+    VkRayTracingPipelineCreateInfoKHR info { VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR };
+    info.stageCount = stage_count;
+    info.pStages = stages;
+    info.groupCount = group_count;
+    info.pGroups = groups;
+    info.maxPipelineRayRecursionDepth = 1; // only ray generation shaders trace
+    info.layout = bindings_.pipeline_layout();
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    const VkResult result
+        = vkCreateRayTracingPipelinesKHR(gpu_.device.handle, VK_NULL_HANDLE, cache_, 1, &info, nullptr, &pipeline);
+    for (const VkPipelineShaderStageCreateInfo& stage : stages)
+        vkDestroyShaderModule(gpu_.device.handle, stage.module, nullptr);
+    check_vulkan(result, "vkCreateRayTracingPipelinesKHR");
+    gpu_.device.name_object(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shader);
+    return pipeline;
+}
+
+void Pipelines::fill_table(RayPipeline& pipeline) const
+{
+    const uint32_t bytes = gpu_.device.shader_group_bytes;
+    const VkDeviceSize alignment = std::max(gpu_.device.shader_table_alignment, gpu_.device.shader_group_alignment);
+    const VkDeviceSize stride = (bytes + alignment - 1) / alignment * alignment;
+    std::vector<std::byte> handles(size_t(bytes) * group_count);
+    VKPT_CHECK(vkGetRayTracingShaderGroupHandlesKHR(
+        gpu_.device.handle, pipeline.handle, 0, group_count, handles.size(), handles.data()));
+    pipeline.table = Buffer(
+        gpu_, stride * group_count + alignment, BufferHome::upload, MemoryKind::acceleration, "shader binding table");
+    const VkDeviceAddress start = (pipeline.table.address() + alignment - 1) / alignment * alignment;
+    std::byte* mapped = pipeline.table.mapped() + (start - pipeline.table.address());
+    VkStridedDeviceAddressRegionKHR* regions[group_count] = { &pipeline.generation, &pipeline.miss, &pipeline.hit };
+    for (uint32_t group = 0; group < group_count; group++) {
+        std::memcpy(mapped + group * stride, &handles[size_t(group) * bytes], bytes);
+        *regions[group] = { start + group * stride, stride, stride };
+    }
+}
+
+const RayPipeline& Pipelines::ray(std::string_view shader)
+{
+    if (auto found = ray_.find(shader); found != ray_.end())
+        return found->second;
+    RayPipeline pipeline;
+    pipeline.handle = make_ray_pipeline(shader);
+    RayPipeline& kept = ray_.emplace(shader, std::move(pipeline)).first->second;
+    fill_table(kept);
+    return kept;
 }
 
 void Pipelines::save_cache() const

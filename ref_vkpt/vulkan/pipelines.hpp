@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Shader modules and compute pipelines by name, made when first asked for; the driver's pipeline cache is kept on disk.
+// Shader modules and pipelines by name, made when first asked for; the driver's pipeline cache is kept on disk.
 #pragma once
 
 #include "ref_vkpt/vulkan/bindings.hpp"
@@ -11,6 +11,13 @@
 
 namespace vkpt {
 
+// A ray generation shader with the shared trace shaders, and its shader binding table of one record a kind.
+struct RayPipeline {
+    VkPipeline handle = VK_NULL_HANDLE;
+    Buffer table;
+    VkStridedDeviceAddressRegionKHR generation {}, miss {}, hit {}, callable {};
+};
+
 class Pipelines {
 public:
     // `cache_file`: where the pipeline cache lives; empty: nowhere.
@@ -20,18 +27,23 @@ public:
     Pipelines& operator=(const Pipelines&) = delete;
 
     VkPipeline compute(std::string_view shader);
+    // `shader`: the ray generation one.
+    const RayPipeline& ray(std::string_view shader);
     // The caller destroys the module.
     VkShaderModule make_module(std::string_view shader) const;
     VkPipelineCache cache() const { return cache_; }
 
 private:
     void save_cache() const;
+    VkPipeline make_ray_pipeline(std::string_view shader) const;
+    void fill_table(RayPipeline& pipeline) const;
 
     Gpu gpu_;
     const Bindings& bindings_;
     std::string cache_file_;
     VkPipelineCache cache_ = VK_NULL_HANDLE;
     std::map<std::string, VkPipeline, std::less<>> compute_;
+    std::map<std::string, RayPipeline, std::less<>> ray_;
 };
 
 } // namespace vkpt

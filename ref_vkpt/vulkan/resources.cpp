@@ -14,6 +14,11 @@ Buffer::Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind k
     info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
         | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT
         | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    if (gpu.device.has_acceleration_structures())
+        info.usage |= VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR
+            | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+    if (gpu.device.has_ray_pipeline)
+        info.usage |= VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR;
     VKPT_CHECK(vkCreateBuffer(device_, &info, nullptr, &handle_));
     try {
         VkMemoryRequirements requirements;

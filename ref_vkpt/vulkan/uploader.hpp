@@ -30,6 +30,9 @@ public:
     // Submits what was recorded and waits for it. Does nothing if nothing was recorded.
     void flush();
 
+    // For other work that belongs to the load: recorded behind the copies so far, run by flush().
+    VkCommandBuffer commands() { return begin(); }
+
 private:
     VkCommandBuffer begin();
     Buffer& stage(std::span<const std::byte> bytes);

@@ -33,8 +33,22 @@ uvec2 pixel_in_tile(uint lane)
     return uvec2(((lane >> 4u) & 1u) * 4u + (lane & 3u), (lane >> 5u) * 4u + ((lane >> 2u) & 3u));
 }
 
-// Defines main(): calls run(pixel, index of the pixel in the screen buffers) for each pixel of the view. Workgroups walk
-// several tiles because starting one costs the CPU driver as much as a cheap pixel pass.
+// How a pass runs over its pixels, or over PIXEL_GROUP_SIZE lanes with a number each: the two macros define
+// main(), which calls run(pixel, index of the pixel in the screen buffers) or run(lane). They are
+// what lets one source be a compute shader or, for the trace backend "pipeline", a ray generation shader, which has neither
+// workgroups nor shared memory: a pass that traces keeps to them.
+#if defined(VKPT_TRACE_PIPELINE)
+#extension GL_EXT_ray_tracing : require
+
+// One launch index a pixel.
+#define VKPT_RUN_OVER_PIXELS(run)                                                                                      \
+    void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y * frame.size.x + gl_LaunchIDEXT.x); }
+#define VKPT_RUN_OVER_LANES(run)                                                                                       \
+    void main() { run(gl_LaunchIDEXT.x); }
+
+#else
+
+// Workgroups walk several tiles because starting one costs the CPU driver as much as a cheap pixel pass.
 #define VKPT_RUN_OVER_PIXELS(run)                                                                                      \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
     void main()                                                                                                        \
@@ -48,5 +62,10 @@ uvec2 pixel_in_tile(uint lane)
                 run(pixel, pixel.y * frame.size.x + pixel.x);                                                          \
         }                                                                                                              \
     }
+#define VKPT_RUN_OVER_LANES(run)                                                                                       \
+    layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
+    void main() { run(gl_LocalInvocationIndex); }
+
+#endif
 
 #endif

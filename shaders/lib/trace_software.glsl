@@ -19,13 +19,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "../shared/trace.h"
-
-struct RawHit {
-    uint triangle;     // id, or TRACE_MISS
-    float t;           // distance in lengths of `direction`; of a miss: the distance up to which nothing was met
-    vec2 barycentrics; // weights of the triangle's second and third corner
-    uint front;        // 1: the ray came from the side that cross(p1 - p0, p2 - p0) points to
-};
+#include "ray.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer BvhWords64 { uint64_t words[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhWords32 { uint words[]; };
@@ -37,9 +31,6 @@ uint64_t software_stack(uint64_t stack_buffer, uint lane)
     uint group = lane / TRACE_STACK_INTERLEAVE, place = lane % TRACE_STACK_INTERLEAVE;
     return stack_buffer + uint64_t(group) * (TRACE_STACK_BYTES_PER_LANE * TRACE_STACK_INTERLEAVE) + uint64_t(place * 8u);
 }
-
-// What to start a sequence of software_trace() calls with.
-RawHit software_miss(float t_max) { return RawHit(TRACE_MISS, t_max, vec2(0.0), 0u); }
 
 // A child's key is its entry distance with its index in the lowest bits: keys of positive floats sort as integers.
 const int bvh_key_none = 0x7f7fffff; // above every distance: the largest finite float
@@ -160,7 +151,7 @@ bool bvh_test_triangle(uint64_t address, vec3 origin, vec3 direction, int t_min,
         top += bvh_stack_stride;                                                                                              \
     }
 
-// Replaces `hit` by the tree's nearest triangle with t in (t_min, hit.t) and (mask & ray_mask) != 0, if there is one; with
+// Replaces `hit` (at first no_hit()) by the tree's nearest triangle with t in (t_min, hit.t) and (mask & ray_mask) != 0, if there is one; with
 // `any_hit` by the first such triangle found. Call it for one tree after the other to search several; for a short compile, in a
 // loop, so that the generated code has it once (software_trace_all). Every ray ends: zero, infinite and NaN ones meet nothing
 // or something, and read nothing outside the tree. `stack`: software_stack() of this lane.
@@ -226,7 +217,7 @@ void software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, inout
 RawHit software_trace_all(uint64_t trees, uint tree_count, vec3 origin, vec3 direction, float t_min, float t_max,
     uint ray_mask, bool any_hit, uint64_t stack)
 {
-    RawHit hit = software_miss(t_max);
+    RawHit hit = no_hit(t_max);
     [[dont_unroll]] for (uint tree = 0u; tree < tree_count; tree++) {
         software_trace(BvhViews(trees).views[tree], origin, direction, t_min, hit, ray_mask, any_hit, stack);
         if (any_hit && hit.triangle != TRACE_MISS)

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Triangles whose picture has holes: what a ray meets there is decided by the picture.
+#ifndef VKPT_LIB_ALPHA_TEST
+#define VKPT_LIB_ALPHA_TEST
+
+#include "frame.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleBuffer { Triangle v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MaterialBuffer { Material v[]; };
+
+vec2 interpolate_uv(Triangle triangle, vec2 barycentrics)
+{
+    return triangle.uvs[0] * (1.0 - barycentrics.x - barycentrics.y) + triangle.uvs[1] * barycentrics.x
+        + triangle.uvs[2] * barycentrics.y;
+}
+
+// Whether the picture of triangle `id` has a hole at this place. The largest mip level counts, whatever the distance.
+bool is_cut_out(uint id, vec2 barycentrics)
+{
+    Triangle triangle = TriangleBuffer(frame.scene.triangles).v[id];
+    Material material = MaterialBuffer(frame.scene.materials).v[triangle.material];
+    if ((material.flags & MATERIAL_ALPHA_TEST) == 0u)
+        return false;
+    vec2 uv = interpolate_uv(triangle, barycentrics) + material.uv_scroll;
+    return textureLod(sampler2D(textures[nonuniformEXT(material.texture)], samplers[SAMPLER_REPEAT]), uv, 0.0).a < 0.5;
+}
+
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Backend "software": our own trees, walked in plain compute.
+#ifndef VKPT_LIB_SEARCH_SOFTWARE
+#define VKPT_LIB_SEARCH_SOFTWARE
+
+#include "alpha_test.glsl"
+#include "trace_software.glsl"
+
+// How many holes in a row a ray passes: more than any scene has, so that the loop ends whatever the driver makes of it.
+const uint max_alpha_layers = 256u;
+
+// The nearest triangle (with any_hit: some triangle) of the masked ones, alpha taken for opaque.
+RawHit search_trees(Ray ray, uint mask, bool any_hit)
+{
+    // Not gl_WorkGroupSize: it is only known behind the layout(local_size_x) of the including pass, and 1 before it.
+    uint lane = gl_WorkGroupID.x * PIXEL_GROUP_SIZE + gl_LocalInvocationIndex;
+    uint64_t stack = software_stack(frame.scene.trace_stack, lane);
+    RawHit hit = no_hit(ray.t_max);
+    [[dont_unroll]] for (uint tree = 0u; tree < frame.scene.tree_count; tree++) {
+        software_trace(frame.scene.trees[tree], ray.origin, ray.direction, ray.t_min, hit, mask, any_hit, stack);
+        if (any_hit && hit.triangle != TRACE_MISS)
+            break;
+    }
+    return hit;
+}
+
+// One call of the traversal, whatever there is to do: it is most of what the CPU driver has to compile. Behind a hole the
+// search goes on from exactly there: the same triangle at the same distance is outside of the open interval.
+RawHit search_ray(Ray ray, uint mask, bool any_hit)
+{
+    bool test_alpha = (frame.flags & FRAME_ALPHA_TEST) != 0u;
+    RawHit hit;
+    [[dont_unroll]] for (uint layer = 0u; layer < max_alpha_layers; layer++) {
+        hit = search_trees(ray, mask, any_hit && !test_alpha);
+        if (!test_alpha || hit.triangle == TRACE_MISS || !is_cut_out(hit.triangle, hit.barycentrics))
+            break;
+        ray.t_min = hit.t;
+    }
+    return hit;
+}
+
+#endif
