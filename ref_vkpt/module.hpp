@@ -7,6 +7,7 @@
 #include "ref_vkpt/frame/frame.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/scene/scene.hpp"
+#include "ref_vkpt/trace/trace_choice.hpp"
 
 #include <optional>
 
@@ -16,6 +17,7 @@ struct Module {
     explicit Module(const GraphicsSettings& settings);
 
     Graphics graphics;
+    TraceChoice trace_choice;
     TextureStore textures;
     Draw2d draw2d;
     Scene scene;

@@ -4,6 +4,7 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/exports.hpp"
+#include "ref_vkpt/frame/trace_measurement.hpp"
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/scene/camera.hpp"
 
@@ -120,6 +121,18 @@ void close_module()
         print_pass_statistics(*closing);
 }
 
+// In the last view; the device is between frames.
+void measure_trace_backends(Module& m)
+{
+    if (!m.snapshot || m.graphics.is_recording()) {
+        engine::print("ref_vkpt: rays are measured in a view of a map: start one first");
+        return;
+    }
+    m.trace_choice.measure([&](TraceBackend backend) {
+        return measure_trace_backend(m.frame, backend, *m.snapshot, m.gpu_world);
+    });
+}
+
 struct Command {
     const char* name;
     void (*function)();
@@ -127,6 +140,7 @@ struct Command {
 // Each wrapped, so that what it throws becomes the engine's error.
 constexpr Command commands[] = {
     { "pt_info", [] { run_command(print_info); } },
+    { "pt_trace_measure", [] { run_command([] { module() ? measure_trace_backends(*module()) : void(); }); } },
     { "pt_times_print", [] { run_command([] { module() ? print_pass_statistics(*module()) : void(); }); } },
     { "screenshot", [] { run_command(take_screenshot); } },
     { "imagelist", [] { run_command([] { module() ? module()->textures.print_list() : void(); }); } },
@@ -138,6 +152,7 @@ bool commands_added = false;
 
 Module::Module(const GraphicsSettings& settings)
     : graphics(settings)
+    , trace_choice(graphics.device, settings.cache_directory.empty() ? "" : settings.cache_directory + "/trace_backends.txt")
     , textures(graphics.gpu, graphics.bindings, graphics.uploader)
     , draw2d(graphics.gpu, graphics.bindings, graphics.pipelines, textures, frames_in_flight)
     , scene(textures)
@@ -166,8 +181,9 @@ bool init_context(void* sdl_window)
     running = std::make_unique<Module>(graphics_settings(sdl_window));
     start_failed = false;
     const Device& device = running->graphics.device;
-    engine::print("ref_vkpt: {} ({}), Vulkan {}, rays traced in software", device.properties.deviceName, device.driver,
+    engine::print("ref_vkpt: {} ({}), Vulkan {}", device.properties.deviceName, device.driver,
         describe_api_version(device.properties.apiVersion));
+    running->frame.set_trace_backend(running->trace_choice.choose(cvars::values().pt_trace));
     return true;
 }
 
@@ -255,9 +271,11 @@ void begin_frame(float)
     Module& m = *running;
     if (cvars::update()) {
         check_light_sampler();
-        m.frame.set_trace_backend(find_trace_backend(cvars::values().pt_trace).value_or(TraceBackend::software));
         m.graphics.set_vsync(cvars::values().r_vsync != 0);
     }
+    if (m.trace_choice.wants_measurement() && m.snapshot)
+        measure_trace_backends(m);
+    m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
     m.graphics.timer.collect_into(wanted_statistics());
     m.frame_has_view = false;
     if (m.graphics.begin_frame())

@@ -55,6 +55,7 @@ public:
     // The last view's accumulated radiance. The device must be idle.
     bool read_radiance(float* rgb);
     glm::uvec2 view_size() const { return view_size_; }
+    const View& last_view() const { return last_view_; }
     // Irradiance / pi at points, see Extension. Between frames.
     void measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t samples, SceneSnapshot& scene,
         const GpuWorld& gpu_world, float* rgb);

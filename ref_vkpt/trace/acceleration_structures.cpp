@@ -93,10 +93,8 @@ VkAccelerationStructureInstanceKHR make_instance(
         instance.transform.matrix[i][i] = 1;
     instance.instanceCustomIndex = (table << shared::STRUCTURE_TABLE_SHIFT | group.first) & 0xffffffu;
     instance.mask = group.mask & 0xffu;
-    // Our fronts are counter-clockwise, and both sides are met.
-    instance.flags = (VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR
-                         | VK_GEOMETRY_INSTANCE_TRIANGLE_FRONT_COUNTERCLOCKWISE_BIT_KHR)
-        & 0xffu;
+    // Both sides are met. Vulkan's default front is ours: clockwise where its rays' space, unlike ours, is left-handed.
+    instance.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR & 0xffu;
     instance.accelerationStructureReference = structure.address();
     return instance;
 }

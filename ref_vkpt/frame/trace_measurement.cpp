@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/frame/trace_measurement.hpp"
+
+#include <glm/geometric.hpp>
+#include <random>
+#include <vector>
+
+namespace vkpt {
+
+namespace {
+
+constexpr uint32_t width = 320, height = 184; // whole tiles of 8 x 8
+constexpr uint32_t rounds = 5;
+constexpr float ray_far = 1e6f;
+constexpr uint32_t ray_mask = shared::MASK_OPAQUE | shared::MASK_ALPHA_TEST | shared::MASK_SKY;
+
+TracedRay make_ray(glm::vec3 origin, glm::vec3 direction, float t_max)
+{
+    return { { origin.x, origin.y, origin.z }, 0, { direction.x, direction.y, direction.z }, t_max };
+}
+
+glm::vec3 origin_of(const TracedRay& ray) { return { ray.origin[0], ray.origin[1], ray.origin[2] }; }
+glm::vec3 direction_of(const TracedRay& ray) { return { ray.direction[0], ray.direction[1], ray.direction[2] }; }
+
+std::vector<TracedRay> camera_rays(const shared::Camera& camera)
+{
+    std::vector<TracedRay> rays;
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / glm::vec2(width, height) * 2.0f - 1.0f;
+            rays.push_back(make_ray(
+                camera.eye, glm::normalize(camera.forward + camera.right * at.x - camera.up * at.y), ray_far));
+        }
+    return rays;
+}
+
+// From what each ray met, a ray back to the side that it came from: towards a random direction, or up to another such place.
+std::vector<TracedRay> next_rays(std::span<const TracedRay> rays, std::span<const TracedHit> hits, bool shadows)
+{
+    std::minstd_rand random(1);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    const auto place = [&](size_t i) {
+        return origin_of(rays[i]) + direction_of(rays[i]) * (std::min(hits[i].t, ray_far) * 0.999f - 0.1f);
+    };
+    std::vector<TracedRay> next;
+    for (size_t i = 0; i < rays.size(); i++) {
+        const glm::vec3 from = place(i);
+        glm::vec3 way(uniform(random), uniform(random), uniform(random));
+        if (shadows)
+            way = place(random() % rays.size()) - from;
+        else if (glm::dot(way, direction_of(rays[i])) > 0)
+            way = -way;
+        const float length = std::max(glm::length(way), 1e-3f);
+        next.push_back(make_ray(from, way / length, shadows ? length : ray_far));
+    }
+    return next;
+}
+
+} // namespace
+
+double measure_trace_backend(Frame& frame, TraceBackend backend, SceneSnapshot& scene, const GpuWorld& gpu_world)
+{
+    const TraceBackend before = frame.trace_backend();
+    frame.set_trace_backend(backend);
+    TraceRequest request;
+    request.ray_mask = ray_mask;
+    request.row_length = width;
+    request.rounds = rounds;
+    double seconds = 0;
+    const auto trace = [&](const std::vector<TracedRay>& rays) {
+        std::vector<TracedHit> hits(rays.size());
+        seconds += frame.trace_rays(rays, request, scene, gpu_world, hits.data());
+        return hits;
+    };
+    const std::vector<TracedRay> primary = camera_rays(frame.last_view().camera);
+    const std::vector<TracedHit> hits = trace(primary);
+    trace(next_rays(primary, hits, false));
+    request.visibility = true;
+    trace(next_rays(primary, hits, true));
+    frame.set_trace_backend(before);
+    return seconds * 1e9 / (3.0 * width * height);
+}
+
+} // namespace vkpt
