@@ -54,14 +54,14 @@ struct TracedHit {
     uint32_t triangle; // id, or 0xffffffff: nothing was met. Where visibility is asked for, any other number: something
     float t;
     float barycentrics[2]; // weights of the triangle's second and third corner
-    uint32_t front;        // 1: met from its front
+    uint32_t front; // 1: met from its front
 };
 
 struct TraceRequest {
-    uint32_t ray_mask = 0xff;    // MASK_* of shaders/shared/scene.h
-    bool visibility = false;     // whether anything is met, instead of the nearest
-    uint32_t row_length = 1024;  // rays are traced like pixels of a picture so wide: in tiles of 8 x 8
-    uint32_t rounds = 1;         // how often, for timing; the first of several is preceded by one more that does not count
+    uint32_t ray_mask = 0xff; // MASK_* of shaders/shared/scene.h
+    bool visibility = false; // whether anything is met, instead of the nearest
+    uint32_t row_length = 1024; // rays are traced like pixels of a picture so wide: in tiles of 8 x 8
+    uint32_t rounds = 1; // how often, for timing; the first of several is preceded by one more that does not count
 };
 
 struct Extension {
@@ -82,8 +82,8 @@ struct Extension {
     // Irradiance / pi (that is: the radiance of a white diffuse surface) at each probe, RGB, `samples` paths each,
     // in the map of the last frame with its lightstyles. False: no map.
     bool (*measure_irradiance)(const IrradianceProbe* probes, size_t count, uint32_t samples, float* rgb);
-    // Traces rays through the scene of the last frame by the trace backend in use. Returns the seconds that one round took on
-    // the device; negative: no map.
+    // Traces rays through the scene of the last frame by the trace backend in use. Returns the seconds that one round
+    // took on the device; negative: no map.
     double (*trace_rays)(const TracedRay* rays, size_t count, const TraceRequest* request, TracedHit* hits);
 };
 

@@ -128,9 +128,8 @@ void measure_trace_backends(Module& m)
         engine::print("ref_vkpt: rays are measured in a view of a map: start one first");
         return;
     }
-    m.trace_choice.measure([&](TraceBackend backend) {
-        return measure_trace_backend(m.frame, backend, *m.snapshot, m.gpu_world);
-    });
+    m.trace_choice.measure(
+        [&](TraceBackend backend) { return measure_trace_backend(m.frame, backend, *m.snapshot, m.gpu_world); });
 }
 
 struct Command {
@@ -152,7 +151,8 @@ bool commands_added = false;
 
 Module::Module(const GraphicsSettings& settings)
     : graphics(settings)
-    , trace_choice(graphics.device, settings.cache_directory.empty() ? "" : settings.cache_directory + "/trace_backends.txt")
+    , trace_choice(
+          graphics.device, settings.cache_directory.empty() ? "" : settings.cache_directory + "/trace_backends.txt")
     , textures(graphics.gpu, graphics.bindings, graphics.uploader)
     , draw2d(graphics.gpu, graphics.bindings, graphics.pipelines, textures, frames_in_flight)
     , scene(textures)

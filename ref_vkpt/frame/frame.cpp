@@ -309,10 +309,12 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
     bind(write_uniforms(uniforms));
     const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
     // The picture may just have been cleared or drawn on, and the last frame may still be read.
-    record_memory_barrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT, shaders, shader_access);
+    record_memory_barrier(
+        commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT, shaders, shader_access);
     graphics_.timer.mark(commands_, "2d");
     record_passes(uniforms, Surfaces::camera, scene.world != nullptr);
-    record_memory_barrier(commands_, shaders, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    record_memory_barrier(
+        commands_, shaders, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     accumulated_frames_++;
 }
 
@@ -323,7 +325,8 @@ bool Frame::read_radiance(float* rgb)
         return false;
     const Buffer copy(graphics_.gpu, bytes, BufferHome::readback, MemoryKind::staging, "radiance readback");
     graphics_.run_once([&](VkCommandBuffer commands) {
-        record_memory_barrier(commands, graphics_.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+        record_memory_barrier(commands, graphics_.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT,
+            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
         const VkBufferCopy region { 0, 0, bytes };
         vkCmdCopyBuffer(commands, graphics_.screen.accumulated().handle(), copy.handle(), 1, &region);
         record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
@@ -372,17 +375,18 @@ double Frame::trace_rays(std::span<const TracedRay> rays, const TraceRequest& re
     const size_t chunk = size_t(pixels_at_once / row) * row;
     double seconds = 0;
     for (size_t first = 0; first < rays.size(); first += chunk)
-        trace_chunk(rays.subspan(first, std::min(chunk, rays.size() - first)), row, request, scene, gpu_world, hits + first,
-            seconds);
+        trace_chunk(rays.subspan(first, std::min(chunk, rays.size() - first)), row, request, scene, gpu_world,
+            hits + first, seconds);
     restart_accumulation();
     return seconds / std::max(request.rounds, 1u);
 }
 
-void Frame::trace_chunk(std::span<const TracedRay> rays, uint32_t row, const TraceRequest& request, SceneSnapshot& scene,
-    const GpuWorld& gpu_world, TracedHit* hits, double& seconds)
+void Frame::trace_chunk(std::span<const TracedRay> rays, uint32_t row, const TraceRequest& request,
+    SceneSnapshot& scene, const GpuWorld& gpu_world, TracedHit* hits, double& seconds)
 {
     static_assert(sizeof(TracedRay) == 8 * sizeof(float) && sizeof(TracedHit) == 5 * sizeof(float));
-    const Buffer result(graphics_.gpu, rays.size() * sizeof(TracedHit), BufferHome::readback, MemoryKind::staging, "traced hits");
+    const Buffer result(
+        graphics_.gpu, rays.size() * sizeof(TracedHit), BufferHome::readback, MemoryKind::staging, "traced hits");
     View view;
     view.size = { row, (uint32_t(rays.size()) + row - 1) / row };
     graphics_.finish();

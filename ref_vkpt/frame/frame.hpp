@@ -59,7 +59,8 @@ public:
     // Irradiance / pi at points, see Extension. Between frames.
     void measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t samples, SceneSnapshot& scene,
         const GpuWorld& gpu_world, float* rgb);
-    // Traces rays through the scene by the backend in use, see Extension. Between frames. Returns the seconds of one round.
+    // Traces rays through the scene by the backend in use, see Extension. Between frames. Returns the seconds of one
+    // round.
     double trace_rays(std::span<const TracedRay> rays, const TraceRequest& request, SceneSnapshot& scene,
         const GpuWorld& gpu_world, TracedHit* hits);
 

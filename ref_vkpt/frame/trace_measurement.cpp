@@ -28,13 +28,14 @@ std::vector<TracedRay> camera_rays(const shared::Camera& camera)
     for (uint32_t y = 0; y < height; y++)
         for (uint32_t x = 0; x < width; x++) {
             const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / glm::vec2(width, height) * 2.0f - 1.0f;
-            rays.push_back(make_ray(
-                camera.eye, glm::normalize(camera.forward + camera.right * at.x - camera.up * at.y), ray_far));
+            rays.push_back(
+                make_ray(camera.eye, glm::normalize(camera.forward + camera.right * at.x - camera.up * at.y), ray_far));
         }
     return rays;
 }
 
-// From what each ray met, a ray back to the side that it came from: towards a random direction, or up to another such place.
+// From what each ray met, a ray back to the side that it came from: towards a random direction, or up to another such
+// place.
 std::vector<TracedRay> next_rays(std::span<const TracedRay> rays, std::span<const TracedHit> hits, bool shadows)
 {
     std::minstd_rand random(1);

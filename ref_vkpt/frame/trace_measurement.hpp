@@ -6,8 +6,8 @@
 
 namespace vkpt {
 
-// Nanoseconds per ray, over camera rays, diffuse bounces and shadow rays from the last view, compilation not counted. Takes
-// some tens of milliseconds on a GPU. Between frames; the frame keeps its backend.
+// Nanoseconds per ray, over camera rays, diffuse bounces and shadow rays from the last view, compilation not counted.
+// Takes some tens of milliseconds on a GPU. Between frames; the frame keeps its backend.
 double measure_trace_backend(Frame& frame, TraceBackend backend, SceneSnapshot& scene, const GpuWorld& gpu_world);
 
 } // namespace vkpt

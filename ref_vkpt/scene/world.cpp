@@ -47,22 +47,24 @@ uint32_t triangle_mask(const BspTexinfo& texinfo)
     return texinfo.flags & SURF_ALPHATEST ? shared::MASK_ALPHA_TEST : shared::MASK_OPAQUE;
 }
 
-// The texinfos of an animation, starting with `first`; one alone: no animation. read_bsp cut chains that never come back.
+// The texinfos of an animation, starting with `first`; one alone: no animation. read_bsp cut chains that never come
+// back.
 std::vector<uint32_t> animation_chain(const Bsp& bsp, uint32_t first)
 {
     std::vector<uint32_t> chain { first };
-    for (int next = bsp.texinfos[first].next; next >= 0 && uint32_t(next) != first && chain.size() < bsp.texinfos.size();
+    for (int next = bsp.texinfos[first].next;
+         next >= 0 && uint32_t(next) != first && chain.size() < bsp.texinfos.size();
          next = bsp.texinfos[size_t(next)].next)
         chain.push_back(uint32_t(next));
     return chain;
 }
 
-// One frame of an animation with holes makes all of them count: structures on the device are built before it is known which
-// frame is shown.
+// One frame of an animation with holes makes all of them count: structures on the device are built before it is known
+// which frame is shown.
 bool has_holes(const Bsp& bsp, uint32_t texinfo)
 {
-    return std::ranges::any_of(
-        animation_chain(bsp, texinfo), [&](uint32_t frame) { return (bsp.texinfos[frame].flags & SURF_ALPHATEST) != 0; });
+    return std::ranges::any_of(animation_chain(bsp, texinfo),
+        [&](uint32_t frame) { return (bsp.texinfos[frame].flags & SURF_ALPHATEST) != 0; });
 }
 
 struct FaceContext {

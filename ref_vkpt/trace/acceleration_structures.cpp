@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Vulkan's ray masks belong to instances and its opacity to geometries, so each combination of the two that occurs is a bottom
-// level of its own (triangle_groups.hpp) and one instance of the top level, at the identity: triangles are in world space.
+// Vulkan's ray masks belong to instances and its opacity to geometries, so each combination of the two that occurs is a
+// bottom level of its own (triangle_groups.hpp) and one instance of the top level, at the identity: triangles are in
+// world space.
 #include "ref_vkpt/trace/acceleration_structures.hpp"
 
 #include "shaders/shared/trace.h"
@@ -20,12 +21,17 @@ constexpr VkAccessFlags structure_read = VK_ACCESS_ACCELERATION_STRUCTURE_READ_B
 
 constexpr uint32_t table_world = 0, table_moving = 1;
 
-VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) { return (value + alignment - 1) / alignment * alignment; }
+VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment)
+{
+    return (value + alignment - 1) / alignment * alignment;
+}
 
 // One geometry and what its build is told. Not movable: the info points at the geometry.
 struct Build {
     VkAccelerationStructureGeometryKHR geometry { VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR };
-    VkAccelerationStructureBuildGeometryInfoKHR info { VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR };
+    VkAccelerationStructureBuildGeometryInfoKHR info {
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR
+    };
     VkAccelerationStructureBuildRangeInfoKHR range {};
     uint32_t count = 0; // primitives
 
@@ -43,7 +49,9 @@ struct Build {
 
     VkAccelerationStructureBuildSizesInfoKHR sizes(VkDevice device, uint32_t capacity) const
     {
-        VkAccelerationStructureBuildSizesInfoKHR sizes { VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR };
+        VkAccelerationStructureBuildSizesInfoKHR sizes {
+            VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR
+        };
         vkGetAccelerationStructureBuildSizesKHR(
             device, VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &capacity, &sizes);
         return sizes;
@@ -105,7 +113,8 @@ void write(Buffer& buffer, const Gpu& gpu, std::span<const std::byte> bytes, std
 {
     if (bytes.size() > buffer.size() || !buffer) {
         buffer = Buffer();
-        buffer = Buffer(gpu, bytes.size() + bytes.size() / 2 + 4096, BufferHome::upload, MemoryKind::acceleration, name);
+        buffer
+            = Buffer(gpu, bytes.size() + bytes.size() / 2 + 4096, BufferHome::upload, MemoryKind::acceleration, name);
     }
     if (!bytes.empty())
         std::memcpy(buffer.mapped(), bytes.data(), bytes.size());
@@ -131,15 +140,15 @@ void AccelerationStructures::build_world(const GroupedTriangles& world, uint64_t
         Build build(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, flags_world, group.count);
         set_triangles(build, corners_of(corners, group), group.has_holes);
         const auto sizes = build.sizes(gpu_.device.handle, group.count);
-        const AccelerationStructure& target = world_.structures.emplace_back(gpu_,
-            VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, sizes.accelerationStructureSize, "world structure");
+        const AccelerationStructure& target = world_.structures.emplace_back(
+            gpu_, VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, sizes.accelerationStructureSize, "world structure");
         const Buffer& room = scratch.emplace_back(gpu_, sizes.buildScratchSize + gpu_.device.scratch_alignment,
             BufferHome::device, MemoryKind::staging, "world structure's scratch");
         build.record(uploader.commands(), target, align_up(room.address(), gpu_.device.scratch_alignment));
     }
     if (!world.groups.empty())
-        record_memory_barrier(uploader.commands(), build_stage, structure_write, build_stage | gpu_.device.shader_stages(),
-            structure_read);
+        record_memory_barrier(uploader.commands(), build_stage, structure_write,
+            build_stage | gpu_.device.shader_stages(), structure_read);
     uploader.flush();
     world_.groups = world.groups;
     world_.version = version;

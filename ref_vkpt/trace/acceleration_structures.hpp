@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The scene in the driver's acceleration structures, for the trace backends "query" and "pipeline": bottom levels for the
-// map's triangles, built once, and for what moves, rebuilt for every view; a top level per view.
+// The scene in the driver's acceleration structures, for the trace backends "query" and "pipeline": bottom levels for
+// the map's triangles, built once, and for what moves, rebuilt for every view; a top level per view.
 #pragma once
 
 #include "ref_vkpt/trace/triangle_groups.hpp"
@@ -18,7 +18,10 @@ namespace vkpt {
 class AccelerationStructures {
 public:
     // The device has its own ray tracing.
-    explicit AccelerationStructures(const Gpu& gpu) : gpu_(gpu) { }
+    explicit AccelerationStructures(const Gpu& gpu)
+        : gpu_(gpu)
+    {
+    }
 
     // Builds the map's structures and waits for them; the device is idle. `version`: of the map, see holds_world.
     void build_world(const GroupedTriangles& world, uint64_t version, Uploader& uploader);

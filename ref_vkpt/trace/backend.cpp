@@ -8,9 +8,12 @@ constexpr TraceBackend all_backends[] = { TraceBackend::software, TraceBackend::
 std::string_view name_of(TraceBackend backend)
 {
     switch (backend) {
-    case TraceBackend::software: return "software";
-    case TraceBackend::query: return "query";
-    case TraceBackend::pipeline: return "pipeline";
+    case TraceBackend::software:
+        return "software";
+    case TraceBackend::query:
+        return "query";
+    case TraceBackend::pipeline:
+        return "pipeline";
     }
     return "";
 }

@@ -31,7 +31,8 @@ struct Bvh {
     uint32_t max_depth = 0; // of the wide tree, in nodes
 };
 
-// Whether a ray can meet it: false for degenerate, infinite and NaN triangles, corners beyond 1e15 and ids of 2^24 and more.
+// Whether a ray can meet it: false for degenerate, infinite and NaN triangles, corners beyond 1e15 and ids of 2^24 and
+// more.
 bool can_be_met(const BvhTriangle& triangle);
 
 // Never fails: degenerate, infinite and NaN triangles are left out, as are corners beyond 1e15, ids of 2^24 and more

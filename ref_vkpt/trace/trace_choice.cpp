@@ -27,7 +27,8 @@ bool starts_with_key(const std::string& line, const std::string& key)
 TraceChoice::TraceChoice(const Device& device, std::string file)
     : device_(device)
     , file_(std::move(file))
-    , device_key_(fmt::format("{} / {} / {:x}", device.properties.deviceName, device.driver, device.properties.driverVersion))
+    , device_key_(
+          fmt::format("{} / {} / {:x}", device.properties.deviceName, device.driver, device.properties.driverVersion))
     , offered_(offered_backends(device))
 {
     std::ranges::replace(device_key_, '\t', ' ');
@@ -73,8 +74,8 @@ TraceBackend TraceChoice::choose_automatically()
         say(measured->fastest, fmt::format("measured on this device: {}", measured->figures));
         return measured->fastest;
     }
-    // Our own trees are 4 to 12 times as fast as Mesa's ray query (docs/benchmarks.md), and measuring it costs seconds of
-    // compilation before the first picture.
+    // Our own trees are 4 to 12 times as fast as Mesa's ray query (docs/benchmarks.md), and measuring it costs seconds
+    // of compilation before the first picture.
     if (device_.is_cpu) {
         say(TraceBackend::software, "the fastest on CPU drivers; pt_trace_measure measures it");
         return TraceBackend::software;
@@ -90,8 +91,8 @@ void TraceChoice::measure(const Measure& measure)
     double best = std::numeric_limits<double>::max();
     for (const TraceBackend backend : offered_) {
         const double nanoseconds = measure(backend);
-        measured.figures += fmt::format(
-            "{}{} {:.3g} ns", measured.figures.empty() ? "" : ", ", name_of(backend), nanoseconds);
+        measured.figures
+            += fmt::format("{}{} {:.3g} ns", measured.figures.empty() ? "" : ", ", name_of(backend), nanoseconds);
         if (nanoseconds < best) {
             best = nanoseconds;
             measured.fastest = backend;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which trace backend runs: what pt_trace says, and for "auto" what this device was measured to do fastest. The measurement
-// is made once per device and driver version and kept in a small text file in the module's cache.
+// Which trace backend runs: what pt_trace says, and for "auto" what this device was measured to do fastest. The
+// measurement is made once per device and driver version and kept in a small text file in the module's cache.
 #pragma once
 
 #include "ref_vkpt/trace/backend.hpp"

@@ -23,7 +23,8 @@ Box box_of(const shared::Triangle& triangle)
 // Orders `range` so that its halves, and theirs, are compact. The first half has the odd triangle.
 class HalvingOrder {
 public:
-    HalvingOrder(std::span<const shared::Triangle> triangles, TriangleOrder order) : order_(order)
+    HalvingOrder(std::span<const shared::Triangle> triangles, TriangleOrder order)
+        : order_(order)
     {
         boxes_.reserve(triangles.size());
         for (const shared::Triangle& triangle : triangles)
@@ -119,11 +120,10 @@ GroupedTriangles group_triangles(const TriangleSource& source, TriangleOrder ord
     for (auto& [key, indices] : members) {
         if (order != TriangleOrder::as_given)
             halving.sort(indices);
-        result.groups.push_back(
-            { key.mask, key.has_holes, uint32_t(result.ids.size()), uint32_t(indices.size()) });
+        result.groups.push_back({ key.mask, key.has_holes, uint32_t(result.ids.size()), uint32_t(indices.size()) });
         for (const uint32_t i : indices) {
-            result.corners.insert(
-                result.corners.end(), std::begin(source.triangles[i].positions), std::end(source.triangles[i].positions));
+            result.corners.insert(result.corners.end(), std::begin(source.triangles[i].positions),
+                std::end(source.triangles[i].positions));
             result.ids.push_back(source.first_id + i);
         }
     }

@@ -146,8 +146,7 @@ struct RayTracingFeatures {
 };
 
 // Links a feature or property struct into the chain behind `head`.
-template <class Head, class Link>
-void chain(Head& head, Link& link)
+template <class Head, class Link> void chain(Head& head, Link& link)
 {
     link.pNext = head.pNext;
     head.pNext = &link;

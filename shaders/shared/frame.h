@@ -23,7 +23,7 @@ VKPT_CONST uint PIXEL_TILES_PER_GROUP = 8u;
 VKPT_CONST uint FRAME_ALPHA_TEST = 1u;  // the scene has alpha-tested triangles
 VKPT_CONST uint FRAME_NO_WORLD = 2u;    // a view of models alone (menus): lit by a fixed light, no sky
 VKPT_CONST uint FRAME_UNDERWATER = 4u;  // the eye is in a liquid
-VKPT_CONST uint FRAME_PROBES = 8u;      // surfaces come from a list of points, not from the camera
+VKPT_CONST uint FRAME_PROBES = 8u; // surfaces come from a list of points, not from the camera
 VKPT_CONST uint FRAME_JITTER = 16u;     // camera rays spread over the pixel: accumulation smooths edges
 VKPT_CONST uint FRAME_PROBE_VISIBILITY = 32u; // probe_rays.comp asks whether anything is met, not for the nearest
 
@@ -61,7 +61,7 @@ struct Sky {
 struct SceneView {
     BvhView trees[2]; // world, moving things
     uint64_t trace_stack;
-    uint64_t structure;        // the driver's own, where it traces
+    uint64_t structure; // the driver's own, where it traces
     uint64_t structure_ids[2]; // tables of triangle ids, see STRUCTURE_TABLE_SHIFT
     uint64_t triangles;
     uint64_t materials;
@@ -81,9 +81,9 @@ struct FrameUniforms {
     SceneView scene;
     ScreenBuffers screen;
     uint64_t exposure; // ExposureState
-    uint64_t probes;   // IrradianceProbe list where FRAME_PROBES; rays of probe_rays.comp
+    uint64_t probes; // IrradianceProbe list where FRAME_PROBES; rays of probe_rays.comp
     uint64_t probe_hits; // written by probe_rays.comp
-    uint probe_mask;     // of the rays
+    uint probe_mask; // of the rays
     uint64_t light_level; // LIGHT_LEVEL_LANES floats, written by light_level.comp
     uint probe_count;
     uvec2 size;          // pixels rendered

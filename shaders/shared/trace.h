@@ -44,8 +44,8 @@ struct BvhView {
 };
 VKPT_ASSERT_SIZE(BvhView, 40);
 
-// The driver's acceleration structures: an instance's custom index is where its triangles' ids start in one of two tables (0:
-// the map's, 1: this frame's), with the table's number in the highest of the 24 bits that Vulkan has for it.
+// The driver's acceleration structures: an instance's custom index is where its triangles' ids start in one of two
+// tables (0: the map's, 1: this frame's), with the table's number in the highest of the 24 bits that Vulkan has for it.
 VKPT_CONST uint STRUCTURE_TABLE_SHIFT = 23u;
 VKPT_CONST uint STRUCTURE_FIRST_MASK = 0x007fffffu;
 

@@ -89,6 +89,16 @@ void GameFolder::add_wall(const std::string& name, uint8_t index) const
     add("textures/" + name + ".wal", formats::write_wal(make_plain(index), info));
 }
 
+void GameFolder::add_fence(const std::string& name, uint8_t index) const
+{
+    add_wall(name, index);
+    formats::Image picture = formats::apply_palette(make_plain(index), test_palette(), false);
+    for (size_t i = 0; i < picture.pixels.size(); i++)
+        if (i % picture_size >= picture_size / 2)
+            picture.pixels[i].a = 0;
+    add("textures/" + name + ".tga", formats::write_tga(picture));
+}
+
 void GameFolder::add_skin(const std::string& path, uint8_t index) const
 {
     add(path, formats::write_pcx(make_plain(index)));

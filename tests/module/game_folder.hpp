@@ -26,6 +26,8 @@ public:
     // `name` is a path below baseq2.
     void add(const std::string& name, const std::vector<std::byte>& bytes) const;
     void add_wall(const std::string& name, uint8_t index) const; // textures/NAME.wal, one colour
+    // textures/NAME.wal and, with alpha, NAME.tga: columns of 8 texels, by turns of this colour and holes.
+    void add_fence(const std::string& name, uint8_t index) const;
     void add_skin(const std::string& path, uint8_t index) const; // a PCX of one colour
     void add_map(const std::string& name, const formats::Bsp& bsp) const; // maps/NAME.bsp
     // models/NAME.md2: a cube of side 2 * half around its origin, its only skin in one colour.
