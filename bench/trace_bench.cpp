@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How fast the software backend traces a map's rays, per core, next to Embree tracing one ray at a time.
-// Time is the process's CPU time, so that a driver with several threads and Embree's one thread compare; rounds
-// alternate between the two, and the ratio is the median over rounds, so that other load on the machine matters little.
+// How fast a map's rays are traced, per core: by the software backend's traversal in a shader of its own ("bare"), by
+// each trace backend of the real module, and by Embree, one ray at a time. Time is the process's CPU time, so that a
+// driver with several threads and Embree's one thread compare; rounds alternate between all of them, and ratios are
+// medians over rounds, so that other load on the machine matters little.
+#include "bench/module_tracer.hpp"
+#include "shaders/shared/scene.h"
 #include "tests/trace/gpu_tracer.hpp"
 #include "tests/trace/scenes.hpp"
 
@@ -16,6 +19,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <optional>
 #include <string>
 #ifdef VKPT_HAVE_EMBREE
 #include <embree3/rtcore.h>
@@ -33,6 +37,7 @@ struct Options {
     std::string map;
     uint32_t width = 640, height = 360;
     int rounds = 15;
+    bool bare = false; // without the module
 };
 
 // Tiles of 8 x 8 pixels in blocks of 4 x 4: the 16 lanes of a vector look in nearly one direction.
@@ -169,21 +174,77 @@ struct RaySet {
     const char* name;
     bool any_hit;
     std::vector<TestRay> rays;
+    std::vector<uint32_t> places; // of each ray: its pixel's number in tile order
 };
 
 // Where a camera ray meets nothing, the other two sets have no ray.
 std::vector<RaySet> make_ray_sets(const MapScene& scene, std::vector<TestRay> primary, std::span<const TestHit> hits)
 {
-    RaySet bounce { "bounce", false, {} }, shadow { "shadow", true, {} };
+    RaySet camera { "primary", false, {}, {} }, bounce { "bounce", false, {}, {} }, shadow { "shadow", true, {}, {} };
     Random random(1);
-    for (size_t i = 0; i < primary.size(); i++) {
+    for (uint32_t i = 0; i < primary.size(); i++) {
+        camera.places.push_back(i);
         if (hits[i].triangle == TRACE_MISS)
             continue;
         SurfacePoint point = surface_point(scene, primary[i], hits[i]);
         bounce.rays.push_back(bounce_ray(random, point));
         shadow.rays.push_back(shadow_ray(random, scene, point));
+        bounce.places.push_back(i);
+        shadow.places.push_back(i);
     }
-    return { { "primary", false, std::move(primary) }, std::move(bounce), std::move(shadow) };
+    camera.rays = std::move(primary);
+    return { std::move(camera), std::move(bounce), std::move(shadow) };
+}
+
+// Row by row, as the module takes them; pixels without a ray have one that ends where it starts.
+std::vector<TracedRay> make_picture(const RaySet& set, const Options& options)
+{
+    std::vector<TracedRay> picture(size_t(options.width) * options.height, { { 0, 0, 0 }, 0, { 0, 0, 1 }, 0 });
+    for (size_t i = 0; i < set.rays.size(); i++) {
+        const TestRay& ray = set.rays[i];
+        const glm::uvec2 pixel = pixel_of(set.places[i], options.width);
+        picture[size_t(pixel.y) * options.width + pixel.x] = { { ray.origin.x, ray.origin.y, ray.origin.z }, ray.t_min,
+            { ray.direction.x, ray.direction.y, ray.direction.z }, ray.t_max };
+    }
+    return picture;
+}
+
+// Somebody who traces a set of rays; `run` does it once and returns the CPU seconds of that.
+struct Contender {
+    std::string name;
+    std::function<double()> run;
+    std::vector<double> seconds;
+};
+
+// CPU seconds of one round on the device: what several rounds take more than one, so that uploads do not count.
+double module_seconds(
+    const ModuleTracer& module, const std::vector<TracedRay>& picture, bool any_hit, const Options& options)
+{
+    constexpr uint32_t more_rounds = 4; // rounds + 1 that goes before, see TraceRequest
+    TraceRequest request;
+    request.ray_mask = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST;
+    request.visibility = any_hit;
+    request.row_length = options.width;
+    request.rounds = 1;
+    const double once = cpu_seconds_of([&] { module.trace(picture, request); });
+    request.rounds = more_rounds;
+    return (cpu_seconds_of([&] { module.trace(picture, request); }) - once) / more_rounds;
+}
+
+// Shows each contender's millions of rays per second, and how many times as fast as the last one it is.
+void report_set(const RaySet& set, const std::vector<Contender>& contenders)
+{
+    const double millions = double(set.rays.size()) * 1e-6;
+    for (const Contender& contender : contenders) {
+        std::printf("%-10s %-18s %7.2f", set.name, contender.name.c_str(), millions / median(contender.seconds));
+        for (const Contender& other : contenders) {
+            std::vector<double> ratios;
+            for (size_t round = 0; round < contender.seconds.size(); round++)
+                ratios.push_back(other.seconds[round] / contender.seconds[round]);
+            std::printf("  %6.2f", median(ratios));
+        }
+        std::printf("\n");
+    }
 }
 
 void report_build(std::span<const BvhTriangle> triangles)
@@ -211,29 +272,40 @@ void run(const Options& options)
     std::vector<TestRay> primary = camera_rays(scene, options);
     GpuTracer camera(device, std::span(&tree, 1), primary, all_rays);
     camera.run(pipelines[0]);
+    std::optional<ModuleTracer> module;
+    if (!options.bare)
+        module.emplace(options.map);
 #ifdef VKPT_HAVE_EMBREE
     EmbreeScene embree(scene.triangles);
-    std::printf("M rays/s per core      ours    Embree   ratio (median of rounds)\n");
-#else
-    std::printf("M rays/s per core      ours    (built without Embree)\n");
 #endif
+    std::printf("M rays/s per core, then: times as fast as each in the order of the rows (median of %d rounds)\n",
+        options.rounds);
     for (const RaySet& set : make_ray_sets(scene, std::move(primary), camera.hits())) {
         GpuTracer tracer(device, std::span(&tree, 1), set.rays, all_rays);
         const auto& pipeline = pipelines[set.any_hit];
         tracer.run(pipeline); // compiles
-        std::vector<double> ours, theirs, ratios;
-        for (int round = 0; round < options.rounds; round++) {
-            ours.push_back(cpu_seconds_of([&] { tracer.run(pipeline); }));
+        std::vector<Contender> contenders;
+        contenders.push_back({ "software, bare", [&] { return cpu_seconds_of([&] { tracer.run(pipeline); }); }, {} });
+        const std::vector<TracedRay> picture = make_picture(set, options);
+        for (const std::string& backend : module ? module->backends() : std::vector<std::string>())
+            contenders.push_back({ backend,
+                [&, backend] {
+                    module->choose(backend);
+                    return module_seconds(*module, picture, set.any_hit, options);
+                },
+                {} });
 #ifdef VKPT_HAVE_EMBREE
-            theirs.push_back(cpu_seconds_of([&] { embree.trace(set.rays, set.any_hit); }));
-            ratios.push_back(theirs.back() / ours.back());
+        contenders.push_back(
+            { "Embree", [&] { return cpu_seconds_of([&] { embree.trace(set.rays, set.any_hit); }); }, {} });
 #endif
-        }
-        double millions = double(set.rays.size()) * 1e-6;
-        std::printf("%-20s %6.2f", set.name, millions / median(ours));
-        if (!ratios.empty())
-            std::printf("    %6.2f    %5.2f", millions / median(theirs), median(ratios));
-        std::printf("\n");
+        for (int round = 0; round < options.rounds; round++)
+            for (Contender& contender : contenders)
+                contender.seconds.push_back(contender.run());
+        report_set(set, contenders);
+    }
+    for (const std::string& backend : module ? module->backends() : std::vector<std::string>()) {
+        module->choose(backend);
+        std::printf("%s: %.0f bytes per triangle\n", backend.c_str(), module->bytes_per_triangle());
     }
 }
 
@@ -243,7 +315,7 @@ void run(const Options& options)
 int main(int argc, char** argv)
 {
     vkpt::tests::Options options;
-    CLI::App app { "Rays per second of the software trace backend on a map" };
+    CLI::App app { "Rays per second of the trace backends on a map" };
     app.add_option("map", options.map, "BSP file")->required()->check(CLI::ExistingFile);
     app.add_option("--width", options.width, "pixels, a multiple of 8")
         ->check(CLI::Range(8, 8192))
@@ -251,6 +323,7 @@ int main(int argc, char** argv)
     app.add_option("--height", options.height, "pixels, a multiple of 8")
         ->check(CLI::Range(8, 8192))
         ->capture_default_str();
+    app.add_flag("--bare", options.bare, "without the module: the traversal in a shader of its own, and Embree");
     app.add_option("--rounds", options.rounds)->check(CLI::Range(1, 1000))->capture_default_str();
     try {
         app.parse(argc, argv);
