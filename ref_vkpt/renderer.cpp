@@ -273,7 +273,7 @@ void begin_frame(float)
         check_light_sampler();
         m.graphics.set_vsync(cvars::values().r_vsync != 0);
     }
-    if (m.trace_choice.wants_measurement() && m.snapshot)
+    if (m.trace_choice.wants_measurement() && m.snapshot && !m.graphics.is_recording())
         measure_trace_backends(m);
     m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
     m.graphics.timer.collect_into(wanted_statistics());
