@@ -17,6 +17,7 @@ namespace {
 constexpr size_t row_count = std::size(cvar_rows);
 
 static_assert(std::string_view(find_cvar_row("pt_tone_map")->choices) == "none|filmic");
+static_assert(std::string_view(find_cvar_row("flt_denoiser")->choices) == "off|temporal|svgf|asvgf");
 constexpr int debug_view(std::string_view name) { return find_choice(find_cvar_row("pt_debug_view")->choices, name); }
 static_assert(debug_view("off") == shared::DEBUG_VIEW_OFF && debug_view("albedo") == shared::DEBUG_VIEW_ALBEDO
     && debug_view("normal") == shared::DEBUG_VIEW_NORMAL && debug_view("depth") == shared::DEBUG_VIEW_DEPTH

@@ -12,7 +12,7 @@ namespace vkpt {
 
 namespace {
 
-constexpr const char* denoisers[] = { "off", nullptr };
+constexpr const char* denoisers[] = { "off", "temporal", "svgf", "asvgf", nullptr };
 
 ImageSize frame_size()
 {

@@ -7,6 +7,7 @@
 #include "ref_vkpt/frame/trace_measurement.hpp"
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/scene/camera.hpp"
+#include "ref_vkpt/scene/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -315,7 +316,9 @@ void render_view(const engine::RefDef& refdef)
     }
     const bool freeze = cvars::values().pt_accumulate != 0;
     if (!freeze || !m.snapshot_is_frozen || !m.snapshot) {
-        m.snapshot = take_snapshot(refdef);
+        SceneSnapshot snapshot = take_snapshot(refdef);
+        find_previous_positions(snapshot, m.snapshot ? *m.snapshot : SceneSnapshot());
+        m.snapshot = std::move(snapshot);
         m.snapshot_is_frozen = freeze;
         m.frame.restart_accumulation();
     }

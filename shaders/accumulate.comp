@@ -3,15 +3,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Puts the picture's radiance together, and averages it with the frames before while nothing moves.
 #include "lib/frame.glsl"
-#include "lib/surfaces.glsl"
+#include "lib/denoise.glsl"
+
+// What the surface reflects towards the viewer.
+vec3 reflected_light(uint index, Surface surface)
+{
+    if ((frame.flags & FRAME_DENOISED) == 0u)
+        return surface.albedo * load_diffuse_light(index) + load_specular_light(index);
+    bool unfiltered = frame.cvars.flt_denoiser == DENOISER_TEMPORAL;
+    FilteredLight light = unpack_filtered(unfiltered ? load_filtered(index) : load_filter_b(index));
+    return surface.albedo * light.diffuse + specular_tint(surface) * light.specular;
+}
 
 void compose_pixel(uvec2 pixel, uint index)
 {
     vec3 radiance = load_emitted(index);
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0)
-        radiance += unpack_half3(load_throughput(index))
-            * (primary.surface.albedo * load_diffuse_light(index) + load_specular_light(index));
+        radiance += unpack_half3(load_throughput(index)) * reflected_light(index, primary.surface);
     // One broken path must not blacken a pixel for ever.
     if (any(isnan(radiance)) || any(isinf(radiance)))
         radiance = vec3(0.0);

@@ -4,13 +4,14 @@
 // Light that reaches the primary surface straight from an emitter.
 #include "lib/frame.glsl"
 #include "lib/lighting.glsl"
+#include "lib/reprojection.glsl"
 
 void light_pixel(uvec2 pixel, uint index)
 {
     ReflectedLight light = ReflectedLight(vec3(0.0), vec3(0.0));
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0) {
-        Random random = random_for_bounce(make_random(pixel, frame.frame_index, frame.seed), 1u);
+        Random random = random_for_bounce(random_of_pixel(pixel, index), 1u);
         light = sample_direct_light(primary.surface, primary.cluster, random);
     }
     store_diffuse_light(index, light.diffuse);

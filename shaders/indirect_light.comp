@@ -4,6 +4,7 @@
 // Light that reaches the primary surface over pt_bounces further surfaces, added to what direct_light stored.
 #include "lib/frame.glsl"
 #include "lib/lighting.glsl"
+#include "lib/reprojection.glsl"
 
 const uint mask_bounce = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
 // Bounce rays see pictures through a cone this wide: what is sharp there is noise here.
@@ -15,6 +16,7 @@ struct BouncePath {
     int cluster;
     vec3 throughput;
     vec3 radiance;
+    float ray_length; // of the last segment
 };
 
 float limit_radiance(vec3 radiance)
@@ -30,6 +32,7 @@ bool bounce_path(inout BouncePath path, BsdfSample bsdf, inout Random random)
     RawHit raw = trace_nearest(ray, mask_bounce);
     if (raw.triangle == TRACE_MISS)
         return false; // outside of a closed map; a view without a world has no sky that lights
+    path.ray_length = raw.t;
     HitSurface hit = fetch_surface(raw, ray, raw.t * bounce_cone_spread);
     // What the light lists hold has been sampled from the surface before: counting it here would count it twice.
     if (hit.emitter < 0)
@@ -49,9 +52,10 @@ void light_pixel(uvec2 pixel, uint index)
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth < 0.0)
         return;
-    Random pixel_random = make_random(pixel, frame.frame_index, frame.seed);
-    BouncePath path = BouncePath(primary.surface, primary.cluster, vec3(1.0), vec3(0.0));
+    Random pixel_random = random_of_pixel(pixel, index);
+    BouncePath path = BouncePath(primary.surface, primary.cluster, vec3(1.0), vec3(0.0), -1.0);
     BsdfValue first = BsdfValue(0.0, vec3(0.0));
+    float reflected_distance = -1.0;
     [[dont_unroll]] for (uint bounce = 0u; bounce < uint(frame.cvars.pt_bounces); bounce++) {
         Random random = random_for_bounce(pixel_random, bounce + 2u);
         vec2 xi = next_vec2(random);
@@ -64,9 +68,13 @@ void light_pixel(uvec2 pixel, uint index)
         } else {
             path.throughput *= reflected_radiance(path.surface, bsdf.value, vec3(1.0)) / bsdf.pdf;
         }
-        if (!bounce_path(path, bsdf, random))
+        bool goes_on = bounce_path(path, bsdf, random);
+        if (bounce == 0u && bsdf.lobe == BSDF_LOBE_SPECULAR)
+            reflected_distance = path.ray_length;
+        if (!goes_on)
             break;
     }
+    store_reflected_distance(index, reflected_distance);
     path.radiance *= limit_radiance(path.radiance);
     store_diffuse_light(index, load_diffuse_light(index) + first.diffuse * path.radiance);
     store_specular_light(index, load_specular_light(index) + first.specular * path.radiance);

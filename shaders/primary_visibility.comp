@@ -4,6 +4,7 @@
 // Camera rays through mirrors, glass and water to the first surface that is shaded, written to the G-buffer.
 #include "lib/frame.glsl"
 #include "lib/random.glsl"
+#include "lib/reprojection.glsl"
 #include "lib/surfaces.glsl"
 
 const uint max_specular_segments = 8u;
@@ -55,6 +56,8 @@ struct Path {
     float unlit_depth; // DEPTH_*: what the path ended on without a surface
     bool reached_surface;
     HitSurface hit;
+    vec3 mirror; // normal of the last mirror, 0: none
+    vec3 moved;  // from where the surface's point was in the last view
 };
 
 void reflect_path(inout Path path, Surface s, vec3 normal)
@@ -64,6 +67,7 @@ void reflect_path(inout Path path, Surface s, vec3 normal)
         path.ray.direction = normalize(path.ray.direction + s.geometric_normal * 0.02);
     path.ray.origin = leave_surface(s.position, s.geometric_normal);
     path.mask = mask_reflected;
+    path.mirror = normal;
 }
 
 void pass_through(inout Path path, Surface s, vec3 direction)
@@ -88,6 +92,19 @@ void meet_water(inout Path path, Surface s, inout Random random)
     }
     path.in_water = !path.in_water;
     pass_through(path, s, refracted);
+}
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PreviousPositionBuffer { vec3 v[]; };
+
+// How far a point of a triangle has come since the last view.
+vec3 movement(RawHit raw, vec3 position)
+{
+    if (raw.triangle < frame.scene.first_moving)
+        return vec3(0.0);
+    PreviousPositionBuffer corners = PreviousPositionBuffer(frame.scene.previous_positions);
+    uint first = (raw.triangle - frame.scene.first_moving) * 3u;
+    vec2 b = raw.barycentrics;
+    return position - (corners.v[first] * (1.0 - b.x - b.y) + corners.v[first + 1u] * b.x + corners.v[first + 2u] * b.y);
 }
 
 // Follows the path over one segment. False: it has ended.
@@ -129,19 +146,45 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
         return true;
     }
     path.hit = hit;
+    path.moved = movement(raw, s.position);
     path.reached_surface = true;
     return false;
+}
+
+// The direction as it looks in the mirror.
+vec3 mirrored(Path path, vec3 direction) { return direction - path.mirror * (2.0 * dot(path.mirror, direction)); }
+
+// What the mirror shows stands behind it, as far along the camera's ray as the path is long.
+void store_reprojection(uint index, Path path, vec3 direction, vec2 offset)
+{
+    const float sky_distance = 1e5;
+    float distance = path.reached_surface || path.unlit_depth == DEPTH_UNLIT ? path.path_length : sky_distance;
+    Camera camera = frame.camera;
+    vec3 seen = direction * distance;
+    float depth = dot(seen, camera.forward);
+    ScreenPoint before = project(frame.previous_camera, camera.eye + seen - mirrored(path, path.moved));
+    vec2 place = before.depth > 0.0 ? before.pixel - offset : vec2(-1e6);
+    store_motion(index, vec3(place, before.depth));
+    store_guide(index, path.reached_surface ? pack_guide(mirrored(path, path.hit.surface.normal), depth) : uvec2(0u));
+    if (!path.reached_surface)
+        return;
+    vec3 plane = mirrored(path, path.hit.surface.geometric_normal);
+    vec2 slope = vec2(dot(plane, camera.right), -dot(plane, camera.up)) * 2.0 / vec2(frame.size) * depth / dot(plane, seen);
+    store_slope(index, packHalf2x16(clamp(slope, -8.0, 8.0)));
 }
 
 void see_pixel(uvec2 pixel, uint index)
 {
     Random random = make_random(pixel, frame.frame_index, frame.seed);
-    vec2 offset = (frame.flags & FRAME_JITTER) != 0u ? next_vec2(random) : vec2(0.5);
+    vec2 offset = (frame.flags & FRAME_JITTER) != 0u ? next_vec2(random) : frame.pixel_offset;
     Path path;
     path.ray = camera_ray(pixel, offset);
     path.throughput = vec3(1.0);
     path.emitted = vec3(0.0);
     path.path_length = 0.0;
+    path.mirror = vec3(0.0);
+    path.moved = vec3(0.0);
+    vec3 direction = path.ray.direction;
     path.mask = mask_camera;
     path.in_water = (frame.flags & FRAME_UNDERWATER) != 0u;
     path.reached_surface = false;
@@ -152,6 +195,10 @@ void see_pixel(uvec2 pixel, uint index)
         if (!follow_path(path, cone_spread, random))
             break;
 
+    if ((frame.flags & FRAME_REPROJECTED) != 0u)
+        store_reprojection(index, path, direction, offset);
+    if ((frame.flags & FRAME_REPLAYED) != 0u)
+        store_random_seed(index, uvec2(pixel.x | (pixel.y << 16u), frame.frame_index));
     store_emitted(index, path.emitted);
     store_throughput(index, pack_half3(path.throughput));
     if (!path.reached_surface) {

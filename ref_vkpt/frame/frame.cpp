@@ -112,6 +112,7 @@ void Frame::reserve(glm::uvec2 size)
     graphics_.finish();
     graphics_.screen.reserve_pixels(size);
     restart_accumulation();
+    history_.forget();
 }
 
 shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
@@ -123,6 +124,7 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
 
     shared::FrameUniforms uniforms {};
     uniforms.camera = view.camera;
+    uniforms.pixel_offset = glm::vec2(0.5f);
     uniforms.screen = graphics_.screen.addresses();
     uniforms.exposure = exposure_.address();
     uniforms.light_level = readback_.address() + graphics_.slot() * light_level_bytes;
@@ -149,6 +151,8 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
     out.triangles = triangles_.update(slot, world ? world->triangles : no_triangles, version, scene.triangles);
     out.emitters = emitters_.update(slot, world ? world->emitters : no_emitters, version, scene.emitters);
+    out.previous_positions = uploads_.push(scene.previous_positions);
+    out.first_moving = world ? uint32_t(world->triangles.size()) : 0;
     out.materials = uploads_.push(scene.materials);
     out.lightstyles = uploads_.push(scene.lightstyles);
     out.trace_stack = graphics_.screen.trace_stack();
@@ -273,9 +277,12 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfac
         record_traced_pass("primary_visibility", pixels);
     else
         record_pass("probe_surfaces", pixels.groups);
+    record_replay(uniforms);
     record_lit_pass("direct_light", pixels);
     if (uniforms.cvars.pt_bounces > 0)
         record_lit_pass("indirect_light", pixels);
+    if (uniforms.flags & shared::FRAME_DENOISED)
+        record_denoiser(uniforms);
     record_pass("accumulate", pixels.groups);
     if (surfaces == Surfaces::probes)
         return;
@@ -306,6 +313,7 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
     uniforms.time = scene.time;
     uniforms.flags |= (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0) | (scene.world ? 0 : shared::FRAME_NO_WORLD)
         | (average ? shared::FRAME_JITTER : 0);
+    begin_filters(uniforms, scene, gpu_world, average);
     bind(write_uniforms(uniforms));
     const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
     // The picture may just have been cleared or drawn on, and the last frame may still be read.
@@ -344,6 +352,7 @@ void Frame::measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t
     view.size = { std::min<uint32_t>(row, uint32_t(probes.size())), (uint32_t(probes.size()) + row - 1) / row };
     graphics_.finish();
     reserve(view.size);
+    history_.forget();
     view_size_ = view.size;
     for (uint32_t sample = 0; sample < samples; sample++) {
         accumulated_frames_ = sample;
@@ -391,6 +400,7 @@ void Frame::trace_chunk(std::span<const TracedRay> rays, uint32_t row, const Tra
     view.size = { row, (uint32_t(rays.size()) + row - 1) / row };
     graphics_.finish();
     reserve(view.size);
+    history_.forget();
     uint32_t offset = 0;
     graphics_.run_once([&](VkCommandBuffer commands) {
         commands_ = commands;

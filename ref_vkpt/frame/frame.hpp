@@ -6,6 +6,7 @@
 #include "ref_vkpt/extension.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/frame/uploads.hpp"
+#include "ref_vkpt/frame/view_history.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
 #include "ref_vkpt/trace/acceleration_structures.hpp"
 #include "ref_vkpt/trace/backend.hpp"
@@ -79,6 +80,12 @@ private:
     void bind(uint32_t uniform_offset) const;
     void record_passes(const shared::FrameUniforms& uniforms, Surfaces surfaces, bool world);
     void record_pass(const char* name, uint32_t groups);
+    void begin_filters(shared::FrameUniforms& uniforms, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average);
+    void record_denoiser(const shared::FrameUniforms& uniforms);
+    void record_replay(const shared::FrameUniforms& uniforms);
+    void record_gradient(const shared::FrameUniforms& uniforms);
+    void record_spatial_filter(uint32_t groups);
+    void record_filter_level(const char* name, const shared::FilterPush& push, uint32_t groups);
     void record_traced_pass(const char* name, const Work& work);
     void record_lit_pass(const char* name, const Work& work);
     void record_traced(const char* name, const std::string& variant, const Work& work);
@@ -101,6 +108,7 @@ private:
     View last_view_;
     CvarValues last_cvars_;
     glm::uvec2 view_size_ { 0 };
+    ViewHistory history_;
     uint32_t accumulated_frames_ = 0;
     uint32_t noise_index_ = 0;
     float light_level_ = 0;

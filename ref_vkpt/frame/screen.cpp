@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/screen.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace vkpt {
 
@@ -46,12 +47,23 @@ bool Screen::reserve_pixels(glm::uvec2 size)
         return buffer.address();
     };
     using namespace shared;
+    // However the pixels are arranged, and with blocks that the edge cuts.
+    const size_t strata = pixels_ / 3 + 1;
 #define VKPT_SCREEN_BUFFER(type, name) addresses_.name = renew(buffers_[row_##name], pixels_ * sizeof(type), #name);
+#define VKPT_STRATUM_BUFFER(type, name) addresses_.name = renew(buffers_[row_##name], strata * sizeof(type), #name);
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
     const size_t lanes = size_t(groups_) * PIXEL_GROUP_SIZE;
     renew(trace_stack_, lanes * TRACE_STACK_BYTES_PER_LANE, "trace stack");
     return true;
+}
+
+void Screen::exchange_history()
+{
+#define VKPT_SCREEN_BUFFER(type, name)
+#define VKPT_HISTORY_BUFFER(type, name) std::swap(addresses_.name, addresses_.previous_##name);
+#include "shaders/shared/screen_buffers.def"
+#undef VKPT_SCREEN_BUFFER
 }
 
 const Buffer& Screen::accumulated() const { return buffers_[row_accumulated]; }

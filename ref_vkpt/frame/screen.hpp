@@ -17,6 +17,8 @@ public:
     bool resize_output(VkExtent2D size);
     // Room for a view of this many pixels; true: contents are lost. The device must be idle if they have to grow.
     bool reserve_pixels(glm::uvec2 size);
+    // A new view begins: what was stored as NAME is from now on read as previous_NAME.
+    void exchange_history();
     bool must_grow(glm::uvec2 size) const;
 
     const Image& output() const { return output_; }

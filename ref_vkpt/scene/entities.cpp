@@ -350,8 +350,13 @@ void add_entities(
     SceneSnapshot& snapshot, const RefDef& refdef, const TextureStore& textures, const MaterialDefaults& defaults)
 {
     SnapshotBuilder builder(snapshot, refdef, textures, defaults);
-    for (int i = 0; i < refdef.entity_count; i++)
-        builder.add_entity(refdef.entities[i]);
+    for (int i = 0; i < refdef.entity_count; i++) {
+        const Entity& entity = refdef.entities[i];
+        const size_t first = snapshot.triangles.size();
+        builder.add_entity(entity);
+        snapshot.things.push_back(
+            { entity.model, entity.flags, to_vec3(entity.origin), first, snapshot.triangles.size() - first });
+    }
     for (int i = 0; i < refdef.particle_count; i++)
         builder.add_particle(refdef.particles[i]);
     for (int i = 0; i < refdef.dlight_count; i++)

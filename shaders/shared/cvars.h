@@ -14,9 +14,14 @@ struct ShaderCvars {
 #include "cvars.def"
 };
 
-// Places in the choices of pt_tone_map and pt_debug_view; cvars.cpp asserts that they agree with the rows.
+// Places in the choices of pt_tone_map, flt_denoiser and pt_debug_view; cvars.cpp asserts that they agree with the rows.
 VKPT_CONST int TONE_MAP_NONE = 0;
 VKPT_CONST int TONE_MAP_FILMIC = 1;
+
+VKPT_CONST int DENOISER_OFF = 0;
+VKPT_CONST int DENOISER_TEMPORAL = 1;
+VKPT_CONST int DENOISER_SVGF = 2;
+VKPT_CONST int DENOISER_ASVGF = 3;
 
 VKPT_CONST int DEBUG_VIEW_OFF = 0;
 VKPT_CONST int DEBUG_VIEW_ALBEDO = 1;

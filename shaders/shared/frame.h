@@ -27,6 +27,11 @@ VKPT_CONST uint FRAME_PROBES = 8u; // surfaces come from a list of points, not f
 VKPT_CONST uint FRAME_JITTER = 16u;     // camera rays spread over the pixel: accumulation smooths edges
 VKPT_CONST uint FRAME_PROBE_VISIBILITY = 32u; // probe_rays.comp asks whether anything is met, not for the nearest
 
+VKPT_CONST uint FRAME_HISTORY = 64u;    // the buffers named previous_ hold the last view of this scene
+VKPT_CONST uint FRAME_REPROJECTED = 512u; // primary_visibility tells where things were in the last view
+VKPT_CONST uint FRAME_DENOISED = 128u;  // the picture is made from the filtered light
+VKPT_CONST uint FRAME_REPLAYED = 256u;  // random numbers follow the buffer random_seed: some pixels repeat an older sample
+
 VKPT_CONST uint LIGHT_LEVEL_LANES = 64u; // = PIXEL_GROUP_SIZE
 
 // Automatic exposure's memory.
@@ -40,6 +45,14 @@ struct ScreenBuffers {
 #define VKPT_SCREEN_BUFFER(type, name) uint64_t name;
 #include "screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
+};
+
+// What one level of the denoiser's spatial filter is told (push constants).
+struct FilterPush {
+    uint64_t source; // of the type of the buffer `filtered`
+    uint64_t target;
+    uint step;       // pixels between taps
+    uint level;      // from 0
 };
 
 struct Camera {
@@ -64,6 +77,8 @@ struct SceneView {
     uint64_t structure; // the driver's own, where it traces
     uint64_t structure_ids[2]; // tables of triangle ids, see STRUCTURE_TABLE_SHIFT
     uint64_t triangles;
+    uint64_t previous_positions; // of the moving things' triangles, nine floats each: where they were in the last view
+    uint first_moving;           // triangle id
     uint64_t materials;
     uint64_t emitters;
     uint64_t light_lists;
@@ -78,6 +93,8 @@ struct SceneView {
 
 struct FrameUniforms {
     Camera camera;
+    Camera previous_camera; // where FRAME_HISTORY
+    vec2 pixel_offset;      // where in their pixel camera rays pass, unless FRAME_JITTER
     SceneView scene;
     ScreenBuffers screen;
     uint64_t exposure; // ExposureState

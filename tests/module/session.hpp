@@ -16,7 +16,7 @@ using CvarList = std::vector<std::pair<std::string, std::string>>;
 
 class Session {
 public:
-    // Pictures are repeatable (pt_seed 1) and not exposed automatically, unless `cvars` say otherwise.
+    // Pictures are repeatable (pt_seed 1), not exposed automatically and not filtered, unless `cvars` say otherwise.
     explicit Session(
         const std::filesystem::path& base_folder, const CvarList& cvars = {}, glm::ivec2 size = { 64, 48 });
     explicit Session(const GameFolder& folder, const CvarList& cvars = {}, glm::ivec2 size = { 64, 48 });

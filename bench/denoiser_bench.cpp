@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// vkpt_denoiser_bench: how far the filtered picture is from the converged one, at rest and in motion, and what each
+// pass costs. Prints a table in Markdown, for docs/denoiser.md.
+#include "client/host/errors.hpp"
+#include "client/host/scene.hpp"
+#include "formats/image.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <map>
+
+using namespace vkpt;
+using client::Host;
+
+namespace {
+
+constexpr float frame_seconds = 1.0f / 60;
+
+struct Options {
+    std::string base_folder, map = "maps/vkpt1.bsp", pictures, cache = "denoiser_bench_cache";
+    int width = 480, height = 270, frames = 48, samples = 512, checks = 3, spacing = 5;
+    std::vector<std::string> modes { "off", "temporal", "svgf", "asvgf" }, settings;
+    bool times = false;
+};
+
+struct Journey {
+    const char* name;
+    client::Camera from, to; // per second of the journey
+};
+// Our map's main hall, and its doors to water and lamps.
+const Journey journeys[] = {
+    { "hall, at rest", { { 0, -384, 54 }, 0, 90 }, { { 0, -384, 54 }, 0, 90 } },
+    { "hall, running and turning", { { -60, -440, 54 }, 0, 70 }, { { 200, -300, 54 }, 4, 130 } },
+    { "upper floor, turning", { { 0, 352, 150 }, 8, 250 }, { { 60, 340, 150 }, 8, 330 } },
+};
+
+client::Camera camera_at(const Journey& journey, float seconds)
+{
+    client::Camera camera;
+    camera.position = glm::mix(journey.from.position, journey.to.position, seconds);
+    camera.pitch = glm::mix(journey.from.pitch, journey.to.pitch, seconds);
+    camera.yaw = glm::mix(journey.from.yaw, journey.to.yaw, seconds);
+    return camera;
+}
+
+using Picture = std::vector<float>; // RGB
+
+// A run of the module on the map.
+class Run {
+public:
+    Run(const Options& options, const std::vector<std::pair<std::string, std::string>>& cvars)
+        : options_(options)
+        , files_(options.base_folder, "")
+        , scene_(files_, client::parse_scene_name(options.map))
+    {
+        client::HostOptions host;
+        host.width = options.width;
+        host.height = options.height;
+        host.cvars = cvars;
+        for (const std::string& setting : options.settings) {
+            const size_t equals = setting.find('=');
+            host.cvars.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+        }
+        host_ = std::make_unique<Host>(host, &files_);
+        scene_.register_with(*host_);
+    }
+
+    void draw(const client::Camera& camera, float seconds)
+    {
+        scene_.set_camera(camera);
+        host_->draw_frame(scene_.view(options_.width, options_.height, seconds));
+    }
+
+    Picture radiance()
+    {
+        Picture picture(size_t(options_.width) * size_t(options_.height) * 3);
+        if (!host_->extension().capture_radiance(picture.data()))
+            throw client::Failure("the module has no picture to capture");
+        return picture;
+    }
+
+    void save(const std::string& path)
+    {
+        formats::Image image { options_.width, options_.height,
+            std::vector<formats::Rgba8>(size_t(options_.width) * size_t(options_.height)) };
+        host_->extension().capture_display(&image.pixels.data()->r);
+        const std::vector<std::byte> bytes = formats::write_png(image);
+        std::ofstream(path, std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    }
+
+    const Extension& extension() const { return host_->extension(); }
+
+private:
+    const Options& options_;
+    client::FileSystem files_;
+    client::Scene scene_;
+    std::unique_ptr<Host> host_;
+};
+
+// The frames of a journey that are compared.
+bool is_checked(const Options& options, int frame)
+{
+    const int left = options.frames - 1 - frame;
+    return left % options.spacing == 0 && left / options.spacing < options.checks;
+}
+
+float frame_time(int frame) { return float(frame) * frame_seconds; }
+
+// Converged, from the cache where it has been made before.
+Picture make_reference(const Options& options, const Journey& journey, int frame)
+{
+    std::filesystem::create_directories(options.cache);
+    std::string name = fmt::format("{}_{}_{}x{}_{}_{}.bin", std::filesystem::path(options.map).stem().string(),
+        journey.name, options.width, options.height, frame, options.samples);
+    std::ranges::replace(name, ' ', '_');
+    const std::string path = (std::filesystem::path(options.cache) / name).string();
+    Picture picture(size_t(options.width) * size_t(options.height) * 3);
+    const auto bytes = std::streamsize(picture.size() * sizeof(float));
+    if (std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(picture.data()), bytes))
+        return picture;
+    Run run(options, { { "pt_accumulate", "1" } });
+    for (int i = 0; i < options.samples; i++)
+        run.draw(camera_at(journey, frame_time(frame)), frame_time(frame));
+    picture = run.radiance();
+    std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(picture.data()), bytes);
+    return picture;
+}
+
+// Relative squared error of x / (1 + x), so that neither the lamps nor a single bright path decide alone.
+double relative_error(const Picture& picture, const Picture& reference)
+{
+    double sum = 0;
+    const auto map_tone = [](double x) { return x / (1 + x); };
+    for (size_t i = 0; i < picture.size(); i++) {
+        const double t = map_tone(reference[i]), d = map_tone(picture[i]) - t;
+        sum += d * d / (t * t + 0.01);
+    }
+    return sum / double(picture.size());
+}
+
+struct Errors {
+    double error = 0;
+    std::map<std::string, std::vector<double>> milliseconds;
+};
+
+Errors measure(
+    const Options& options, const Journey& journey, const std::map<int, Picture>& references, const std::string& mode)
+{
+    Run run(options, { { "flt_denoiser", mode } });
+    Errors errors;
+    for (int frame = 0; frame < options.frames; frame++) {
+        run.draw(camera_at(journey, frame_time(frame)), frame_time(frame));
+        size_t count = 0;
+        const PassTime* times = run.extension().pass_times(&count);
+        for (size_t i = 0; frame > 4 && i < count; i++)
+            errors.milliseconds[times[i].name].push_back(times[i].milliseconds);
+        if (!is_checked(options, frame))
+            continue;
+        errors.error += relative_error(run.radiance(), references.at(frame)) / options.checks;
+    }
+    if (!options.pictures.empty()) {
+        std::string name = fmt::format("{}/{}_{}.png", options.pictures, journey.name, mode);
+        std::ranges::replace(name, ' ', '_');
+        run.save(name);
+    }
+    return errors;
+}
+
+double median(std::vector<double> values)
+{
+    std::ranges::sort(values);
+    return values.empty() ? 0 : values[values.size() / 2];
+}
+
+void print_times(const std::string& mode, const Errors& errors)
+{
+    double total = 0;
+    for (const auto& [name, values] : errors.milliseconds)
+        total += median(values);
+    fmt::print("\n{}, all passes {:.1f} ms\n", mode, total);
+    for (const auto& [name, values] : errors.milliseconds)
+        fmt::print("| {} | {:.2f} ms | {:.1f} % |\n", name, median(values), 100 * median(values) / total);
+}
+
+void run_bench(const Options& options)
+{
+    std::map<std::string, Errors> last;
+    fmt::print("| journey |");
+    for (const std::string& mode : options.modes)
+        fmt::print(" {} |", mode);
+    fmt::print("\n");
+    for (const Journey& journey : journeys) {
+        std::map<int, Picture> references;
+        for (int frame = 0; frame < options.frames; frame++)
+            if (is_checked(options, frame))
+                references[frame] = make_reference(options, journey, frame);
+        fmt::print("| {} |", journey.name);
+        for (const std::string& mode : options.modes) {
+            last[mode] = measure(options, journey, references, mode);
+            fmt::print(" {:.4f} |", last[mode].error);
+            std::fflush(stdout);
+        }
+        fmt::print("\n");
+    }
+    for (const std::string& mode : options.modes)
+        if (options.times)
+            print_times(mode, last[mode]);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    Options options;
+    CLI::App program("Error and cost of the denoiser");
+    program.add_option("--basedir", options.base_folder, "Folder that holds baseq2")->required();
+    program.add_option("--map", options.map);
+    program.add_option("--width", options.width);
+    program.add_option("--height", options.height);
+    program.add_option("--frames", options.frames, "Length of each journey");
+    program.add_option("--samples", options.samples, "Frames averaged for the converged pictures");
+    program.add_option("--modes", options.modes, "Values of flt_denoiser");
+    program.add_option("--set", options.settings, "NAME=VALUE");
+    program.add_option("--cache", options.cache, "Folder for converged pictures");
+    program.add_option("--pictures", options.pictures, "Folder for the last frames as PNG");
+    program.add_flag("--times", options.times, "Print the passes' times of the last journey");
+    CLI11_PARSE(program, argc, argv);
+    try {
+        run_bench(options);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "vkpt_denoiser_bench: {}\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How much the repeated samples have changed since the last view: the difference, and the greater of the two, for either lobe.
+#include "lib/frame.glsl"
+#include "lib/denoise.glsl"
+
+void compare_stratum(uvec2 stratum, uint number)
+{
+    vec2 before = load_replayed(number);
+    vec4 gradient = vec4(0.0);
+    if (before.x >= 0.0) {
+        uvec2 pixel = stratum_pixel(stratum);
+        uint index = pixel.y * frame.size.x + pixel.x;
+        vec2 now = vec2(luminance(load_diffuse_light(index)), luminance(load_specular_light(index)));
+        vec2 change = now - before, greater = max(now, before);
+        gradient = vec4(change.x, greater.x, change.y, greater.y);
+        if (any(isnan(gradient)) || any(isinf(gradient)))
+            gradient = vec4(0.0);
+    }
+    store_gradient_a(number, gradient);
+}
+
+VKPT_RUN_OVER_STRATA(compare_stratum)

@@ -1,0 +1,35 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One level of the gradient's filter: 3 x 3 strata, `step` apart, as far as they lie on the same plane. Sums, not averages: only
+// the ratio of difference and greater value counts.
+#include "lib/frame.glsl"
+#include "lib/denoise.glsl"
+
+layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer GradientBuffer { vec4 v[]; };
+
+void filter_stratum(uvec2 stratum, uint number)
+{
+    GradientBuffer source = GradientBuffer(push.source);
+    uvec2 pixel = stratum_pixel(stratum), count = stratum_count();
+    uint index = pixel.y * frame.size.x + pixel.x;
+    uvec2 guide = load_guide(index);
+    vec2 slope = unpackHalf2x16(load_slope(index));
+    vec4 sum = vec4(0.0);
+    [[dont_unroll]] for (uint tap = 0u; tap < 9u; tap++) {
+        ivec2 way = ivec2(tap % 3u, tap / 3u) - 1;
+        ivec2 place = ivec2(stratum) + way * int(push.step);
+        if (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, ivec2(count))))
+            continue;
+        uvec2 other_pixel = stratum_pixel(uvec2(place));
+        float other = guide_depth(load_guide(other_pixel.y * frame.size.x + other_pixel.x));
+        vec2 pixels = vec2(other_pixel) - vec2(pixel);
+        if (plane_distance(guide_depth(guide), slope, pixels, other) < plane_tolerance(slope, pixels))
+            sum += source.v[uint(place.y) * count.x + uint(place.x)] * (way.x == 0 || way.y == 0 ? 0.125 : 0.0625)
+                * (tap == 4u ? 2.0 : 1.0);
+    }
+    GradientBuffer(push.target).v[number] = sum;
+}
+
+VKPT_RUN_OVER_STRATA(filter_stratum)

@@ -1,0 +1,122 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: GPL-2.0-or-later
+// This frame's light, averaged with what the last view knew of the same surface; and how much it varies.
+#include "lib/frame.glsl"
+#include "lib/denoise.glsl"
+
+// Frames that the average is worth at most.
+const float most_frames = 32.0;
+const float most_moment_frames = 16.0;
+// From so many frames on, their variance is believed.
+const float least_frames = 4.0;
+const float least_normal_cosine = 0.9;
+
+struct History {
+    FilteredLight light;
+    Moments moments; // frames 0: nothing is known
+};
+
+// The four pixels of the last view around where the surface was then, as far as they show the same surface.
+History find_history(uint index)
+{
+    History none = History(FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0)));
+    if ((frame.flags & FRAME_HISTORY) == 0u)
+        return none;
+    vec3 motion = load_motion(index);
+    uvec2 guide = load_guide(index);
+    vec3 normal = guide_normal(guide);
+    vec2 slope = unpackHalf2x16(load_slope(index));
+    vec2 corner = floor(motion.xy), part = motion.xy - corner;
+    History sum = none;
+    float total = 0.0;
+    [[dont_unroll]] for (uint tap = 0u; tap < 4u; tap++) {
+        vec2 offset = vec2(tap & 1u, tap >> 1u), place = corner + offset;
+        if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.size))))
+            continue;
+        uint there = uint(place.y) * frame.size.x + uint(place.x);
+        uvec2 old = load_previous_guide(there);
+        float distance = plane_distance(motion.z, slope, offset - part, guide_depth(old));
+        vec2 shares = mix(1.0 - part, part, offset);
+        float weight = shares.x * shares.y;
+        if (distance > plane_tolerance(slope, vec2(1.0)) || dot(normal, guide_normal(old)) < least_normal_cosine || weight < 1e-3)
+            continue;
+        FilteredLight light = unpack_filtered(load_previous_filtered(there));
+        Moments moments = unpack_moments(load_previous_moments(there));
+        sum.light.diffuse += light.diffuse * weight;
+        sum.light.specular += light.specular * weight;
+        sum.moments.diffuse += vec2(moments.diffuse.x, moments.diffuse.y * moments.diffuse.y) * weight;
+        sum.moments.specular += vec2(moments.specular.x, moments.specular.y * moments.specular.y) * weight;
+        sum.moments.frames += moments.frames * weight;
+        total += weight;
+    }
+    if (total < 0.01)
+        return none;
+    float scale = 1.0 / total;
+    sum.light.diffuse *= scale;
+    sum.light.specular *= scale;
+    sum.moments.diffuse *= scale;
+    sum.moments.specular *= scale;
+    sum.moments.frames *= scale;
+    return sum;
+}
+
+// Deviation of the average: that of one frame, over the root of the frames that the average is worth.
+float average_deviation(vec2 mean_and_square, float frames)
+{
+    if (frames < least_frames)
+        return deviation_unknown;
+    return sqrt(max(mean_and_square.y - mean_and_square.x * mean_and_square.x, 0.0) / frames);
+}
+
+vec3 without_broken(vec3 light) { return any(isnan(light)) || any(isinf(light)) ? vec3(0.0) : light; }
+
+// Lambda: the share of the light (diffuse, specular) that has changed since the last view around this pixel.
+vec2 changed_share(uvec2 pixel)
+{
+    if ((frame.flags & FRAME_REPLAYED) == 0u || (frame.flags & FRAME_HISTORY) == 0u)
+        return vec2(0.0);
+    uvec2 stratum = pixel / stratum_width;
+    vec4 gradient = load_gradient_b(stratum.y * stratum_count().x + stratum.x);
+    return clamp(abs(gradient.xz) / max(gradient.yw, 1e-10), 0.0, 1.0);
+}
+
+// Without spatial filter this is already what the next view accumulates on.
+void store_light(uint index, uvec4 light)
+{
+    if (frame.cvars.flt_denoiser == DENOISER_TEMPORAL)
+        store_filtered(index, light);
+    else
+        store_filter_a(index, light);
+}
+
+void accumulate_pixel(uvec2 pixel, uint index)
+{
+    PrimarySurface primary = load_primary_surface(index);
+    if (primary.depth < 0.0) {
+        store_light(index, uvec4(0u));
+        store_moments(index, uvec3(0u));
+        return;
+    }
+    vec3 diffuse = without_broken(load_diffuse_light(index));
+    vec3 specular = without_broken(load_specular_light(index) / specular_tint(primary.surface));
+    History history = find_history(index);
+    vec2 frames = min(history.moments.frames + 1.0, most_frames);
+    frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed_share(pixel));
+    vec2 share = 1.0 / frames;
+    vec2 moment_share = 1.0 / min(frames, most_moment_frames);
+    vec2 now = vec2(luminance(diffuse), luminance(specular));
+    vec2 diffuse_moments = mix(history.moments.diffuse, vec2(now.x, now.x * now.x), moment_share.x);
+    vec2 specular_moments = mix(history.moments.specular, vec2(now.y, now.y * now.y), moment_share.y);
+
+    FilteredLight light;
+    light.diffuse = mix(history.light.diffuse, diffuse, share.x);
+    light.specular = mix(history.light.specular, specular, share.y);
+    light.diffuse_deviation = average_deviation(diffuse_moments, frames.x);
+    light.specular_deviation = average_deviation(specular_moments, frames.y);
+    store_light(index, pack_filtered(light));
+    store_moments(index, pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),
+        vec2(specular_moments.x, sqrt(specular_moments.y)), frames)));
+}
+
+VKPT_RUN_OVER_PIXELS(accumulate_pixel)

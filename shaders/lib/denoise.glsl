@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the denoiser's passes share. Light is kept demodulated: diffuse without albedo, specular without a metal's colour, so that
+// no texture is blurred. Sources: Schied et al. 2017 (SVGF), Schied, Peters and Dachsbacher 2018 (A-SVGF).
+#ifndef VKPT_LIB_DENOISE
+#define VKPT_LIB_DENOISE
+
+#include "reprojection.glsl"
+#include "surfaces.glsl"
+
+// Light of a pixel with the standard deviation of its luminance, either for each of the two lobes.
+struct FilteredLight {
+    vec3 diffuse;
+    float diffuse_deviation;
+    vec3 specular;
+    float specular_deviation;
+};
+
+const float greatest_half = 60000.0;
+
+uvec4 pack_filtered(FilteredLight light)
+{
+    vec4 d = min(vec4(light.diffuse, light.diffuse_deviation), greatest_half);
+    vec4 s = min(vec4(light.specular, light.specular_deviation), greatest_half);
+    return uvec4(packHalf2x16(d.xy), packHalf2x16(d.zw), packHalf2x16(s.xy), packHalf2x16(s.zw));
+}
+
+FilteredLight unpack_filtered(uvec4 bits)
+{
+    vec2 d = unpackHalf2x16(bits.y), s = unpackHalf2x16(bits.w);
+    return FilteredLight(vec3(unpackHalf2x16(bits.x), d.x), d.y, vec3(unpackHalf2x16(bits.z), s.x), s.y);
+}
+
+// A deviation that tells the first level of the spatial filter: too few frames, measure it among the neighbours.
+const float deviation_unknown = -1.0;
+
+// Colour that the specular light of this surface carries.
+vec3 specular_tint(Surface s) { return mix(vec3(1.0), max(s.albedo, 0.05), s.metallic); }
+
+// ---- strata: blocks of 3 x 3 pixels, one of which repeats an older sample
+
+const uint stratum_width = 3u;
+
+uvec2 stratum_count() { return (frame.size + stratum_width - 1u) / stratum_width; }
+
+// The stratum's pixel whose turn it is in this frame.
+uvec2 stratum_pixel(uvec2 stratum)
+{
+    uvec4 hash = hash_pcg4(uvec4(stratum, frame.frame_index, 0x51ed270bu));
+    return min(stratum * stratum_width + hash.xy % stratum_width, frame.size - 1u);
+}
+
+// main() for passes over strata: run(stratum, its number).
+#define VKPT_RUN_OVER_STRATA(run)                                                                                      \
+    layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
+    void main()                                                                                                        \
+    {                                                                                                                  \
+        uint number = gl_WorkGroupID.x * PIXEL_GROUP_SIZE + gl_LocalInvocationIndex, across = stratum_count().x;       \
+        if (number < across * stratum_count().y)                                                                       \
+            run(uvec2(number % across, number / across), number);                                                      \
+    }
+
+// ---- moments
+
+struct Moments {
+    vec2 diffuse; // mean and root mean square of the luminance
+    vec2 specular;
+    vec2 frames; // how many the light's average is worth: diffuse, specular
+};
+
+uvec3 pack_moments(Moments m)
+{
+    return uvec3(packHalf2x16(min(m.diffuse, greatest_half)), packHalf2x16(min(m.specular, greatest_half)),
+        packHalf2x16(m.frames));
+}
+
+Moments unpack_moments(uvec3 bits)
+{
+    return Moments(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y), unpackHalf2x16(bits.z));
+}
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where things stand on the screen, in this view and in the last one.
+#ifndef VKPT_LIB_REPROJECTION
+#define VKPT_LIB_REPROJECTION
+
+#include "frame.glsl"
+#include "random.glsl"
+
+struct ScreenPoint {
+    vec2 pixel;  // (0, 0): the corner of the first pixel
+    float depth; // along the camera's axis; <= 0: behind it
+};
+
+ScreenPoint project(Camera camera, vec3 point)
+{
+    vec3 offset = point - camera.eye;
+    float depth = dot(offset, camera.forward);
+    vec2 screen = vec2(dot(offset, camera.right) / dot(camera.right, camera.right),
+                      -dot(offset, camera.up) / dot(camera.up, camera.up))
+        / max(depth, 1e-3);
+    return ScreenPoint((screen * 0.5 + 0.5) * vec2(frame.size), depth);
+}
+
+// Shading normal and depth, as filters compare them.
+uvec2 pack_guide(vec3 normal, float depth) { return uvec2(packSnorm4x8(vec4(normal, 0.0)), floatBitsToUint(depth)); }
+vec3 guide_normal(uvec2 guide) { return unpackSnorm4x8(guide.x).xyz; }
+float guide_depth(uvec2 guide) { return uintBitsToFloat(guide.y); }
+
+// Relative distance of a tap's depth from the plane through the pixel's surface; 0: on it. 1 / depth is linear on the screen.
+float plane_distance(float depth, vec2 slope, vec2 pixels, float tap_depth)
+{
+    return abs(depth / max(tap_depth, 1e-6) - 1.0 - dot(slope, pixels));
+}
+
+// How far from the plane a tap may lie, relative to depth: curved things lean away from it with the slope.
+float plane_tolerance(vec2 slope, vec2 pixels) { return 0.008 + 0.25 * dot(abs(slope), abs(pixels)); }
+
+// The generator of a pixel's light paths: its own, or the one of the older sample that it repeats.
+Random random_of_pixel(uvec2 pixel, uint index)
+{
+    if ((frame.flags & FRAME_REPLAYED) == 0u)
+        return make_random(pixel, frame.frame_index, frame.seed);
+    uvec2 seed = load_random_seed(index);
+    return make_random(uvec2(seed.x & 0xffffu, seed.x >> 16u), seed.y, frame.seed);
+}
+
+#endif
