@@ -23,7 +23,7 @@ constexpr float frame_seconds = 1.0f / 60;
 
 struct Options {
     std::string base_folder, map = "maps/vkpt1.bsp", pictures, cache = "denoiser_bench_cache";
-    int width = 480, height = 270, frames = 48, samples = 512, checks = 3, spacing = 5;
+    int width = 480, height = 270, frames = 48, samples = 400, checks = 1, spacing = 5;
     std::vector<std::string> modes { "off", "temporal", "svgf", "asvgf" }, settings;
     bool times = false;
 };
@@ -224,6 +224,7 @@ int main(int argc, char** argv)
     program.add_option("--width", options.width);
     program.add_option("--height", options.height);
     program.add_option("--frames", options.frames, "Length of each journey");
+    program.add_option("--checks", options.checks, "Frames at the end of each journey that are compared, five apart");
     program.add_option("--samples", options.samples, "Frames averaged for the converged pictures");
     program.add_option("--modes", options.modes, "Values of flt_denoiser");
     program.add_option("--set", options.settings, "NAME=VALUE");

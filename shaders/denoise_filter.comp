@@ -75,6 +75,8 @@ void filter_pixel(uvec2 pixel, uint index)
     Sums diffuse = first_tap(centre.diffuse, centre.diffuse_deviation, centre_weight);
     Sums specular = first_tap(centre.specular, centre.specular_deviation, centre_weight);
     float nearest = float(push.step);
+    float reach = load_specular_reach(index);
+    float specular_fall = 1.0 / (reach * reach);
     [[dont_unroll]] for (uint tap = 0u; tap < 9u; tap++) {
         ivec2 way = ivec2(tap % 3u, tap / 3u) - 1;
         ivec2 place = ivec2(pixel) + way * int(push.step);
@@ -92,7 +94,8 @@ void filter_pixel(uvec2 pixel, uint index)
             continue;
         FilteredLight light = unpack_filtered(source.v[there]);
         float diffuse_distance = abs(luminance(light.diffuse) - diffuse_luminance) * diffuse_sharpness;
-        float specular_distance = abs(luminance(light.specular) - specular_luminance) * specular_sharpness;
+        float specular_distance = abs(luminance(light.specular) - specular_luminance) * specular_sharpness
+            + dot(pixels, pixels) * specular_fall;
         add_tap(diffuse, light.diffuse, light.diffuse_deviation, weight * exp(-diffuse_distance));
         add_tap(specular, light.specular, light.specular_deviation, weight * exp(-specular_distance));
     }

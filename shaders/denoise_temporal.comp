@@ -11,6 +11,8 @@ const float most_moment_frames = 16.0;
 // From so many frames on, their variance is believed.
 const float least_frames = 4.0;
 const float least_normal_cosine = 0.9;
+// Smoother surfaces show their reflections, which move as things behind them.
+const float glossy_roughness = 0.3;
 
 struct History {
     FilteredLight light;
@@ -18,16 +20,17 @@ struct History {
 };
 
 // The four pixels of the last view around where the surface was then, as far as they show the same surface.
-History find_history(uint index)
+// `shown`: where the surface itself was, `at`: where to look for what it showed.
+History find_history(uint index, vec3 shown, vec2 at)
 {
-    History none = History(FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0)));
+    History none = History(
+        FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0), 0.0));
     if ((frame.flags & FRAME_HISTORY) == 0u)
         return none;
-    vec3 motion = load_motion(index);
     uvec2 guide = load_guide(index);
     vec3 normal = guide_normal(guide);
     vec2 slope = unpackHalf2x16(load_slope(index));
-    vec2 corner = floor(motion.xy), part = motion.xy - corner;
+    vec2 corner = floor(at), part = at - corner;
     History sum = none;
     float total = 0.0;
     [[dont_unroll]] for (uint tap = 0u; tap < 4u; tap++) {
@@ -36,7 +39,7 @@ History find_history(uint index)
             continue;
         uint there = uint(place.y) * frame.size.x + uint(place.x);
         uvec2 old = load_previous_guide(there);
-        float distance = plane_distance(motion.z, slope, offset - part, guide_depth(old));
+        float distance = plane_distance(shown.z, slope, place + frame.offset_change - shown.xy, guide_depth(old));
         vec2 shares = mix(1.0 - part, part, offset);
         float weight = shares.x * shares.y;
         if (distance > plane_tolerance(slope, vec2(1.0)) || dot(normal, guide_normal(old)) < least_normal_cosine || weight < 1e-3)
@@ -48,6 +51,7 @@ History find_history(uint index)
         sum.moments.diffuse += vec2(moments.diffuse.x, moments.diffuse.y * moments.diffuse.y) * weight;
         sum.moments.specular += vec2(moments.specular.x, moments.specular.y * moments.specular.y) * weight;
         sum.moments.frames += moments.frames * weight;
+        sum.moments.reflected_distance += moments.reflected_distance * weight;
         total += weight;
     }
     if (total < 0.01)
@@ -58,6 +62,7 @@ History find_history(uint index)
     sum.moments.diffuse *= scale;
     sum.moments.specular *= scale;
     sum.moments.frames *= scale;
+    sum.moments.reflected_distance *= scale;
     return sum;
 }
 
@@ -70,6 +75,35 @@ float average_deviation(vec2 mean_and_square, float frames)
 }
 
 vec3 without_broken(vec3 light) { return any(isnan(light)) || any(isinf(light)) ? vec3(0.0) : light; }
+
+// Averaged, for the specular lobe is sampled now and then only.
+float update_reflected_distance(uint index, float before)
+{
+    float now = frame.cvars.pt_bounces > 0 ? load_reflected_distance(index) : -1.0;
+    if (now <= 0.0)
+        return before;
+    now = min(now, 16384.0);
+    return before > 0.0 ? mix(before, now, 0.2) : now;
+}
+
+// Where the last view showed what the surface reflects: as far along the camera's ray as the light has come.
+vec2 place_of_reflection(uvec2 pixel, float distance)
+{
+    vec2 screen = (vec2(pixel) + frame.pixel_offset) / vec2(frame.size) * 2.0 - 1.0;
+    vec3 direction = normalize(frame.camera.forward + frame.camera.right * screen.x - frame.camera.up * screen.y);
+    ScreenPoint before = project(frame.previous_camera, frame.camera.eye + direction * distance);
+    return before.depth > 0.0 ? before.pixel - frame.pixel_offset : vec2(-1e6);
+}
+
+// Pixels over which the lobe spreads what it reflects: filters must not reach farther, or reflections blur.
+float specular_reach(PrimarySurface primary, float distance)
+{
+    const float unlimited = 1e4;
+    if (distance <= 0.0)
+        return unlimited;
+    float spread = 2.0 * ggx_alpha(primary.surface.roughness) * distance / (distance + primary.depth);
+    return 1.0 + spread * float(frame.size.x) * 0.5 / length(frame.camera.right);
+}
 
 // Lambda: the share of the light (diffuse, specular) that has changed since the last view around this pixel.
 vec2 changed_share(uvec2 pixel)
@@ -100,7 +134,15 @@ void accumulate_pixel(uvec2 pixel, uint index)
     }
     vec3 diffuse = without_broken(load_diffuse_light(index));
     vec3 specular = without_broken(load_specular_light(index) / specular_tint(primary.surface));
-    History history = find_history(index);
+    vec3 shown = load_motion(index);
+    History history = find_history(index, shown, shown.xy);
+    float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
+    if (primary.surface.roughness < glossy_roughness && reflected_distance > 0.0) {
+        History glossy = find_history(index, shown, place_of_reflection(pixel, primary.depth + reflected_distance));
+        history.light.specular = glossy.light.specular;
+        history.moments.specular = glossy.moments.specular;
+        history.moments.frames.y = glossy.moments.frames.y;
+    }
     vec2 frames = min(history.moments.frames + 1.0, most_frames);
     frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed_share(pixel));
     vec2 share = 1.0 / frames;
@@ -116,7 +158,8 @@ void accumulate_pixel(uvec2 pixel, uint index)
     light.specular_deviation = average_deviation(specular_moments, frames.y);
     store_light(index, pack_filtered(light));
     store_moments(index, pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),
-        vec2(specular_moments.x, sqrt(specular_moments.y)), frames)));
+        vec2(specular_moments.x, sqrt(specular_moments.y)), frames, reflected_distance)));
+    store_specular_reach(index, specular_reach(primary, reflected_distance));
 }
 
 VKPT_RUN_OVER_PIXELS(accumulate_pixel)

@@ -284,6 +284,8 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfac
     if (uniforms.flags & shared::FRAME_DENOISED)
         record_denoiser(uniforms);
     record_pass("accumulate", pixels.groups);
+    if (uniforms.flags & shared::FRAME_ANTIALIASED)
+        record_pass("temporal_antialiasing", pixels.groups);
     if (surfaces == Surfaces::probes)
         return;
     if (world)

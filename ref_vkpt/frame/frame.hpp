@@ -109,6 +109,7 @@ private:
     CvarValues last_cvars_;
     glm::uvec2 view_size_ { 0 };
     ViewHistory history_;
+    uint32_t offset_index_ = 0;
     uint32_t accumulated_frames_ = 0;
     uint32_t noise_index_ = 0;
     float light_level_ = 0;

@@ -2,6 +2,7 @@
 // The part of the frame that works across frames: the denoiser and its history. docs/denoiser.md explains the passes.
 #include "ref_vkpt/frame/frame.hpp"
 
+#include <iterator>
 #include <utility>
 
 namespace vkpt {
@@ -12,6 +13,11 @@ namespace {
 constexpr uint32_t filter_levels = 5;
 // Of the gradient's; odd, so that the result lies in gradient_b.
 constexpr uint32_t gradient_levels = 3;
+
+// Halton's sequence to the bases 2 and 3, its first eight points.
+constexpr glm::vec2 offsets_in_pixel[]
+    = { { 1 / 2.0f, 1 / 3.0f }, { 1 / 4.0f, 2 / 3.0f }, { 3 / 4.0f, 1 / 9.0f }, { 1 / 8.0f, 4 / 9.0f },
+          { 5 / 8.0f, 7 / 9.0f }, { 3 / 8.0f, 2 / 9.0f }, { 7 / 8.0f, 5 / 9.0f }, { 1 / 16.0f, 8 / 9.0f } };
 
 uint32_t stratum_groups(glm::uvec2 size)
 {
@@ -26,25 +32,32 @@ uint32_t stratum_groups(glm::uvec2 size)
 void Frame::begin_filters(
     shared::FrameUniforms& uniforms, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average)
 {
-    if (uniforms.cvars.flt_denoiser == shared::DENOISER_OFF || average || !scene.world) {
+    const bool antialiases = cvars::values().flt_taa == "on",
+               denoises = uniforms.cvars.flt_denoiser != shared::DENOISER_OFF;
+    if (average || !scene.world || !(antialiases || denoises)) {
         history_.forget();
         return;
     }
+    if (antialiases)
+        uniforms.pixel_offset = offsets_in_pixel[offset_index_++ % std::size(offsets_in_pixel)];
+    uniforms.flags |= shared::FRAME_REPROJECTED | (antialiases ? shared::FRAME_ANTIALIASED : 0)
+        | (denoises ? shared::FRAME_DENOISED : 0)
+        | (uniforms.cvars.flt_denoiser == shared::DENOISER_ASVGF ? shared::FRAME_REPLAYED : 0);
     ViewHistory::Key key;
     key.camera = uniforms.camera;
+    key.pixel_offset = uniforms.pixel_offset;
     key.size = uniforms.size;
     key.world = gpu_world ? gpu_world->version : 0;
     key.time = scene.time;
     key.denoiser = uniforms.cvars.flt_denoiser;
+    key.antialiases = antialiases;
+    const ViewHistory::Key& last = history_.continues_into(key) ? history_.last() : key;
+    uniforms.flags |= &last != &key ? shared::FRAME_HISTORY : 0;
+    uniforms.previous_camera = last.camera;
+    uniforms.offset_change = last.pixel_offset - key.pixel_offset;
+    history_.keep(key);
     graphics_.screen.exchange_history();
     uniforms.screen = graphics_.screen.addresses();
-    uniforms.flags |= shared::FRAME_REPROJECTED | shared::FRAME_DENOISED;
-    if (history_.continues_into(key))
-        uniforms.flags |= shared::FRAME_HISTORY;
-    if (uniforms.cvars.flt_denoiser == shared::DENOISER_ASVGF)
-        uniforms.flags |= shared::FRAME_REPLAYED;
-    uniforms.previous_camera = uniforms.flags & shared::FRAME_HISTORY ? history_.camera() : uniforms.camera;
-    history_.keep(key);
 }
 
 void Frame::record_denoiser(const shared::FrameUniforms& uniforms)

@@ -18,8 +18,9 @@ constexpr float longest_pause = 1;
 bool ViewHistory::continues_into(const Key& now) const
 {
     const float passed = now.time - last_.time;
-    return valid_ && now.size == last_.size && now.world == last_.world && now.denoiser == last_.denoiser && passed >= 0
-        && passed < longest_pause && glm::distance(now.camera.eye, last_.camera.eye) < most_eye_movement;
+    return valid_ && now.size == last_.size && now.world == last_.world && now.denoiser == last_.denoiser
+        && now.antialiases == last_.antialiases && passed >= 0 && passed < longest_pause
+        && glm::distance(now.camera.eye, last_.camera.eye) < most_eye_movement;
 }
 
 void ViewHistory::keep(const Key& now)

@@ -16,6 +16,8 @@ public:
         uint64_t world = 0; // GpuWorld::version
         float time = 0; // seconds of the game
         int denoiser = 0; // of the shaders' cvars
+        bool antialiases = false;
+        glm::vec2 pixel_offset { 0.5f }; // of the camera's rays; may differ
     };
 
     // The last view's pixels were lost.
@@ -24,7 +26,7 @@ public:
     bool continues_into(const Key& now) const;
     // `now` has been recorded, and is the last view from here on.
     void keep(const Key& now);
-    const shared::Camera& camera() const { return last_.camera; }
+    const Key& last() const { return last_; }
 
 private:
     Key last_;

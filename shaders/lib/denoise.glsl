@@ -65,17 +65,23 @@ struct Moments {
     vec2 diffuse; // mean and root mean square of the luminance
     vec2 specular;
     vec2 frames; // how many the light's average is worth: diffuse, specular
+    float reflected_distance; // average, to what the specular lobe shows; 0: unknown
 };
+
+// Frames are kept in 8 bits each: up to 36 of them, in sevenths.
+const float frame_parts = 7.0;
 
 uvec3 pack_moments(Moments m)
 {
+    uvec2 frames = min(uvec2(m.frames * frame_parts + 0.5), 255u);
     return uvec3(packHalf2x16(min(m.diffuse, greatest_half)), packHalf2x16(min(m.specular, greatest_half)),
-        packHalf2x16(m.frames));
+        packHalf2x16(vec2(min(m.reflected_distance, greatest_half), 0.0)) | (frames.x << 16u) | (frames.y << 24u));
 }
 
 Moments unpack_moments(uvec3 bits)
 {
-    return Moments(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y), unpackHalf2x16(bits.z));
+    return Moments(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y), vec2((bits.z >> 16u) & 255u, bits.z >> 24u) / frame_parts,
+        unpackHalf2x16(bits.z & 0xffffu).x);
 }
 
 #endif

@@ -30,6 +30,7 @@ VKPT_CONST uint FRAME_PROBE_VISIBILITY = 32u; // probe_rays.comp asks whether an
 VKPT_CONST uint FRAME_HISTORY = 64u;    // the buffers named previous_ hold the last view of this scene
 VKPT_CONST uint FRAME_REPROJECTED = 512u; // primary_visibility tells where things were in the last view
 VKPT_CONST uint FRAME_DENOISED = 128u;  // the picture is made from the filtered light
+VKPT_CONST uint FRAME_ANTIALIASED = 1024u; // the picture is averaged over views
 VKPT_CONST uint FRAME_REPLAYED = 256u;  // random numbers follow the buffer random_seed: some pixels repeat an older sample
 
 VKPT_CONST uint LIGHT_LEVEL_LANES = 64u; // = PIXEL_GROUP_SIZE
@@ -95,6 +96,7 @@ struct FrameUniforms {
     Camera camera;
     Camera previous_camera; // where FRAME_HISTORY
     vec2 pixel_offset;      // where in their pixel camera rays pass, unless FRAME_JITTER
+    vec2 offset_change;     // the last view's pixel_offset less this one's
     SceneView scene;
     ScreenBuffers screen;
     uint64_t exposure; // ExposureState

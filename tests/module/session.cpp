@@ -21,8 +21,8 @@ Session::Session(const std::filesystem::path& base_folder, const CvarList& cvars
     options.module = VKPT_TESTED_MODULE;
     options.width = size.x;
     options.height = size.y;
-    options.cvars
-        = { { "pt_validation", "1" }, { "pt_seed", "1" }, { "pt_exposure", "1" }, { "flt_denoiser", "off" } };
+    options.cvars = { { "pt_validation", "1" }, { "pt_seed", "1" }, { "pt_exposure", "1" }, { "flt_denoiser", "off" },
+        { "flt_taa", "off" } };
     options.cvars.insert(options.cvars.end(), cvars.begin(), cvars.end());
     options.on_line = [this](const std::string& line) {
         lines_.push_back(line);

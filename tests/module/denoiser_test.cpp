@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The denoiser through the real driver: what it must not change, what it must forget, and how fast.
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace vkpt::tests {
+namespace {
+
+constexpr float cube_half = 8;
+constexpr int lamp_style = 1;
+
+// A closed room with a lamp that a lightstyle switches, and a cube.
+class Denoiser : public testing::Test {
+protected:
+    Denoiser()
+    {
+        folder_.add_wall("wall", 180);
+        cube_path_ = folder_.add_cube("cube", cube_half, red_index);
+        MapBuilder map;
+        map.add_room({ -256, -256, 0 }, { 256, 256, 256 }, map.add_material("wall"));
+        map.add_block({ 20, -60, 0 }, { 50, -30, 40 }, map.add_material("wall"));
+        map.add_point_light({ 60, 40, 200 }, 300, lamp_style);
+        folder_.add_map("room", map.finish());
+        MapBuilder field;
+        field.add(rectangle({ 0, 0, 0 }, { 512, 0, 0 }, { 0, 512, 0 }), field.add_material("wall"));
+        field.add_point_light({ 0, 0, 3000 }, 100000);
+        folder_.add_map("field", field.finish());
+    }
+
+    std::unique_ptr<Session> start(const CvarList& cvars, const std::string& map = "room")
+    {
+        auto session = std::make_unique<Session>(folder_, cvars);
+        session->load_map(map);
+        session->look({ -120, -100, 90 }, { 20, 20, 0 });
+        return session;
+    }
+
+    GameFolder folder_;
+    std::string cube_path_;
+};
+
+double error_between(const Radiance& picture, const Radiance& reference)
+{
+    double sum = 0;
+    for (size_t i = 0; i < picture.pixels.size(); i++)
+        sum += std::pow(double(luminance(picture.pixels[i])) - double(luminance(reference.pixels[i])), 2);
+    return sum / double(picture.pixels.size());
+}
+
+// One light, far away: each pixel's light is the same in every frame, and hardly differs from its neighbours'.
+TEST_F(Denoiser, ConstantLightStaysConstant)
+{
+    const auto session = start({ { "pt_seed", "0" }, { "pt_bounces", "0" }, { "pt_point_light_radius", "0.1" },
+                                   { "pt_roughness_default", "1" } },
+        "field");
+    session->look({ 0, 0, 40 }, { 5, 0, 0 }, 40);
+    session->draw();
+    const Radiance raw = session->capture();
+    ASSERT_FALSE(is_black(raw));
+    for (const char* mode : { "temporal", "svgf", "asvgf" }) {
+        session->set("flt_denoiser", mode);
+        session->draw(40);
+        const Radiance filtered = session->capture();
+        for (size_t i = 0; i < raw.pixels.size(); i++)
+            ASSERT_NEAR(luminance(filtered.pixels[i]), luminance(raw.pixels[i]), 1e-3f * luminance(raw.pixels[i]))
+                << mode << ", pixel " << i;
+    }
+}
+
+// Repeated samples with unchanged light differ by nothing at all: the gradient then leaves no trace in the picture.
+TEST_F(Denoiser, GradientOfAFrozenSceneIsZero)
+{
+    const auto picture_of = [&](const char* mode, float lamp) {
+        const auto session = start({ { "flt_denoiser", mode } });
+        session->draw(8);
+        session->light_style(lamp_style, lamp);
+        session->draw(4);
+        return session->capture();
+    };
+    const Radiance picture = picture_of("asvgf", 1);
+    EXPECT_FALSE(is_black(picture));
+    EXPECT_TRUE(picture == picture_of("svgf", 1));
+    EXPECT_FALSE(picture_of("asvgf", 0.5f) == picture_of("svgf", 0.5f));
+}
+
+TEST_F(Denoiser, OnlyAsvgfFollowsALightThatGoesOut)
+{
+    const auto share_left = [&](const char* mode) {
+        const auto session = start({ { "flt_denoiser", mode }, { "pt_seed", "0" } });
+        session->draw(30);
+        const float before = luminance(session->capture().mean());
+        EXPECT_GT(before, 0.001f);
+        session->light_style(lamp_style, 0);
+        session->draw(2);
+        return luminance(session->capture().mean()) / before;
+    };
+    EXPECT_LT(share_left("asvgf"), 0.1f);
+    EXPECT_GT(share_left("svgf"), 0.5f);
+}
+
+TEST_F(Denoiser, LowersTheErrorAndKeepsTheLight)
+{
+    const auto session = start({ { "pt_seed", "0" } });
+    const Radiance reference = session->accumulate(400);
+    session->set("pt_accumulate", "0");
+    session->draw();
+    const double raw = error_between(session->capture(), reference);
+    const double expected[] = { 4, 8, 8 };
+    const double* times_less = expected;
+    for (const char* mode : { "temporal", "svgf", "asvgf" }) {
+        session->set("flt_denoiser", mode);
+        session->draw(30);
+        const Radiance picture = session->capture();
+        EXPECT_LT(error_between(picture, reference), raw / *times_less++) << mode;
+        EXPECT_NEAR(luminance(picture.mean()), luminance(reference.mean()), 0.08f * luminance(reference.mean()))
+            << mode;
+        EXPECT_EQ(count_broken(picture), 0u) << mode;
+    }
+}
+
+// After a cut a picture is what it would be as the very first one.
+TEST_F(Denoiser, CutsDropTheHistory)
+{
+    for (const char* mode : { "temporal", "asvgf" }) {
+        const auto session = start({ { "flt_denoiser", mode } });
+        session->draw(6);
+        session->view.view_origin[0] += 2; // a step: history stays
+        session->draw();
+        const Radiance after_step = session->capture();
+        session->view.view_origin[0] += 130; // a teleport
+        session->draw();
+        const Radiance after_cut = session->capture();
+        session->set("pt_view_scale", 50);
+        session->draw();
+        session->set("pt_view_scale", 100); // other pixels
+        session->draw();
+        EXPECT_TRUE(session->capture() == after_cut) << mode;
+        session->load_map("room");
+        session->draw();
+        EXPECT_TRUE(session->capture() == after_cut) << mode;
+        session->view.time = 100; // a leap
+        session->draw();
+        EXPECT_TRUE(session->capture() == after_cut) << mode;
+        session->set("pt_accumulate", 1);
+        session->draw();
+        session->set("pt_accumulate", 0);
+        session->draw();
+        EXPECT_TRUE(session->capture() == after_cut) << mode;
+        session->view.view_origin[0] -= 130;
+        session->draw();
+        EXPECT_FALSE(session->capture() == after_step) << mode;
+    }
+}
+
+TEST_F(Denoiser, AveragedPicturesAreUnfiltered)
+{
+    const Radiance unfiltered = start({ { "flt_denoiser", "off" } })->accumulate(4);
+    EXPECT_TRUE(start({ { "flt_denoiser", "asvgf" } })->accumulate(4) == unfiltered);
+}
+
+// A cube (or the view weapon) rises together with the camera, past walls that do not: its pixels find their history.
+TEST_F(Denoiser, MovingThingsKeepTheirHistory)
+{
+    for (const int32_t flags : { 0, int32_t(engine::RF_WEAPONMODEL) }) {
+        const auto session = start({ { "flt_denoiser", "temporal" }, { "pt_seed", "0" }, { "r_gunfov", "0" } });
+        void* cube = session->module().register_model(cube_path_.c_str());
+        ASSERT_TRUE(cube);
+        const auto draw_at = [&](float height) {
+            const glm::vec3 eye { -40, 0, height };
+            session->look(eye, eye + glm::vec3(30, 0, -20));
+            const engine::Entity entity = make_entity(cube, eye + glm::vec3(22, 0, -14), flags);
+            session->view.entities = &entity;
+            session->view.entity_count = 1;
+            session->draw();
+            session->view.entities = nullptr;
+            session->view.entity_count = 0;
+        };
+        for (int frame = 0; frame < 24; frame++)
+            draw_at(60 + 2 * float(frame));
+        const Radiance moving = session->capture();
+        session->set("pt_accumulate", 1);
+        for (int frame = 0; frame < 200; frame++)
+            draw_at(60 + 2 * 23);
+        const Radiance reference = session->capture();
+        session->set("pt_accumulate", 0);
+        session->set("flt_denoiser", "off");
+        draw_at(60 + 2 * 23);
+        const Radiance raw = session->capture();
+        // The middle of the picture is the cube's top.
+        const auto middle = [](const Radiance& picture) {
+            Radiance part { 8, 6, {} };
+            for (int y = 0; y < 6; y++)
+                for (int x = 0; x < 8; x++)
+                    part.pixels.push_back(picture.at(picture.width / 2 - 4 + x, picture.height / 2 - 3 + y));
+            return part;
+        };
+        EXPECT_FALSE(is_black(middle(reference)));
+        EXPECT_LT(
+            error_between(middle(moving), middle(reference)), 0.35 * error_between(middle(raw), middle(reference)))
+            << "flags " << flags;
+    }
+}
+
+} // namespace
+} // namespace vkpt::tests
