@@ -22,17 +22,17 @@ namespace {
 constexpr float frame_seconds = 1.0f / 60;
 
 struct Options {
-    std::string base_folder, map = "maps/vkpt1.bsp", pictures, cache = "denoiser_bench_cache";
+    std::string base_folder, map = "maps/vkpt1.bsp", pictures, journey, cache = "denoiser_bench_cache";
     int width = 480, height = 270, frames = 48, samples = 400, checks = 1, spacing = 5;
-    std::vector<std::string> modes { "off", "temporal", "svgf", "asvgf" }, settings;
+    std::vector<std::string> modes { "off", "temporal", "svgf", "asvgf", "asvgf+taa" }, settings;
     bool times = false;
 };
 
 struct Journey {
     const char* name;
-    client::Camera from, to; // per second of the journey
+    client::Camera from, to; // to: a second later
 };
-// Our map's main hall, and its doors to water and lamps.
+// Through our map's halls.
 const Journey journeys[] = {
     { "hall, at rest", { { 0, -384, 54 }, 0, 90 }, { { 0, -384, 54 }, 0, 90 } },
     { "hall, running and turning", { { -60, -440, 54 }, 0, 70 }, { { 200, -300, 54 }, 4, 130 } },
@@ -152,7 +152,9 @@ struct Errors {
 Errors measure(
     const Options& options, const Journey& journey, const std::map<int, Picture>& references, const std::string& mode)
 {
-    Run run(options, { { "flt_denoiser", mode } });
+    const size_t plus = mode.find('+');
+    Run run(
+        options, { { "flt_denoiser", mode.substr(0, plus) }, { "flt_taa", plus == std::string::npos ? "off" : "on" } });
     Errors errors;
     for (int frame = 0; frame < options.frames; frame++) {
         run.draw(camera_at(journey, frame_time(frame)), frame_time(frame));
@@ -196,6 +198,8 @@ void run_bench(const Options& options)
         fmt::print(" {} |", mode);
     fmt::print("\n");
     for (const Journey& journey : journeys) {
+        if (!options.journey.empty() && std::string(journey.name).find(options.journey) == std::string::npos)
+            continue;
         std::map<int, Picture> references;
         for (int frame = 0; frame < options.frames; frame++)
             if (is_checked(options, frame))
@@ -226,7 +230,8 @@ int main(int argc, char** argv)
     program.add_option("--frames", options.frames, "Length of each journey");
     program.add_option("--checks", options.checks, "Frames at the end of each journey that are compared, five apart");
     program.add_option("--samples", options.samples, "Frames averaged for the converged pictures");
-    program.add_option("--modes", options.modes, "Values of flt_denoiser");
+    program.add_option("--modes", options.modes, "Values of flt_denoiser; with +taa behind: and flt_taa on");
+    program.add_option("--journey", options.journey, "Part of its name; else all");
     program.add_option("--set", options.settings, "NAME=VALUE");
     program.add_option("--cache", options.cache, "Folder for converged pictures");
     program.add_option("--pictures", options.pictures, "Folder for the last frames as PNG");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The frames of our demo as the engine shows them, against stored statistics. VKPT_UPDATE_STATISTICS=1 writes them
-// anew.
+// anew. Unfiltered: it is the sampling that is watched.
 #include "tests/engine/engine_run.hpp"
 #include "tests/engine/picture_statistics.hpp"
 
@@ -52,9 +52,9 @@ void write_statistics(const std::vector<PictureStatistics>& rows)
 std::vector<PictureStatistics> play_and_measure()
 {
     EngineOptions options;
-    options.arguments
-        = { "+set", "pt_capture_dir", "capture", "+set", "pt_capture_every", std::to_string(capture_every), "+set",
-              "timedemo", "1", "+set", "cl_predict", "0", "+set", "nextdemo", "quit", "+demomap", own_demo };
+    options.arguments = { "+set", "pt_capture_dir", "capture", "+set", "pt_capture_every",
+        std::to_string(capture_every), "+set", "flt_denoiser", "off", "+set", "flt_taa", "off", "+set", "timedemo", "1",
+        "+set", "cl_predict", "0", "+set", "nextdemo", "quit", "+demomap", own_demo };
     options.limit = std::chrono::seconds(240);
     const EngineRun run(options);
     run.expect_clean();

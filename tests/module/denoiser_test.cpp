@@ -26,6 +26,7 @@ protected:
         folder_.add_map("room", map.finish());
         MapBuilder field;
         field.add(rectangle({ 0, 0, 0 }, { 512, 0, 0 }, { 0, 512, 0 }), field.add_material("wall"));
+        field.add_block({ 100, -30, 1 }, { 140, 25, 30 }, field.add_material("wall"));
         field.add_point_light({ 0, 0, 3000 }, 100000);
         folder_.add_map("field", field.finish());
     }
@@ -53,8 +54,8 @@ double error_between(const Radiance& picture, const Radiance& reference)
 // One light, far away: each pixel's light is the same in every frame, and hardly differs from its neighbours'.
 TEST_F(Denoiser, ConstantLightStaysConstant)
 {
-    const auto session = start({ { "pt_seed", "0" }, { "pt_bounces", "0" }, { "pt_point_light_radius", "0.1" },
-                                   { "pt_roughness_default", "1" } },
+    const auto session = start({ { "pt_seed", "0" }, { "pt_bounces", "0" }, { "pt_emission_scale", "0.0001" },
+                                   { "pt_point_light_radius", "0.1" }, { "pt_roughness_default", "1" } },
         "field");
     session->look({ 0, 0, 40 }, { 5, 0, 0 }, 40);
     session->draw();
@@ -153,6 +154,37 @@ TEST_F(Denoiser, CutsDropTheHistory)
         session->draw();
         EXPECT_FALSE(session->capture() == after_step) << mode;
     }
+}
+
+// As the filter weighs colours, at exposure 1.
+Radiance compressed(Radiance picture)
+{
+    for (glm::vec3& pixel : picture.pixels)
+        pixel /= 1 + luminance(pixel);
+    return picture;
+}
+
+// Hard edges in steady light: only where in its pixel a ray passes makes a difference.
+TEST_F(Denoiser, AntialiasingComesNearTheAveragedPicture)
+{
+    const auto session
+        = start({ { "pt_bounces", "0" }, { "pt_emission_scale", "0.0001" }, { "pt_seed", "0" } }, "field");
+    session->look({ 40, -60, 60 }, { 120, 0, 20 });
+    const Radiance reference = compressed(session->accumulate(64));
+    session->set("pt_accumulate", "0");
+    session->draw();
+    const double jagged = error_between(compressed(session->capture()), reference);
+    session->set("flt_taa", "on");
+    session->draw(32);
+    const Radiance smooth = session->capture();
+    EXPECT_EQ(count_broken(smooth), 0u);
+    EXPECT_LT(error_between(compressed(smooth), reference), 0.6 * jagged);
+    session->view.view_angles[1] += 90; // elsewhere: nothing of the old picture may shine through
+    session->draw();
+    const Radiance turned = session->capture();
+    session->set("flt_taa", "off");
+    session->draw();
+    EXPECT_NEAR(luminance(turned.mean()), luminance(session->capture().mean()), 0.05f * luminance(turned.mean()));
 }
 
 TEST_F(Denoiser, AveragedPicturesAreUnfiltered)
