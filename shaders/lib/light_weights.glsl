@@ -15,6 +15,7 @@
 const float least_contribution = 1e-30f;    // the weight of what is possible but predicted to be nothing
 const float greatest_contribution = 1e20f;  // keeps sums of weights finite
 const float prediction_roughness = 0.35f;   // no lobe narrower than this guides the choice of lights
+const float ltc_tail = 0.15f;               // density of a lobe of alpha 1, far from its peak
 const float prediction_horizon = 0.05f;     // sine of the lowest elevation at which the reflectance is looked up
 
 // A surface prepared for weighing many lights.
@@ -138,30 +139,23 @@ float cosine_form_factor(vec3 a, vec3 b, vec3 c)
     return abs(sum) * (0.5f / bsdf_pi);
 }
 
-vec3 apply_rows(vec3 x, vec3 y, vec3 z, vec3 v)
+// Shares of the two lobes that a triangle takes. Corners relative to the surface.
+vec2 form_factors(LightPredictor p, vec3 a, vec3 b, vec3 c)
 {
-    return vec3(dot(x, v), dot(y, v), dot(z, v));
-}
-
-// Reflected luminance for radiance 1. Corners relative to the surface.
-float predict_triangle_by_ltc(LightPredictor p, vec3 a, vec3 b, vec3 c)
-{
-    float sum = 0.0f;
+    vec2 shares = vec2(0.0f);
     if (p.diffuse > 0.0f)
-        sum = p.diffuse
-            * cosine_form_factor(apply_rows(p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2], a),
-                apply_rows(p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2], b),
-                apply_rows(p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2], c));
+        shares.x = cosine_form_factor(to_axes(a, p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2]),
+            to_axes(b, p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2]),
+            to_axes(c, p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2]));
     if (p.specular > 0.0f)
-        sum += p.specular
-            * cosine_form_factor(apply_rows(p.specular_rows[0], p.specular_rows[1], p.specular_rows[2], a),
-                apply_rows(p.specular_rows[0], p.specular_rows[1], p.specular_rows[2], b),
-                apply_rows(p.specular_rows[0], p.specular_rows[1], p.specular_rows[2], c));
-    return sum;
+        shares.y = cosine_form_factor(to_axes(a, p.specular_rows[0], p.specular_rows[1], p.specular_rows[2]),
+            to_axes(b, p.specular_rows[0], p.specular_rows[1], p.specular_rows[2]),
+            to_axes(c, p.specular_rows[0], p.specular_rows[1], p.specular_rows[2]));
+    return shares;
 }
 
 // A sphere as the square that faces the surface and looks as large.
-float predict_sphere_by_ltc(LightPredictor p, vec3 to_centre, float radius)
+vec2 sphere_form_factors(LightPredictor p, vec3 to_centre, float radius)
 {
     float distance2 = dot(to_centre, to_centre), distance = sqrt(distance2);
     const float half_side_of_disc = 0.886226925f; // sqrt(pi) / 2
@@ -169,8 +163,8 @@ float predict_sphere_by_ltc(LightPredictor p, vec3 to_centre, float radius)
         * inversesqrt(max(distance2 - radius * radius, 0.02f * distance2));
     vec3 x = any_tangent(to_centre / distance), y = cross(to_centre / distance, x);
     vec3 across = (x + y) * half_side, other = (x - y) * half_side;
-    return predict_triangle_by_ltc(p, to_centre + across, to_centre + other, to_centre - across)
-        + predict_triangle_by_ltc(p, to_centre + across, to_centre - across, to_centre - other);
+    return form_factors(p, to_centre + across, to_centre + other, to_centre - across)
+        + form_factors(p, to_centre + across, to_centre - across, to_centre - other);
 }
 
 // What the prediction needs to know of an emitter's shape. solid_angle 0: it cannot light the surface.
@@ -232,15 +226,15 @@ float predict_by_chapter(LightPredictor p, EmitterAspect aspect)
 
 float predict_by_ltc(LightPredictor p, Emitter e, EmitterAspect aspect)
 {
-    float share;
+    vec2 shares = vec2(1.0f); // inside of a sphere: it is all around
     if (e.type != EMITTER_SPHERE)
-        share = predict_triangle_by_ltc(p, e.p0 - p.s.position, e.p1 - p.s.position, e.p2 - p.s.position);
+        shares = form_factors(p, e.p0 - p.s.position, e.p1 - p.s.position, e.p2 - p.s.position);
     else if (dot(aspect.centre, aspect.centre) > e.p1.x * e.p1.x)
-        share = predict_sphere_by_ltc(p, aspect.centre, e.p1.x);
-    else
-        share = p.diffuse + p.specular; // inside: it is all around
-    // The fit is a fit: what it all but excludes keeps a little weight.
-    return share + 1e-4f * aspect.solid_angle * (p.diffuse + p.specular);
+        shares = sphere_form_factors(p, aspect.centre, e.p1.x);
+    // Transformed cosines end at a horizon of their own, GGX does not: about what it has far off its peak.
+    float alpha = ggx_alpha(p.s.roughness);
+    float tail = ltc_tail * alpha * alpha * aspect.solid_angle * clamp(aspect.cosine_bound, 1e-2f, 1.0f);
+    return p.diffuse * max(shares.x, 1e-4f * aspect.solid_angle) + p.specular * max(shares.y, tail);
 }
 
 // The weight: reflected luminance, visibility unknown. 0 only where the emitter cannot contribute.

@@ -126,17 +126,18 @@ float arc_radius2(vec3 n, vec2 azimuth)
     return n.z * n.z / max(g * g + n.z * n.z, 1e-20f);
 }
 
-// Twice the area from the ellipse's axis to `azimuth` is |n.z| atan(|n.z| tan(angle between them)).
-float arc_area_to(vec3 n, vec2 azimuth)
+float turn(vec2 from, vec2 to)
 {
-    float along = max(n.x * azimuth.x + n.y * azimuth.y, 1e-12f);
-    float across = n.x * azimuth.y - n.y * azimuth.x;
-    return -0.5f * n.z * atan(-n.z * across, along);
+    return from.x * to.y - from.y * to.x;
 }
 
+// The area between the arc and the origin from one azimuth to another (unit vectors, less than half a turn). With psi
+// counted from the ellipse's short axis, half the integral of radius^2 is |n.z| / 2 * atan(|n.z| tan psi); the difference of
+// two such angles needs no axis, so that arcs along the horizon are no special case.
 float arc_area(vec3 n, vec2 from, vec2 to)
 {
-    return arc_area_to(n, to) - arc_area_to(n, from);
+    vec2 axis = vec2(n.x, n.y);
+    return -0.5f * n.z * atan(-n.z * turn(from, to), dot(from, to) - turn(axis, from) * turn(axis, to));
 }
 
 // A part of the disc between two azimuths (counter-clockwise, less than half a turn) and two arcs. inner.z = 0: the origin.
@@ -150,11 +151,6 @@ vec2 azimuth_of(vec3 v)
 {
     float len2 = v.x * v.x + v.y * v.y;
     return len2 > 1e-24f ? vec2(v.x, v.y) * inversesqrt(len2) : vec2(1.0f, 0.0f);
-}
-
-float turn(vec2 from, vec2 to)
-{
-    return from.x * to.y - from.y * to.x;
 }
 
 Sector make_sector(vec3 arc, vec3 other_arc, vec3 from, vec3 to)
@@ -265,7 +261,8 @@ vec3 sample_projected_triangle(ProjectedTriangle p, vec2 xi)
     else
         direction = sample_disc_triangle(
             p.v0, p.v2, p.v3, vec2(min((share - p.first_area) / (p.area - p.first_area), 1.0f), xi.y));
-    return normalize(p.x * direction.x + p.y * direction.y + p.z * direction.z);
+    // Clear of the horizon, where the density would be 0.
+    return normalize(p.x * direction.x + p.y * direction.y + p.z * max(direction.z, 1e-4f));
 }
 
 #endif

@@ -19,6 +19,7 @@ using namespace ::glm;
 #include "shaders/lib/bsdf.glsl"
 #include "shaders/lib/emitters.glsl"
 #include "shaders/lib/light_lists.glsl"
+#include "shaders/lib/light_subsets.glsl"
 #include "shaders/lib/light_weights.glsl"
 #include "shaders/lib/random.glsl"
 

@@ -27,6 +27,13 @@ struct ListCase {
     shared::LightList range {};
     ShadingPoint point;
 
+    bool contains(uint32_t emitter) const
+    {
+        for (size_t i = 0; i < light_count(); i++)
+            if (light_at(i) == emitter)
+                return true;
+        return false;
+    }
     size_t light_count() const { return range.static_count + range.dynamic_count; }
     uint32_t light_at(size_t i) const
     {
