@@ -51,7 +51,10 @@ float pdf_point(const Emitter& e, vec3 receiver, vec3 point)
 {
     return pdf_emitter_point(e, make_surface(receiver, vec3(0, 0, 1)), point, by_solid_angle);
 }
-float contribution_of(const Surface& s, const Emitter& e) { return light_contribution(make_predictor(s, by_solid_angle), e); }
+float contribution_of(const Surface& s, const Emitter& e)
+{
+    return light_contribution(make_predictor(s, by_solid_angle), e);
+}
 
 std::vector<dvec3> clip_polygon_to_horizon(const std::vector<dvec3>& polygon, dvec3 normal)
 {

@@ -56,8 +56,8 @@ struct Material {
     const char* name;
     float roughness, metallic;
 };
-constexpr Material materials[] = { { "matte", 1, 0 }, { "layered", 0.5f, 0 }, { "metal", 0.4f, 1 }, { "smooth metal", 0.2f, 1 },
-    { "mirror", 0.12f, 1 } };
+constexpr Material materials[] = { { "matte", 1, 0 }, { "layered", 0.5f, 0 }, { "metal", 0.4f, 1 },
+    { "smooth metal", 0.2f, 1 }, { "mirror", 0.12f, 1 } };
 
 bool is_narrow(const Material& material) { return material.metallic > 0 && material.roughness < 0.3f; }
 
@@ -73,7 +73,8 @@ double integrate_once(const ListCase& list, const Material& material, int n)
     double radiance = 0;
     for (const shared::Emitter& e : list.emitters)
         radiance += double(e.radiance.x);
-    const auto [entry, is_new] = known.try_emplace(fmt::format("{} {} {}", list.light_count(), material.name, radiance), 0);
+    const auto [entry, is_new]
+        = known.try_emplace(fmt::format("{} {} {}", list.light_count(), material.name, radiance), 0);
     if (is_new)
         entry->second = all_samplers()[0].integrate(list, n);
     return entry->second;
@@ -89,10 +90,10 @@ TEST_P(LightEstimate, IsUnbiased)
     if (sampler().is_biased())
         GTEST_SKIP() << "see BiasedSamplersFailTheTest";
     const bool is_long = GetParam().light_count > 100;
-    const int samples = is_long ? 3000 : 8000;
+    const int samples = is_long && GetParam().subset_length > 1 ? 3000 : 8000;
     for (const Material& material : materials) {
-        // Light sampling alone would need far more samples for narrow lobes: their rare bright points are missed. And the
-        // quadrature of many lights is too coarse for them.
+        // Light sampling alone would need far more samples for narrow lobes: their rare bright points are missed. And
+        // the quadrature of many lights is too coarse for them.
         if (is_narrow(material) && (!sampler().mis || is_long))
             continue;
         ListCase list = make_hard_list(GetParam().light_count, 31);
@@ -155,7 +156,7 @@ TEST(LightEstimates, WeightsAndPointsOnlyChangeTheNoise)
         for (const int weight : { shared::LIGHT_WEIGHT_CHAPTER, shared::LIGHT_WEIGHT_LTC })
             for (const int point :
                 { shared::LIGHT_POINT_AREA, shared::LIGHT_POINT_SOLID_ANGLE, shared::LIGHT_POINT_PROJECTED }) {
-                const Moments found = estimate(sampler, seen, { 8, weight, point }, 8000);
+                const Moments found = estimate(sampler, seen, { 8, weight, point }, 4000);
                 EXPECT_NEAR(found.mean(), truth, 4.5 * found.deviation_of_mean() + 2e-3 * truth)
                     << sampler.name << ", weight " << weight << ", point " << point;
             }
@@ -174,14 +175,14 @@ TEST(LightEstimates, SubsetsCostAtMostTheirStride)
     const auto second_moment = [](const Moments& m) { return m.variance() + m.mean() * m.mean(); };
     for (const bool uneven : { false, true }) {
         const ListCase list = uneven ? make_uneven_list() : make_random_list(64, 0, 41);
-        const double full = second_moment(estimate(find("full"), list, { 8 }, 40000));
+        const double full = second_moment(estimate(find("full"), list, { 8 }, 15000));
         for (const char* name : { "subset", "subset_onesweep", "subset_strides" })
             for (const uint32_t length : { 1, 8, 16, 64 }) {
-                const double ratio = second_moment(estimate(find(name), list, { length }, 40000)) / full;
+                const double ratio = second_moment(estimate(find(name), list, { length }, 15000)) / full;
                 EXPECT_LT(ratio, 1.1 * 64 / length) << name << " " << length;
                 EXPECT_GT(ratio, 0.9) << name << " " << length;
                 if (uneven && length == 8 && std::string_view(name) == "subset") {
-                    EXPECT_GT(ratio, 7) << "the adversarial order";
+                    EXPECT_GT(ratio, 6) << "the adversarial order";
                 }
             }
     }

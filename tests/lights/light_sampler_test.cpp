@@ -25,7 +25,7 @@ std::vector<SamplerSetup> all_setups()
 {
     std::vector<SamplerSetup> setups;
     for (size_t sampler = 0; sampler < all_samplers().size(); sampler++)
-        for (const size_t count : { 1, 7, 8, 9, 15, 64, 1000 })
+        for (const size_t count : { 1, 7, 8, 9, 64, 1000 })
             for (const uint32_t subset_length : { 1, 8, 64 })
                 for (const double zero_share : { 0.0, 0.5 })
                     setups.push_back({ sampler, count, subset_length, zero_share });
@@ -38,7 +38,7 @@ protected:
     const Sampler& sampler() const { return all_samplers()[GetParam().sampler]; }
     ListCase list() const { return make_random_list(GetParam().light_count, GetParam().zero_share, 11); }
     SamplerOptions options() const { return { GetParam().subset_length }; }
-    int draw_count() const { return GetParam().light_count > 100 ? 8000 : 30000; }
+    int draw_count() const { return GetParam().light_count > 100 ? 4000 : 16000; }
 
     // The probability of each light of the list, averaged over random numbers.
     std::vector<double> mean_probabilities(const ListCase& lights, int steps) const
@@ -83,7 +83,7 @@ TEST_P(LightSampler, WeightsOfEachLightAverageToOne)
         return; // points of a light that send nothing are never kept, so that its weights count the others alone
     int told = 0;
     for (const auto& [emitter, sum] : sums) {
-        if (sum.picks < 300)
+        if (sum.picks < 200)
             continue; // too rarely to tell
         const double n = draw_count(), mean = sum.weights / n;
         const double deviation = std::sqrt(std::max(sum.squares / n - mean * mean, 0.0) / n);
@@ -103,7 +103,7 @@ TEST_P(LightSampler, FrequencyIsTheReportedProbability)
     const bool is_fixed = has_fixed_probabilities(sampler());
     if (!is_fixed && lights.light_count() > 100)
         return;
-    const int work = 300000 / int(lights.light_count() * options().subset_length);
+    const int work = 150000 / int(lights.light_count() * options().subset_length);
     const int steps = is_fixed ? 1 : std::clamp(work, 250, 4000);
     const std::vector<double> expected = mean_probabilities(lights, steps);
     std::map<uint32_t, size_t> place;

@@ -57,7 +57,8 @@ double integrate(const Case& c, int n)
 TEST(LightWeights, AngleOverSine)
 {
     for (double angle = 0.01; angle < 3.13; angle += 0.01)
-        EXPECT_NEAR(angle_over_sine(float(std::cos(angle))) * std::sin(angle) / angle, 1, 2e-3 / std::sin(angle) * 0.01 + 2e-5)
+        EXPECT_NEAR(
+            angle_over_sine(float(std::cos(angle))) * std::sin(angle) / angle, 1, 2e-3 / std::sin(angle) * 0.01 + 2e-5)
             << angle;
 }
 

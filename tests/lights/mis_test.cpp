@@ -34,8 +34,8 @@ std::vector<int> drawn_positions(uint32_t stream, size_t count, uint32_t subset_
     return positions;
 }
 
-// One stream of random numbers for each combination of offsets, with its share of all combinations: offsets past the end
-// of the list are one outcome.
+// One stream of random numbers for each combination of offsets, with its share of all combinations: offsets past the
+// end of the list are one outcome.
 std::vector<std::pair<uint32_t, double>> enumerate_streams(size_t count, uint32_t subset_length)
 {
     const size_t stride = glsl::subset_stride(uint32_t(count), subset_length);
@@ -104,8 +104,7 @@ double expected_estimate(
     EXPECT_TRUE(chosen == 0 || std::abs(chosen - 1) < 1e-5);
     for (uint32_t emitter = 0; emitter < toy.light.size(); emitter++)
         if (toy.ray_density[emitter] > 0)
-            sum += toy.ray_density[emitter]
-                * share(emitter, sampler.probability(toy.list, emitter, draw, options));
+            sum += toy.ray_density[emitter] * share(emitter, sampler.probability(toy.list, emitter, draw, options));
     return sum;
 }
 

@@ -69,7 +69,8 @@ TEST(ProjectedTriangle, EverySampleIsWorthTheWhole)
     EXPECT_GT(told, 1500);
 }
 
-// Equal parts of the triangle's projection receive equal numbers of samples: chi-square over parts cut through its middle.
+// Equal parts of the triangle's projection receive equal numbers of samples: chi-square over parts cut through its
+// middle.
 TEST(ProjectedTriangle, SamplesSpreadEvenly)
 {
     std::mt19937 rng(2);
@@ -123,8 +124,7 @@ TEST(ProjectedTriangle, SamplesLieOnTheTriangleAboveTheHorizon)
         if (project(c).area < least_projected_angle)
             continue;
         for (const float xi : { 0.0f, unit(rng), 0.99999994f }) {
-            const EmitterSample drawn
-                = sample_emitter_point(c.emitter, c.surface, vec2(xi, unit(rng)), projected);
+            const EmitterSample drawn = sample_emitter_point(c.emitter, c.surface, vec2(xi, unit(rng)), projected);
             ASSERT_GE(dot(drawn.direction, c.surface.normal), 0);
             const vec3 p = drawn.point;
             const Emitter& e = c.emitter;

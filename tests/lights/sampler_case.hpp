@@ -73,11 +73,10 @@ struct Sampler {
     const char* name;
     bool mis;
     PickedLight (*pick)(const ListCase& list, const Draw& draw, const SamplerOptions& options);
-    float (*probability)(
-        const ListCase& list, uint32_t emitter, const Draw& draw, const SamplerOptions& options);
+    float (*probability)(const ListCase& list, uint32_t emitter, const Draw& draw, const SamplerOptions& options);
     float (*contribution)(const ListCase& list, uint32_t emitter, const SamplerOptions& options);
-    // One sample of the light (luminance) that all emitters, unshadowed, make the point reflect: the share found by light
-    // sampling, and with mis that found by a BSDF ray, which passes through what it meets.
+    // One sample of the light (luminance) that all emitters, unshadowed, make the point reflect: the share found by
+    // light sampling, and with mis that found by a BSDF ray, which passes through what it meets.
     double (*sample_lights)(const ListCase& list, const Draw& draw, const SamplerOptions& options);
     double (*sample_bsdf_ray)(
         const ListCase& list, const BsdfNumbers& numbers, const Draw& draw, const SamplerOptions& options);

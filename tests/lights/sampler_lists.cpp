@@ -126,7 +126,7 @@ ListCase make_uneven_list()
     ListCase list;
     std::vector<uint32_t> indices;
     for (int i = 0; i < count; i++) {
-        const glm::vec3 centre(60.0f * float(i % 8) - 210, 60.0f * float(i / 8) - 210, 60);
+        const glm::vec3 centre(60.0f * float(i % 8), 60.0f * float(i / 8) - 210, 60);
         const float size = 28, radiance = i % stride == 0 ? 10.0f : 0.01f;
         list.emitters.push_back(make_triangle(centre + glm::vec3(-size, -size, 0), centre + glm::vec3(size, -size, 0),
             centre + glm::vec3(0, size, 0), radiance));

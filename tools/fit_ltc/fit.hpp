@@ -12,7 +12,8 @@ namespace vkpt::ltc {
 struct Entry {
     double xx, xz, yy, zx; // of the inverse matrix, zz = 1
     double albedo, grazing;
-    double error; // of the fit: the mean of (lobe - fit)^2 / (lobe + fit) over the sphere, both normalised: 0 equal, 2 apart
+    double error; // of the fit: the mean of (lobe - fit)^2 / (lobe + fit) over the sphere, both normalised: 0 equal, 2
+                  // apart
 };
 
 Entry fit_lobe(double roughness, double view_cosine);

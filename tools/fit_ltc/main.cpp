@@ -28,7 +28,8 @@ int main(int argc, char** argv)
     double worst = 0, sum = 0;
     const std::vector<vkpt::ltc::Entry> table = vkpt::ltc::fit_table();
     for (const vkpt::ltc::Entry& e : table) {
-        text += fmt::format("{:.6g}f,{:.6g}f,{:.6g}f,{:.6g}f,{:.6g}f,{:.6g}f,\n", e.xx, e.xz, e.yy, e.zx, e.albedo, e.grazing);
+        text += fmt::format(
+            "{:.6g}f,{:.6g}f,{:.6g}f,{:.6g}f,{:.6g}f,{:.6g}f,\n", e.xx, e.xz, e.yy, e.zx, e.albedo, e.grazing);
         worst = std::max(worst, e.error);
         sum += e.error;
     }
