@@ -34,7 +34,7 @@ for file in "$root"/shaders/light_samplers/*.glsl; do
     [[ " ${samplers[*]} " == *" $name "* ]] || samplers+=("$name")
 done
 render "subset_mis" "$reference_spp" 1000 "$folder/reference.pfm"
-render "subset_mis" "$reference_spp" 1000 "$folder/reference.png"
+render "subset_mis" $((reference_spp / 4)) 1000 "$folder/reference.png"
 echo "| sampler | error (RMS / mean) | relative MSE |"
 echo "|---|---|---|"
 sheet_pictures=()
