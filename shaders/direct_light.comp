@@ -10,8 +10,8 @@ void light_pixel(uvec2 pixel, uint index)
     ReflectedLight light = ReflectedLight(vec3(0.0), vec3(0.0));
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0) {
-        Random random = random_for_bounce(make_random(pixel, frame.frame_index, frame.seed), 1u);
-        light = sample_direct_light(primary.surface, primary.cluster, random);
+        LightRandom random = light_random(make_random(pixel, frame.frame_index, frame.seed), 0u);
+        light = sample_direct_light(primary.surface, primary.cluster, random, bsdf_ray_count() > 0u);
     }
     store_diffuse_light(index, light.diffuse);
     store_specular_light(index, light.specular);

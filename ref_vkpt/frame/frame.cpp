@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/frame.hpp"
 
 #include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/lights/ltc_table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -78,6 +79,8 @@ Frame::Frame(Graphics& graphics)
         MemoryKind::staging, "frame uniforms");
     exposure_ = graphics.uploader.make_buffer(
         std::vector<shared::ExposureState>(1), MemoryKind::images, "exposure");
+    ltc_ = graphics.uploader.make_buffer(
+        std::vector<float>(ltc_table.begin(), ltc_table.end()), MemoryKind::lights, "linearly transformed cosines");
     readback_ = Buffer(
         graphics.gpu, light_level_bytes * frames_in_flight, BufferHome::readback, MemoryKind::staging, "light level");
     std::memset(readback_.mapped(), 0, readback_.size());
@@ -125,6 +128,7 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.camera = view.camera;
     uniforms.screen = graphics_.screen.addresses();
     uniforms.exposure = exposure_.address();
+    uniforms.ltc = ltc_.address();
     uniforms.light_level = readback_.address() + graphics_.slot() * light_level_bytes;
     uniforms.size = size;
     uniforms.output_origin = glm::uvec2(view.origin);
@@ -274,8 +278,7 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfac
     else
         record_pass("probe_surfaces", pixels.groups);
     record_lit_pass("direct_light", pixels);
-    if (uniforms.cvars.pt_bounces > 0)
-        record_lit_pass("indirect_light", pixels);
+    record_lit_pass("indirect_light", pixels); // also without bounces: MIS samplers need its rays
     record_pass("accumulate", pixels.groups);
     if (surfaces == Surfaces::probes)
         return;

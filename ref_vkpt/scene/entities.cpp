@@ -150,6 +150,8 @@ void SnapshotBuilder::add_brush(const Entity& entity, const Model::Brush& brush)
         emitter.p0 = pose.transform.point(emitter.p0);
         emitter.p1 = pose.transform.point(emitter.p1);
         emitter.p2 = pose.transform.point(emitter.p2);
+        if (translucent)
+            emitter.type = shared::EMITTER_VEIL;
         snapshot_.emitters.push_back(emitter);
     }
     if (translucent)
