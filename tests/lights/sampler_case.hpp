@@ -5,6 +5,7 @@
 #include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
 #include "shaders/shared/ltc.h"
+#include "shaders/shared/noise.h"
 #include "shaders/shared/scene.h"
 
 #include <cstdint>
