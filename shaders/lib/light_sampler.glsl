@@ -43,6 +43,21 @@ struct LightSample {
 };
 
 const float max_below_one = 0.99999994f; // 1 - 2^-24
+// In a surface's block of dimensions; the BSDF sample that led there has those before.
+const uint first_light_dimension = 3u;
+
+// The numbers of the light choice at a path's surface: 0 is the primary one. A pure function, so that a later pass knows
+// what an earlier one drew.
+LightRandom light_random(Random pixel_random, uint vertex)
+{
+    Random random = random_for_bounce(pixel_random, vertex + 1u);
+    random.dimension += first_light_dimension;
+    LightRandom result;
+    result.light = next_float(random);
+    result.point = next_vec2(random);
+    result.more = random_stream(random, vertex + 1u);
+    return result;
+}
 
 LightSample no_light()
 {

@@ -11,8 +11,6 @@
 #include "selected_light_sampler.glsl"
 
 const uint mask_shadow = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
-// In a surface's block of dimensions; the BSDF sample that led there has those before.
-const uint first_light_dimension = 3u;
 
 // Light that a surface reflects: diffuse without albedo.
 struct ReflectedLight {
@@ -24,19 +22,6 @@ LightOptions light_options()
 {
     return LightOptions(uint(frame.cvars.pt_light_subset), frame.cvars.pt_light_weight, frame.cvars.pt_light_point,
         LtcBuffer(frame.ltc));
-}
-
-// The numbers of the light choice at a path's surface: 0 is the primary one. A pure function, so that a later pass knows
-// what an earlier one drew.
-LightRandom light_random(Random pixel_random, uint vertex)
-{
-    Random random = random_for_bounce(pixel_random, vertex + 1u);
-    random.dimension += first_light_dimension;
-    LightRandom result;
-    result.light = next_float(random);
-    result.point = next_vec2(random);
-    result.more = random_stream(pixel_random, vertex + 1u);
-    return result;
 }
 
 // How many of a path's surfaces send out a BSDF ray. With MIS the first one always does: without bounces, for emission alone.

@@ -25,7 +25,7 @@ struct Random {
 const uint random_dimensions_per_bounce = 16u;
 // Deeper in a path every number acts through so many others that blue ones measure no better than white ones, which cost
 // less: blue are those of the camera path (block 0), of direct light (1) and of the first bounce (2).
-const uint blue_dimensions = 3u * random_dimensions_per_bounce;
+const uint blue_blocks = 3u;
 
 // Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020: the four-word PCG hash.
 uvec4 hash_pcg4(uvec4 words)
@@ -73,7 +73,7 @@ float blue_dimension(BlueNoiseBuffer masks, uvec2 pixel, uint frame, uint seed, 
 // The number of one dimension. Every number of the renderer comes through here.
 float random_dimension(Random random, uint dimension)
 {
-    if (random.kind == NOISE_BLUE && dimension < blue_dimensions)
+    if (random.kind == NOISE_BLUE)
         return blue_dimension(random.masks, random.pixel, random.frame, random.seed, dimension);
     return white_dimension(random.pixel, random.frame, random.seed, dimension);
 }
@@ -102,6 +102,8 @@ Random make_blue_random(BlueNoiseBuffer masks, uvec2 pixel, uint frame, uint see
 Random random_for_bounce(Random random, uint bounce)
 {
     random.dimension = bounce * random_dimensions_per_bounce;
+    if (bounce >= blue_blocks)
+        random.kind = NOISE_WHITE;
     return random;
 }
 
