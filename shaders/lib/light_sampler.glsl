@@ -3,7 +3,7 @@
 // pt_light_sampler. The file includes this one and defines
 //
 //     const bool light_sampler_mis
-//         true: BSDF rays that meet an emitter count, too, and both are weighted by the balance heuristic (lib/lighting.glsl).
+//         true: BSDF rays that meet an emitter count, too, and both are weighted by mis_share (lib/lighting.glsl).
 //         false: light sampling alone accounts for the lists' emitters.
 //     LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 //         Picks an emitter of the list for surface `s`. Its report makes f(point) / (density of the point * probability)
@@ -75,6 +75,18 @@ LightSample make_light_sample(uint emitter, float probability, LightRandom rando
     result.probability = probability;
     result.point = random.point;
     return result;
+}
+
+// The share of a point's light that goes to one way to find it, of density `own` > 0; another has density `other`. Balance
+// heuristic (equation 47.13), or Veach's power heuristic of exponent 2 for samplers that ask for it. The shares of the two
+// ways add up to 1, which is what keeps both unbiased.
+float mis_share(float own, float other)
+{
+    float ratio = other / own;
+#ifdef VKPT_MIS_POWER_HEURISTIC
+    ratio *= ratio;
+#endif
+    return 1.0f / (1.0f + ratio);
 }
 
 // floor(xi * count), safe against rounding up to count.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Next event estimation: one light chosen by the light sampler that this pass was built with, one point on it, one shadow ray.
 // With samplers that say so, MIS: the ray that goes on from the surface anyway counts the emitters that it meets, and both
-// ways to find a point share its light by the balance heuristic (equation 47.13).
+// ways to find a point share its light by mis_share.
 #ifndef VKPT_LIB_LIGHTING
 #define VKPT_LIB_LIGHTING
 
@@ -59,7 +59,7 @@ ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, b
         return result;
     float density = point.pdf * light.probability;
     if (light_sampler_mis && bsdf_ray_follows && is_met_by_rays(emitter))
-        density += pdf_bsdf(s, point.direction);
+        density /= mis_share(density, pdf_bsdf(s, point.direction));
     vec3 incoming = radiance / density;
     result.diffuse = bsdf.diffuse * incoming;
     result.specular = bsdf.specular * incoming;
@@ -77,7 +77,7 @@ float weigh_met_emitter(Surface s, int cluster, LightRandom random, uint emitter
         return 0.0;
     LightOptions options = light_options();
     float probability = light_probability(list, s, emitter, random, options);
-    return bsdf_pdf / (bsdf_pdf + probability * pdf_emitter_point(e, s, point, options));
+    return mis_share(bsdf_pdf, probability * pdf_emitter_point(e, s, point, options));
 }
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A picture of a floor under lights that nothing hides, lit by a sampler at one sample per pixel, and the spectrum of its
-// error.
+// A picture of a floor under lights that nothing hides, lit by a sampler at one sample per pixel, and the spectrum of
+// its error.
 #pragma once
 
 #include "sampler_case.hpp"
