@@ -23,8 +23,8 @@ struct Random {
 
 // Dimensions are handed out in blocks: one block for each bounce of a path.
 const uint random_dimensions_per_bounce = 16u;
-// Deeper in a path every number acts through so many others that blue ones measure no better than white ones, which cost
-// less: blue are those of the camera path (block 0), of direct light (1) and of the first bounce (2).
+// Deeper in a path a number acts through so many others that its order over the pixels is lost, and white numbers need no
+// memory: blue are those of the camera path (block 0), of direct light (1) and of the first bounce (2).
 const uint blue_blocks = 3u;
 
 // Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020: the four-word PCG hash.
