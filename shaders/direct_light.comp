@@ -4,13 +4,14 @@
 // Light that reaches the primary surface straight from an emitter.
 #include "lib/frame.glsl"
 #include "lib/lighting.glsl"
+#include "lib/pixel_random.glsl"
 
 void light_pixel(uvec2 pixel, uint index)
 {
     ReflectedLight light = ReflectedLight(vec3(0.0), vec3(0.0));
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0) {
-        LightRandom random = light_random(make_random(pixel, frame.frame_index, frame.seed), 0u);
+        LightRandom random = light_random(make_pixel_random(pixel), 0u);
         light = sample_direct_light(primary.surface, primary.cluster, random, bsdf_ray_count() > 0u);
     }
     store_diffuse_light(index, light.diffuse);

@@ -5,6 +5,7 @@
 // sampler also what its rays find of the emitters that direct_light sampled; then it runs without bounces, too.
 #include "lib/frame.glsl"
 #include "lib/lighting.glsl"
+#include "lib/pixel_random.glsl"
 
 const uint mask_bounce = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
 // Bounce rays see pictures through a cone this wide: what is sharp there is noise here.
@@ -69,7 +70,7 @@ void light_pixel(uvec2 pixel, uint index)
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth < 0.0)
         return;
-    Random pixel_random = make_random(pixel, frame.frame_index, frame.seed);
+    Random pixel_random = make_pixel_random(pixel);
     BouncePath path = BouncePath(primary.surface, primary.cluster, 0u, vec3(1.0), vec3(0.0));
     BsdfValue first = BsdfValue(0.0, vec3(0.0));
     [[dont_unroll]] for (uint bounce = 0u; bounce < bsdf_ray_count(); bounce++) {

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Camera rays through mirrors, glass and water to the first surface that is shaded, written to the G-buffer.
 #include "lib/frame.glsl"
-#include "lib/random.glsl"
+#include "lib/pixel_random.glsl"
 #include "lib/surfaces.glsl"
 
 const uint max_specular_segments = 8u;
@@ -135,7 +135,7 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
 
 void see_pixel(uvec2 pixel, uint index)
 {
-    Random random = make_random(pixel, frame.frame_index, frame.seed);
+    Random random = make_pixel_random(pixel);
     vec2 offset = (frame.flags & FRAME_JITTER) != 0u ? next_vec2(random) : vec2(0.5);
     Path path;
     path.ray = camera_ray(pixel, offset);

@@ -3,6 +3,7 @@
 
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/lights/ltc_table.hpp"
+#include "ref_vkpt/noise/blue_noise.hpp"
 
 #include <algorithm>
 #include <array>
@@ -81,6 +82,8 @@ Frame::Frame(Graphics& graphics)
         std::vector<shared::ExposureState>(1), MemoryKind::images, "exposure");
     ltc_ = graphics.uploader.make_buffer(
         std::vector<float>(ltc_table.begin(), ltc_table.end()), MemoryKind::lights, "linearly transformed cosines");
+    blue_noise_ = graphics.uploader.make_buffer(
+        std::as_bytes(std::span(blue_noise_words)), MemoryKind::images, "blue noise");
     readback_ = Buffer(
         graphics.gpu, light_level_bytes * frames_in_flight, BufferHome::readback, MemoryKind::staging, "light level");
     std::memset(readback_.mapped(), 0, readback_.size());
@@ -129,6 +132,7 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.screen = graphics_.screen.addresses();
     uniforms.exposure = exposure_.address();
     uniforms.ltc = ltc_.address();
+    uniforms.blue_noise = blue_noise_.address();
     uniforms.light_level = readback_.address() + graphics_.slot() * light_level_bytes;
     uniforms.size = size;
     uniforms.output_origin = glm::uvec2(view.origin);

@@ -93,7 +93,7 @@ private:
     PrefixedUpload triangles_, emitters_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;
-    Buffer uniforms_, exposure_, ltc_, readback_;
+    Buffer uniforms_, exposure_, ltc_, blue_noise_, readback_;
     VkDeviceSize uniform_stride_;
     uint32_t views_this_frame_ = 0;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;

@@ -23,6 +23,17 @@ bool ends_with(std::string_view name, std::string_view ending)
     return name.size() >= ending.size() && name.substr(name.size() - ending.size()) == ending;
 }
 
+// Emitters in an order that lasts over the frames, and the lists of those that can light each cluster.
+void list_lights(SceneSnapshot& snapshot, World& world)
+{
+    const std::vector<uint32_t> slots = world.dynamic_lights.arrange(snapshot.emitters);
+    const int first = int(world.models[0].emitters.size());
+    for (shared::Triangle& triangle : snapshot.triangles)
+        if (triangle.emitter >= first)
+            triangle.emitter = first + int(slots[size_t(triangle.emitter - first)]);
+    world.light_lists.update(snapshot.emitters);
+}
+
 WorldPicture describe(const Texture& texture)
 {
     return { texture.slot, texture.width, texture.height, texture.average, texture.has_alpha, texture.missing };
@@ -203,7 +214,7 @@ SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef) const
     }
     add_entities(snapshot, refdef, textures_, defaults);
     if (snapshot.world)
-        world_->light_lists.update(snapshot.emitters);
+        list_lights(snapshot, *world_);
     return snapshot;
 }
 

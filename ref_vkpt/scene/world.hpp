@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/bsp.hpp"
+#include "ref_vkpt/lights/dynamic_lights.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "ref_vkpt/trace/bvh.hpp"
@@ -50,6 +51,7 @@ struct World {
     std::vector<WorldPicture> pictures; // per texinfo
     std::vector<glm::vec3> emission;    // per texinfo: Material::emission
     LightLists light_lists;
+    DynamicLights dynamic_lights;
     Bvh bvh; // of model 0
     // Mean luminance of the sky faces that the map's author gave a light value; 0: none. Their sky is as bright as that.
     float lit_sky_luminance = 0;

@@ -3,7 +3,7 @@
 // pt_light_sampler. The file includes this one and defines
 //
 //     const bool light_sampler_mis
-//         true: BSDF rays that meet an emitter count, too, and both are weighted by the balance heuristic (lib/lighting.glsl).
+//         true: BSDF rays that meet an emitter count, too, and both are weighted by mis_share (lib/lighting.glsl).
 //         false: light sampling alone accounts for the lists' emitters.
 //     LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 //         Picks an emitter of the list for surface `s`. Its report makes f(point) / (density of the point * probability)
@@ -43,6 +43,21 @@ struct LightSample {
 };
 
 const float max_below_one = 0.99999994f; // 1 - 2^-24
+// In a surface's block of dimensions; the BSDF sample that led there has those before.
+const uint first_light_dimension = 3u;
+
+// The numbers of the light choice at a path's surface: 0 is the primary one. A pure function, so that a later pass knows
+// what an earlier one drew.
+LightRandom light_random(Random pixel_random, uint vertex)
+{
+    Random random = random_for_bounce(pixel_random, vertex + 1u);
+    random.dimension += first_light_dimension;
+    LightRandom result;
+    result.light = next_float(random);
+    result.point = next_vec2(random);
+    result.more = random_stream(random, vertex + 1u);
+    return result;
+}
 
 LightSample no_light()
 {
@@ -60,6 +75,18 @@ LightSample make_light_sample(uint emitter, float probability, LightRandom rando
     result.probability = probability;
     result.point = random.point;
     return result;
+}
+
+// The share of a point's light that goes to one way to find it, of density `own` > 0; another has density `other`. Balance
+// heuristic (equation 47.13), or Veach's power heuristic of exponent 2 for samplers that ask for it. The shares of the two
+// ways add up to 1, which is what keeps both unbiased.
+float mis_share(float own, float other)
+{
+    float ratio = other / own;
+#ifdef VKPT_MIS_POWER_HEURISTIC
+    ratio *= ratio;
+#endif
+    return 1.0f / (1.0f + ratio);
 }
 
 // floor(xi * count), safe against rounding up to count.

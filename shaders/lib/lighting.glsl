@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Next event estimation: one light chosen by the light sampler that this pass was built with, one point on it, one shadow ray.
 // With samplers that say so, MIS: the ray that goes on from the surface anyway counts the emitters that it meets, and both
-// ways to find a point share its light by the balance heuristic (equation 47.13).
+// ways to find a point share its light by mis_share.
 #ifndef VKPT_LIB_LIGHTING
 #define VKPT_LIB_LIGHTING
 
@@ -11,8 +11,6 @@
 #include "selected_light_sampler.glsl"
 
 const uint mask_shadow = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
-// In a surface's block of dimensions; the BSDF sample that led there has those before.
-const uint first_light_dimension = 3u;
 
 // Light that a surface reflects: diffuse without albedo.
 struct ReflectedLight {
@@ -24,19 +22,6 @@ LightOptions light_options()
 {
     return LightOptions(uint(frame.cvars.pt_light_subset), frame.cvars.pt_light_weight, frame.cvars.pt_light_point,
         LtcBuffer(frame.ltc));
-}
-
-// The numbers of the light choice at a path's surface: 0 is the primary one. A pure function, so that a later pass knows
-// what an earlier one drew.
-LightRandom light_random(Random pixel_random, uint vertex)
-{
-    Random random = random_for_bounce(pixel_random, vertex + 1u);
-    random.dimension += first_light_dimension;
-    LightRandom result;
-    result.light = next_float(random);
-    result.point = next_vec2(random);
-    result.more = random_stream(pixel_random, vertex + 1u);
-    return result;
 }
 
 // How many of a path's surfaces send out a BSDF ray. With MIS the first one always does: without bounces, for emission alone.
@@ -74,7 +59,7 @@ ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, b
         return result;
     float density = point.pdf * light.probability;
     if (light_sampler_mis && bsdf_ray_follows && is_met_by_rays(emitter))
-        density += pdf_bsdf(s, point.direction);
+        density /= mis_share(density, pdf_bsdf(s, point.direction));
     vec3 incoming = radiance / density;
     result.diffuse = bsdf.diffuse * incoming;
     result.specular = bsdf.specular * incoming;
@@ -92,7 +77,7 @@ float weigh_met_emitter(Surface s, int cluster, LightRandom random, uint emitter
         return 0.0;
     LightOptions options = light_options();
     float probability = light_probability(list, s, emitter, random, options);
-    return bsdf_pdf / (bsdf_pdf + probability * pdf_emitter_point(e, s, point, options));
+    return mis_share(bsdf_pdf, probability * pdf_emitter_point(e, s, point, options));
 }
 
 #endif

@@ -82,6 +82,7 @@ struct FrameUniforms {
     ScreenBuffers screen;
     uint64_t exposure; // ExposureState
     uint64_t ltc; // shared/ltc.h
+    uint64_t blue_noise; // words as in noise.h
     uint64_t probes; // IrradianceProbe list where FRAME_PROBES; rays of probe_rays.comp
     uint64_t probe_hits; // written by probe_rays.comp
     uint probe_mask; // of the rays

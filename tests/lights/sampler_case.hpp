@@ -5,6 +5,7 @@
 #include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
 #include "shaders/shared/ltc.h"
+#include "shaders/shared/noise.h"
 #include "shaders/shared/scene.h"
 
 #include <cstdint>
@@ -64,6 +65,13 @@ struct PickedLight {
     glm::vec2 point;
 };
 
+// The numbers of a pixel's path, as the shaders draw them.
+struct PixelNumbers {
+    glm::uvec2 pixel { 0 };
+    uint32_t frame = 0, seed = 1;
+    const uint32_t* masks = nullptr; // nullptr: white
+};
+
 struct BsdfNumbers {
     glm::vec2 direction;
     float lobe;
@@ -80,6 +88,8 @@ struct Sampler {
     double (*sample_lights)(const ListCase& list, const Draw& draw, const SamplerOptions& options);
     double (*sample_bsdf_ray)(
         const ListCase& list, const BsdfNumbers& numbers, const Draw& draw, const SamplerOptions& options);
+    // Both together for a pixel.
+    double (*light_pixel)(const ListCase& list, const PixelNumbers& numbers, const SamplerOptions& options);
     // The same by quadrature with n x n points on each emitter.
     double (*integrate)(const ListCase& list, int n);
 
