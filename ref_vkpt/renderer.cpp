@@ -156,7 +156,7 @@ Module::Module(const GraphicsSettings& settings)
     , textures(graphics.gpu, graphics.bindings, graphics.uploader)
     , draw2d(graphics.gpu, graphics.bindings, graphics.pipelines, textures, frames_in_flight)
     , scene(textures)
-    , frame(graphics)
+    , frame(graphics, workers)
 {
 }
 

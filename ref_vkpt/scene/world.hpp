@@ -5,6 +5,7 @@
 #include "formats/bsp.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
+#include "ref_vkpt/scene/brush_mesh.hpp"
 #include "ref_vkpt/trace/bvh.hpp"
 #include "shaders/shared/scene.h"
 
@@ -47,6 +48,7 @@ struct World {
     std::string name;
     formats::Bsp bsp;
     std::vector<MapGeometry> models; // 0: the world
+    std::vector<BrushMesh> brush_meshes; // of `models`; [0] is empty
     std::vector<WorldPicture> pictures; // per texinfo
     std::vector<glm::vec3> emission;    // per texinfo: Material::emission
     LightLists light_lists;
