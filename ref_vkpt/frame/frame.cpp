@@ -47,8 +47,8 @@ GpuWorld upload_world(const World& world, Uploader& uploader)
 {
     static uint64_t versions = 0;
     GpuWorld gpu;
-    gpu.bvh_nodes = uploader.make_buffer(world.bvh.nodes, MemoryKind::acceleration, "world BVH nodes");
-    gpu.bvh_triangles = uploader.make_buffer(world.bvh.triangles, MemoryKind::acceleration, "world BVH triangles");
+    gpu.bvh_nodes = uploader.make_buffer(world.bvh().nodes, MemoryKind::acceleration, "world BVH nodes");
+    gpu.bvh_triangles = uploader.make_buffer(world.bvh().triangles, MemoryKind::acceleration, "world BVH triangles");
     gpu.light_indices = uploader.make_buffer(world.light_lists.static_indices(), MemoryKind::lights, "light lists");
     gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
     gpu.version = ++versions;
@@ -166,7 +166,7 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
         return;
     }
     const LightLists& lights = scene.world->light_lists;
-    const Bvh& bvh = scene.world->bvh;
+    const Bvh& bvh = scene.world->bvh();
     out.trees[0]
         = { gpu_world->bvh_nodes.address(), gpu_world->bvh_triangles.address(), bvh.grid_origin, bvh.grid_scale };
     out.trees[1] = moving;

@@ -20,9 +20,9 @@ struct GpuWorld {
     Buffer bvh_nodes, bvh_triangles;
     Buffer light_indices;
     Buffer bsp_tree;
-    uint64_t version = 0; // another for every map
+    uint64_t version = 0; // another for every map; 0: not uploaded yet
 };
-// Usable after uploader.flush().
+// Waits for the map's tree. Usable after uploader.flush().
 GpuWorld upload_world(const World& world, Uploader& uploader);
 
 class Frame {

@@ -244,8 +244,8 @@ std::unique_ptr<World> load_world(
             make_brush_geometry({ world.bsp, world.pictures, face_clusters, false }, i, colour, scales));
         world.brush_meshes.push_back(make_brush_mesh(geometry.triangles, geometry.masks));
     }
+    world.bvh_future = std::async(std::launch::async, [&geometry = world.models[0]] { return build_world_bvh(geometry); });
     world.light_lists.build(world.bsp, world.models[0].emitters);
-    world.bvh = build_world_bvh(world.models[0]);
     return made;
 }
 

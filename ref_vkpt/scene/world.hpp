@@ -10,6 +10,7 @@
 #include "shaders/shared/scene.h"
 
 #include <functional>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -52,7 +53,9 @@ struct World {
     std::vector<WorldPicture> pictures; // per texinfo
     std::vector<glm::vec3> emission;    // per texinfo: Material::emission
     LightLists light_lists;
-    Bvh bvh; // of model 0
+    // Of model 0: made on a thread of its own while pictures and models are read.
+    const Bvh& bvh() const { return bvh_future.get(); }
+    std::shared_future<Bvh> bvh_future; // behind `models`, which it reads
     // Mean luminance of the sky faces that the map's author gave a light value; 0: none. Their sky is as bright as that.
     float lit_sky_luminance = 0;
     std::vector<std::string> messages; // what could not be used; for the console
