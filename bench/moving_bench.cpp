@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a view's moving things cost on the CPU: posing, trees, and writing what the device reads. 128 entities of 1,000
-// triangles unless a name says otherwise. Compare CPU time over all threads ("process_time") on a machine with other load.
+// triangles unless a name says otherwise. Compare CPU time over all threads ("process_time") on a machine with other
+// load.
 #include "ref_vkpt/scene/moving_geometry.hpp"
 #include "ref_vkpt/trace/bvh.hpp"
 
@@ -55,7 +56,8 @@ struct Crowd {
         std::uniform_real_distribution<float> place(-2000, 2000), angle(0, 360);
         for (int i = 0; i < entities; i++) {
             Md2Pose pose;
-            pose.transform = md2_transform({ place(random), place(random), place(random) / 8 }, { 0, angle(random), 0 });
+            pose.transform
+                = md2_transform({ place(random), place(random), place(random) / 8 }, { 0, angle(random), 0 });
             pose.frame = i % 40;
             pose.old_frame = (i + 1) % 40;
             pose.backlerp = 0.3f;

@@ -24,8 +24,9 @@ public:
 
     // Of an item and of a thread: 0, the caller's, up to thread_count() - 1.
     using Work = std::function<void(size_t item, size_t thread)>;
-    // Calls `work` for the items 0 .. count - 1 in about that order, several at once, and returns when all have returned.
-    // The first exception goes to the caller; calls that had not begun by then are left out. Not for use within `work`.
+    // Calls `work` for the items 0 .. count - 1 in about that order, several at once, and returns when all have
+    // returned. The first exception goes to the caller; calls that had not begun by then are left out. Not for use
+    // within `work`.
     void parallel_for(size_t count, const Work& work);
 
 private:

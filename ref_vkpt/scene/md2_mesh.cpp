@@ -12,9 +12,6 @@ namespace vkpt {
 
 namespace {
 
-// The tree is made for where its triangles are in so many frames, evenly spread over all.
-constexpr size_t frames_for_tree = 16;
-
 // p -> matrix * p + offset
 struct Affine {
     glm::dmat3 matrix { 1 };
@@ -40,7 +37,8 @@ Affine find_placing(const Md2Pose& pose)
     if (pose.mirror)
         placing = compose(scale_about(pose.mirror->point, pose.mirror->normal, -1, 1), placing);
     if (pose.squeeze)
-        placing = compose(scale_about(pose.squeeze->eye, pose.squeeze->forward, 1, double(pose.squeeze->factor)), placing);
+        placing
+            = compose(scale_about(pose.squeeze->eye, pose.squeeze->forward, 1, double(pose.squeeze->factor)), placing);
     return placing;
 }
 
@@ -88,7 +86,8 @@ Int4 encode_octahedral(const Lanes3& d)
 
 } // namespace
 
-Md2Mesh::Md2Mesh(const formats::Md2Model& model) : point_count_(model.vertex_count())
+Md2Mesh::Md2Mesh(const formats::Md2Model& model)
+    : point_count_(model.vertex_count())
 {
     frames_.reserve(model.frames.size());
     for (const formats::Md2Model::Frame& frame : model.frames)
@@ -116,14 +115,16 @@ Md2Mesh::Frame Md2Mesh::make_frame(const formats::Md2Model::Frame& source, size_
 
 void Md2Mesh::make_tree(const formats::Md2Model& model)
 {
-    std::vector<Box> boxes(model.triangle_count());
-    const size_t step = std::max<size_t>(model.frames.size() / frames_for_tree, 1);
-    for (size_t frame = 0; frame < model.frames.size(); frame += step)
-        if (frames_[frame].usable)
-            for (size_t i = 0; i < boxes.size() * 3; i++)
-                boxes[i / 3].add(model.frames[frame].positions[model.indices[i]]);
-    if (std::ranges::none_of(frames_, &Frame::usable))
+    const auto rest = std::ranges::find_if(frames_, &Frame::usable);
+    if (rest == frames_.end())
         return;
+    // For one pose, and refitted in all others: among players in all poses it traces at 0.96 times the speed of a tree
+    // made anew for each frame, and 1.35 times that of the quick one. Made for the boxes of sixteen frames at once:
+    // 0.83 and 1.16.
+    const std::vector<glm::vec3>& positions = model.frames[size_t(rest - frames_.begin())].positions;
+    std::vector<Box> boxes(model.triangle_count());
+    for (size_t i = 0; i < boxes.size() * 3; i++)
+        boxes[i / 3].add(positions[model.indices[i]]);
     if (boxes.size() <= max_mesh_triangles)
         tree_ = build_mesh_tree(boxes);
     else {

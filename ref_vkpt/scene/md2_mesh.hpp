@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// An MD2 model made ready to be posed for many entities every frame: planar arrays for vector registers, triangles in the
-// order of its tree's leaves.
+// An MD2 model made ready to be posed for many entities every frame: planar arrays for vector registers, triangles in
+// the order of its tree's leaves.
 #pragma once
 
 #include "formats/model.hpp"

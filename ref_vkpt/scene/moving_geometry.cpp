@@ -4,6 +4,8 @@
 #include "ref_vkpt/trace/bvh.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 
 namespace vkpt {
@@ -33,37 +35,25 @@ struct MeshTarget {
 
 void write_record(uint32_t* records, uint32_t slot, const Triangle& triangle, uint32_t id, uint32_t mask)
 {
-    Record record;
-    std::copy_n(triangle.positions, 3, record.positions);
-    record.id_and_mask = id_and_mask(id, mask);
+    const Record record { { triangle.positions[0], triangle.positions[1], triangle.positions[2] },
+        id_and_mask(id, mask) };
     std::memcpy(records + size_t(slot) * bvh_triangle_words, &record, sizeof record);
 }
 
-void set_corner(Triangle& triangle, int corner, const Float4& point)
-{
-    std::memcpy(&triangle.positions[corner], &point, sizeof(glm::vec3));
-    std::memcpy(&triangle.normals[corner], reinterpret_cast<const std::byte*>(&point) + 12, 4);
-}
+uint32_t normal_of(const Float4& point) { return std::bit_cast<std::array<uint32_t, 4>>(point)[3]; }
 
 void write_md2(const Md2Mesh& mesh, const std::vector<Float4>& points, bool mirrored, uint32_t material, uint32_t mask,
     const MeshTarget& target)
 {
     // What is mirrored turns its corners around, so that its front stays outside.
-    const int second = mirrored ? 2 : 1, third = 3 - second;
+    const size_t second = mirrored ? 2 : 1, third = 3 - second;
     for (uint32_t slot = 0; slot < mesh.triangle_count(); slot++) {
         const uint32_t* corners = &mesh.corners()[size_t(slot) * 3];
-        Triangle triangle;
-        set_corner(triangle, 0, points[corners[0]]);
-        set_corner(triangle, second, points[corners[1]]);
-        set_corner(triangle, third, points[corners[2]]);
+        const Float4 a = points[corners[0]], b = points[corners[second]], c = points[corners[third]];
         const auto& uvs = mesh.uvs()[slot];
-        triangle.uvs[0] = uvs[0];
-        triangle.uvs[second] = uvs[1];
-        triangle.uvs[third] = uvs[2];
-        triangle.material = material;
-        triangle.emitter = -1;
-        triangle.cluster = -1;
-        std::memcpy(target.triangles + slot, &triangle, sizeof triangle);
+        const Triangle triangle { { to_vec3(a), to_vec3(b), to_vec3(c) }, { uvs[0], uvs[second], uvs[third] },
+            { normal_of(a), normal_of(b), normal_of(c) }, material, -1, -1 };
+        target.triangles[slot] = triangle;
         if (target.records)
             write_record(target.records, slot, triangle, target.first_id + slot, mask);
     }
@@ -96,7 +86,8 @@ void write_brush(const BrushMesh& mesh, const std::vector<Float4>& points, const
         if (turned)
             turn_normals(triangle.normals, transform);
         triangle.material = look.materials[triangle.material];
-        triangle.emitter = triangle.emitter >= 0 && look.first_emitter >= 0 ? triangle.emitter + look.first_emitter : -1;
+        triangle.emitter
+            = triangle.emitter >= 0 && look.first_emitter >= 0 ? triangle.emitter + look.first_emitter : -1;
         triangle.cluster = -1;
         target.triangles[slot] = triangle;
         if (target.records)

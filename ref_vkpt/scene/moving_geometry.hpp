@@ -22,13 +22,17 @@ struct BrushPose {
 class MovingGeometry {
 public:
     // Triangles get the ids `first_id` and up; those that would need 2^24 or more are left out.
-    explicit MovingGeometry(uint32_t first_id = 0) : first_id_(first_id) { }
+    explicit MovingGeometry(uint32_t first_id = 0)
+        : first_id_(first_id)
+    {
+    }
 
     // What is not finite or lies far outside of any map is left out: false.
     bool add(std::shared_ptr<const Md2Mesh> mesh, const Md2Pose& pose, uint32_t material, uint32_t mask);
     // `mesh` must outlive this.
     bool add(const BrushMesh& mesh, const BrushPose& pose);
-    // Triangles of their own, world space, by their numbers sane. After appending some, mask_loose() gives them a ray mask.
+    // Triangles of their own, world space, by their numbers sane. After appending some, mask_loose() gives them a ray
+    // mask.
     std::vector<shared::Triangle>& loose() { return loose_; }
     void mask_loose(uint32_t mask) { loose_masks_.resize(loose_.size(), mask); }
 
@@ -78,7 +82,11 @@ struct MovingTarget {
 
 class MovingWriter {
 public:
-    explicit MovingWriter(Workers& workers) : workers_(workers), scratch_(workers.thread_count()) { }
+    explicit MovingWriter(Workers& workers)
+        : workers_(workers)
+        , scratch_(workers.thread_count())
+    {
+    }
 
     // Returns the grid of the tree.
     Grid write(const MovingGeometry& geometry, const MovingTarget& target);

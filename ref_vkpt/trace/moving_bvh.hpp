@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Two levels of the software backend's tree for what moves. A mesh's tree is made once, for its topology; every frame each
-// copy that is shown gets its boxes anew ("refit"), in world space, and a small tree is built over the copies. As all of
-// it stands in one array of nodes and in one space, an entry of the upper tree is just the index of a mesh's root: the
-// traversal knows nothing of levels.
+// Two levels of the software backend's tree for what moves. A mesh's tree is made once, for its topology; every frame
+// each copy that is shown gets its boxes anew ("refit"), in world space, and a small tree is built over the copies. As
+// all of it stands in one array of nodes and in one space, an entry of the upper tree is just the index of a mesh's
+// root: the traversal knows nothing of levels.
 //
 // Nodes of a frame: the upper tree's, as many as there are meshes (or one); then those of each mesh in turn.
 #pragma once
@@ -24,13 +24,13 @@ inline constexpr uint32_t max_moving_meshes = 1u << 12;
 struct MeshTree {
     std::vector<uint32_t> words; // BVH_WIDTH per node; nodes and slots count from the mesh's first
     std::vector<uint32_t> order; // slot -> triangle
-    uint32_t node_count = 0;     // every node stands before its children
-    uint32_t stack_need = 0;     // at most mesh_stack_budget
+    uint32_t node_count = 0; // every node stands before its children
+    uint32_t stack_need = 0; // at most mesh_stack_budget
 
     uint32_t slot_count() const { return uint32_t(order.size()); }
 };
 
-// `boxes`: one per triangle, at most max_mesh_triangles: where the triangle may be, in whatever pose.
+// `boxes`: one per triangle, at most max_mesh_triangles, in some pose.
 MeshTree build_mesh_tree(std::span<const Box> boxes);
 
 // Where in the frame's arrays a mesh stands.
@@ -38,8 +38,9 @@ struct MeshPlace {
     uint32_t first_node = 0, first_slot = 0;
 };
 
-// Writes the mesh's nodes at `nodes` + first_node. `corners`: three indices into `points` per slot, which stand in world
-// space and on the grid; NaNs among them leave the boxes alone. Returns what bounds the mesh. `scratch`: of this thread.
+// Writes the mesh's nodes at `nodes` + first_node. `corners`: three indices into `points` per slot, which stand in
+// world space and on the grid; NaNs among them leave the boxes alone. Returns what bounds the mesh. `scratch`: of this
+// thread.
 Box refit(const MeshTree& tree, std::span<const uint32_t> corners, const Float4* points, const Grid& grid,
     const MeshPlace& place, uint32_t* nodes, std::vector<Box4>& scratch);
 
@@ -52,8 +53,8 @@ struct MovingMesh {
     uint32_t stack_need = 0;
 };
 
-// Writes the upper tree at nodes[0 ..], at most upper_node_count() nodes. No ray needs more than TRACE_STACK_ENTRIES for it
-// and the meshes together, of which there are at most max_moving_meshes.
+// Writes the upper tree at nodes[0 ..], at most upper_node_count() nodes. No ray needs more than TRACE_STACK_ENTRIES
+// for it and the meshes together, of which there are at most max_moving_meshes.
 void write_upper_tree(std::span<const MovingMesh> meshes, const Grid& grid, uint32_t* nodes);
 inline uint32_t upper_node_count(uint32_t meshes) { return meshes > 1 ? meshes : 1; }
 

@@ -47,8 +47,8 @@ public:
     }
 
 private:
-    // Returns the stack entries that the node needs. `stack_left`: those that are free when a ray enters it. `balanced`:
-    // it is from rebuild_balanced().
+    // Returns the stack entries that the node needs. `stack_left`: those that are free when a ray enters it.
+    // `balanced`: it is from rebuild_balanced().
     uint32_t add_node(uint32_t node, uint32_t stack_left, uint32_t depth, bool balanced)
     {
         Children children = balanced ? open_children(node, &count_of) : open_children(node, &area_of);
@@ -66,8 +66,8 @@ private:
             uint32_t word = BVH_LEAF | (child.count - 1) << BVH_LEAF_COUNT_SHIFT | child.first;
             if (!child.is_leaf()) {
                 word = uint32_t(wide_.nodes.size());
-                need = std::max(need,
-                    add_node(children.nodes[slot], stack_left - (children.count - 1), depth + 1, balanced));
+                need = std::max(
+                    need, add_node(children.nodes[slot], stack_left - (children.count - 1), depth + 1, balanced));
             }
             wide_.nodes[index].boxes[slot] = child.box;
             wide_.nodes[index].words[slot] = word;
@@ -103,8 +103,8 @@ private:
         return children;
     }
 
-    // Whether below each child at least a balanced tree can still be walked. Holds for the root by max_boxes_within(), so
-    // that wherever it fails first, a balanced tree can stand in.
+    // Whether below each child at least a balanced tree can still be walked. Holds for the root by max_boxes_within(),
+    // so that wherever it fails first, a balanced tree can stand in.
     bool fits_stack(const Children& children, uint32_t stack_left) const
     {
         return std::all_of(children.nodes.begin(), children.nodes.begin() + children.count, [&](uint32_t node) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From binary trees to the 8-wide nodes that shaders/lib/trace_software.glsl walks (layout: see bvh.cpp): which children a
-// node has, on what grid their boxes lie, how they are written.
+// From binary trees to the 8-wide nodes that shaders/lib/trace_software.glsl walks (layout: see bvh.cpp): which
+// children a node has, on what grid their boxes lie, how they are written.
 #pragma once
 
 #include "ref_vkpt/trace/binary_tree.hpp"
@@ -31,7 +31,8 @@ struct Grid {
 
 struct WideNode {
     std::array<Box, shared::BVH_WIDTH> boxes;
-    std::array<uint32_t, shared::BVH_WIDTH> words; // see shaders/shared/trace.h; a leaf's slots are places in BinaryTree::order
+    std::array<uint32_t, shared::BVH_WIDTH>
+        words; // see shaders/shared/trace.h; a leaf's slots are places in BinaryTree::order
     uint32_t child_count = 0;
 };
 
@@ -49,8 +50,7 @@ uint32_t max_boxes_within(uint32_t stack_budget, uint32_t max_leaf);
 WideTree make_wide(BinaryTree& tree, std::span<const Box> boxes, uint32_t max_leaf, uint32_t stack_budget);
 
 // Writes one node, bvh_node_words long. Boxes that reach out of the grid are cut off at it.
-void write_node(
-    const Grid& grid, const Box4* boxes, const uint32_t* words, uint32_t child_count, uint32_t* node);
+void write_node(const Grid& grid, const Box4* boxes, const uint32_t* words, uint32_t child_count, uint32_t* node);
 void write_node(const Grid& grid, const WideNode& wide, uint32_t* node);
 
 } // namespace vkpt

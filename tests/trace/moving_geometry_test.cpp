@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Two levels of trees for what moves: sound in every pose, and on the real driver rays find in them what they find without a
-// tree.
+// Two levels of trees for what moves: sound in every pose, and on the real driver rays find in them what they find
+// without a tree.
 #include "ref_vkpt/scene/moving_geometry.hpp"
 #include "tests/trace/expect_hits.hpp"
 #include "tests/trace/scenes.hpp"
@@ -268,8 +268,8 @@ std::vector<BvhTriangle> exponential_triangles(int copies)
                 glm::vec3 at(0);
                 at[axis] = std::ldexp(1.0f, exponent);
                 const float size = std::ldexp(1.0f, exponent - 6);
-                triangles.push_back(
-                    { { at, at + glm::vec3(size, 0, 0), at + glm::vec3(0, size, size) }, uint32_t(triangles.size()), 1 });
+                triangles.push_back({ { at, at + glm::vec3(size, 0, 0), at + glm::vec3(0, size, size) },
+                    uint32_t(triangles.size()), 1 });
             }
     return triangles;
 }

@@ -46,8 +46,7 @@ std::pair<WorldBox, uint32_t> TreeCheck::check(uint32_t node, uint32_t depth)
             continue;
         }
         children++;
-        auto [inside, child_need]
-            = child.is_leaf() ? std::pair(leaf_bounds(child), 0u) : check(child.word, depth + 1);
+        auto [inside, child_need] = child.is_leaf() ? std::pair(leaf_bounds(child), 0u) : check(child.word, depth + 1);
         need = std::max(need, child_need);
         expect_contained(child, inside, node, slot);
         bounds.low = glm::min(bounds.low, inside.low);
@@ -80,10 +79,8 @@ void TreeCheck::expect_contained(const DecodedChild& child, const WorldBox& insi
 {
     for (int axis = 0; axis < 3; axis++) {
         double cell = 1.0 / double(bvh.grid_scale[axis]), origin = double(bvh.grid_origin[axis]);
-        EXPECT_LE(origin + (child.low[axis] + 0.5) * cell, inside.low[axis])
-            << "node " << node << " child " << slot;
-        EXPECT_GE(origin + (child.high[axis] - 0.5) * cell, inside.high[axis])
-            << "node " << node << " child " << slot;
+        EXPECT_LE(origin + (child.low[axis] + 0.5) * cell, inside.low[axis]) << "node " << node << " child " << slot;
+        EXPECT_GE(origin + (child.high[axis] - 0.5) * cell, inside.high[axis]) << "node " << node << " child " << slot;
     }
 }
 
