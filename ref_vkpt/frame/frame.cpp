@@ -25,16 +25,6 @@ static_assert(shared::LIGHT_LEVEL_LANES == shared::PIXEL_GROUP_SIZE);
 
 constexpr VkAccessFlags shader_access = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
 
-shared::BvhView make_bvh_view(const Bvh& bvh, VkDeviceAddress nodes, VkDeviceAddress triangles)
-{
-    shared::BvhView view;
-    view.nodes = nodes;
-    view.triangles = triangles;
-    view.grid_origin = bvh.grid_origin;
-    view.grid_scale = bvh.grid_scale;
-    return view;
-}
-
 // What a map's data looks like to the shaders where there is no map: one list with every emitter.
 struct NoWorld {
     std::vector<shared::LightList> lists;
@@ -59,19 +49,20 @@ GpuWorld upload_world(const World& world, Uploader& uploader)
 {
     static uint64_t versions = 0;
     GpuWorld gpu;
-    gpu.bvh_nodes = uploader.make_buffer(world.bvh.nodes, MemoryKind::acceleration, "world BVH nodes");
-    gpu.bvh_triangles = uploader.make_buffer(world.bvh.triangles, MemoryKind::acceleration, "world BVH triangles");
+    gpu.bvh_nodes = uploader.make_buffer(world.bvh().nodes, MemoryKind::acceleration, "world BVH nodes");
+    gpu.bvh_triangles = uploader.make_buffer(world.bvh().triangles, MemoryKind::acceleration, "world BVH triangles");
     gpu.light_indices = uploader.make_buffer(world.light_lists.static_indices(), MemoryKind::lights, "light lists");
     gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
     gpu.version = ++versions;
     return gpu;
 }
 
-Frame::Frame(Graphics& graphics)
+Frame::Frame(Graphics& graphics, Workers& workers)
     : graphics_(graphics)
     , uploads_(graphics.gpu, MemoryKind::staging)
     , triangles_(graphics.gpu, MemoryKind::geometry, "triangles")
     , emitters_(graphics.gpu, MemoryKind::lights, "emitters")
+    , moving_writer_(workers)
     , structures_(graphics.gpu)
 {
     const VkDeviceSize alignment = graphics.device.properties.limits.minUniformBufferOffsetAlignment;
@@ -155,16 +146,23 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     const uint32_t slot = graphics_.slot();
     const MapGeometry* world = scene.world ? &scene.world->models[0] : nullptr;
     const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
-    out.triangles = triangles_.update(slot, world ? world->triangles : no_triangles, version, scene.triangles);
-    out.emitters = emitters_.update(slot, world ? world->emitters : no_emitters, version, scene.emitters);
+    const Upload triangles = triangles_.reserve(
+        slot, world ? world->triangles : no_triangles, version, scene.moving.triangle_count());
+    const Upload emitters
+        = emitters_.reserve(slot, world ? world->emitters : no_emitters, version, scene.emitters.size());
+    std::ranges::copy(scene.emitters, emitters.as<shared::Emitter>());
+    out.triangles = triangles.address;
+    out.emitters = emitters.address;
     out.materials = uploads_.push(scene.materials);
     out.lightstyles = uploads_.push(scene.lightstyles);
     out.trace_stack = graphics_.screen.trace_stack();
     out.sky = scene.sky;
-    fill_structures(out, scene, gpu_world);
+    shared::BvhView moving {};
+    if (backend_ == TraceBackend::software)
+        moving = write_moving(scene.moving, triangles.as<shared::Triangle>());
+    else
+        fill_structures(out, scene, gpu_world, triangles.as<shared::Triangle>());
 
-    const shared::BvhView moving
-        = make_bvh_view(scene.bvh, uploads_.push(scene.bvh.nodes), uploads_.push(scene.bvh.triangles));
     if (!world) {
         const NoWorld none = make_no_world(scene.emitters.size());
         out.trees[0] = moving;
@@ -176,9 +174,11 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
         return;
     }
     const LightLists& lights = scene.world->light_lists;
-    out.trees[0] = make_bvh_view(scene.world->bvh, gpu_world->bvh_nodes.address(), gpu_world->bvh_triangles.address());
+    const Bvh& bvh = scene.world->bvh();
+    out.trees[0]
+        = { gpu_world->bvh_nodes.address(), gpu_world->bvh_triangles.address(), bvh.grid_origin, bvh.grid_scale };
     out.trees[1] = moving;
-    out.tree_count = scene.bvh.triangle_count > 0 ? 2 : 1;
+    out.tree_count = scene.moving.triangle_count() > 0 ? 2 : 1;
     out.light_lists = uploads_.push(lights.lists());
     out.static_light_indices = gpu_world->light_indices.address();
     out.dynamic_light_indices = uploads_.push(lights.dynamic_indices());
@@ -186,10 +186,21 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     out.light_list_count = uint32_t(lights.lists().size());
 }
 
-void Frame::fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world)
+// What moves, right into the memory that the device reads.
+shared::BvhView Frame::write_moving(const MovingGeometry& moving, shared::Triangle* triangles)
 {
-    if (backend_ == TraceBackend::software)
-        return;
+    const Upload nodes = uploads_.reserve(moving.node_count() * shared::BVH_NODE_BYTES);
+    // One record even where there is none: its address must be one.
+    const Upload records
+        = uploads_.reserve(std::max<size_t>(moving.triangle_count(), 1) * shared::BVH_TRIANGLE_BYTES);
+    const Grid grid
+        = moving_writer_.write(moving, { triangles, nullptr, nodes.as<uint32_t>(), records.as<uint32_t>() });
+    return { nodes.address, records.address, grid.origin, grid.scale };
+}
+
+void Frame::fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world,
+    shared::Triangle* device_triangles)
+{
     // Only Mesa's CPU driver depends on the order, and sorting costs time every frame.
     const bool sorts = graphics_.device.is_cpu;
     const bool has_world = scene.world && gpu_world;
@@ -199,11 +210,15 @@ void Frame::fill_structures(shared::SceneView& out, const SceneSnapshot& scene, 
                                     sorts ? TriangleOrder::halves_best : TriangleOrder::as_given),
             gpu_world->version, graphics_.uploader);
     }
-    std::vector<uint8_t> has_holes(scene.triangles.size());
+    // Read again here, for which memory of the device is slow.
+    std::vector<shared::Triangle> triangles(scene.moving.triangle_count());
+    std::vector<uint32_t> masks(triangles.size());
+    moving_writer_.write(scene.moving, { triangles.data(), masks.data() });
+    std::ranges::copy(triangles, device_triangles);
+    std::vector<uint8_t> has_holes(triangles.size());
     for (size_t i = 0; i < has_holes.size(); i++)
-        has_holes[i] = (scene.materials[scene.triangles[i].material].flags & shared::MATERIAL_ALPHA_TEST) != 0;
-    const uint32_t first_id = scene.world ? uint32_t(scene.world->models[0].triangles.size()) : 0;
-    const GroupedTriangles moving = group_triangles({ scene.triangles, scene.masks, has_holes, first_id },
+        has_holes[i] = (scene.materials[triangles[i].material].flags & shared::MATERIAL_ALPHA_TEST) != 0;
+    const GroupedTriangles moving = group_triangles({ triangles, masks, has_holes, scene.moving.first_id() },
         sorts ? TriangleOrder::halves_quick : TriangleOrder::as_given);
     const AccelerationStructures::View view = structures_.record_view(commands_, moving, has_world);
     out.structure = view.structure;

@@ -2,8 +2,8 @@
 // Everything that one 3D view shows and that may differ in the next one. CPU side.
 #pragma once
 
+#include "ref_vkpt/scene/moving_geometry.hpp"
 #include "ref_vkpt/scene/world.hpp"
-#include "ref_vkpt/trace/bvh.hpp"
 #include "shaders/shared/frame.h"
 
 #include <array>
@@ -14,11 +14,9 @@ namespace vkpt {
 struct SceneSnapshot {
     const World* world = nullptr; // nullptr: models alone (menus)
     // What moves: ids continue after the world's triangles, emitters after the world's emitters, materials after the world's.
-    std::vector<shared::Triangle> triangles;
-    std::vector<uint32_t> masks;
+    MovingGeometry moving;
     std::vector<shared::Emitter> emitters;
     std::vector<shared::Material> materials; // all: the world's first
-    Bvh bvh; // of `triangles`
     std::vector<float> lightstyles; // lightstyle_count of them
     shared::Sky sky {};
     bool has_alpha_test = false;

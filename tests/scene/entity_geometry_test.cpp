@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/entity_geometry.hpp"
+#include "ref_vkpt/scene/moving_geometry.hpp"
 
 #include <array>
 #include <cmath>
@@ -65,6 +66,36 @@ void expect_plain(const Triangles& triangles, uint32_t material)
         EXPECT_EQ(t.emitter, -1);
         EXPECT_EQ(t.cluster, -1);
     }
+}
+
+// What the list makes of it.
+void append(const MovingGeometry& geometry, Triangles& out)
+{
+    static Workers workers(1);
+    const size_t before = out.size();
+    out.resize(before + geometry.triangle_count());
+    MovingWriter(workers).write(geometry, { out.data() + before });
+}
+
+void append_md2(const formats::Md2Model& model, const Md2Pose& pose, uint32_t material, Triangles& out)
+{
+    MovingGeometry geometry;
+    geometry.add(std::make_shared<Md2Mesh>(model), pose, material, shared::MASK_OPAQUE);
+    append(geometry, out);
+}
+
+void append_brush_model(
+    std::span<const Triangle> triangles, BrushPose pose, uint32_t added_to_material, Triangles& out)
+{
+    const std::vector<uint32_t> masks(triangles.size(), shared::MASK_OPAQUE);
+    const BrushMesh mesh = make_brush_mesh(triangles, masks);
+    std::vector<uint32_t> materials;
+    for (const uint32_t texinfo : mesh.texinfos)
+        materials.push_back(texinfo + added_to_material);
+    pose.materials = materials;
+    MovingGeometry geometry;
+    geometry.add(mesh, pose);
+    append(geometry, out);
 }
 
 formats::Md2Model make_model()
@@ -241,9 +272,7 @@ TEST(BrushModel, MovesTurnsAndRemaps)
     const Triangle wall = make_wall();
     Triangles out;
     append_brush_model(std::span(&wall, 1),
-        { .transform = brush_model_transform({ 0, 0, 100 }, { 0, 90, 0 }),
-            .remap_material = [](uint32_t m) { return m + 30; } },
-        out);
+        { .transform = brush_model_transform({ 0, 0, 100 }, { 0, 90, 0 }) }, 30, out);
     ASSERT_EQ(out.size(), 1u);
     expect_plain(out, 37);
     expect_near(out[0].positions[1], { 0, 16, 100 });
@@ -257,7 +286,7 @@ TEST(BrushModel, AllThreeAnglesAsTheyStand)
 {
     const Triangle wall = make_wall();
     Triangles out;
-    append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(vec3(0), { 90, 0, 0 }) }, out);
+    append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(vec3(0), { 90, 0, 0 }) }, 0, out);
     expect_near(out[0].positions[1], { 0, 0, -16 }); // forward looks down
     expect_near(out[0].positions[2], { 16, 0, 0 });
 }
@@ -266,7 +295,7 @@ TEST(BrushModel, AtRestNothingChangesAndEmittersAreCounted)
 {
     const Triangle wall = make_wall();
     Triangles out;
-    append_brush_model(std::span(&wall, 1), { .first_emitter = 40 }, out);
+    append_brush_model(std::span(&wall, 1), { .first_emitter = 40 }, 0, out);
     EXPECT_EQ(std::memcmp(out[0].positions, wall.positions, sizeof(wall.positions)), 0);
     EXPECT_EQ(std::memcmp(out[0].normals, wall.normals, sizeof(wall.normals)), 0);
     EXPECT_EQ(out[0].material, 7u);
@@ -359,7 +388,7 @@ TEST(Garbage, AppendsNothing)
         const vec3 place { 0, bad, 0 };
         append_md2(make_model(), { .transform = md2_transform(place, vec3(0)) }, 0, out);
         append_md2(make_model(), { .mirror = Mirror { place, { 0, 1, 0 } } }, 0, out);
-        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(place, vec3(0)) }, out);
+        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(place, vec3(0)) }, 0, out);
         append_sprite({ 8, 8, 4, 4, "" }, place, camera, 0, out);
         append_beam(place, vec3(0), 4, 0, out);
         append_beam(vec3(0), place, 4, 0, out);
@@ -369,7 +398,7 @@ TEST(Garbage, AppendsNothing)
     }
     for (const float bad : { nan_value, infinity }) {
         append_md2(make_model(), { .transform = md2_transform(vec3(0), { bad, 0, 0 }) }, 0, out);
-        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(vec3(0), { 0, 0, bad }) }, out);
+        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(vec3(0), { 0, 0, bad }) }, 0, out);
         append_beam(vec3(0), vec3(9), bad, 0, out);
     }
     append_sprite({ 8, 8, 4, 4, "" }, vec3(0), broken_camera, 0, out);
@@ -404,7 +433,7 @@ TEST(Garbage, WhatIsAppendedIsFinite)
             .shell_distance = any_float(),
             .mirror = Mirror { any_vec3(), any_vec3() } };
         append_md2(make_model(), pose, 0, out);
-        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(any_vec3(), any_vec3()) }, out);
+        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(any_vec3(), any_vec3()) }, 0, out);
         append_sprite({ int(random()), int(random()), int(random() % 65536), 0, "" }, any_vec3(), camera, 0, out);
         append_beam(any_vec3(), any_vec3(), any_float(), 0, out);
         append_particle(any_vec3(), any_vec3(), camera, 0, out);
