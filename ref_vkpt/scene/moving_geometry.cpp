@@ -73,6 +73,7 @@ struct BrushLook {
     const uint32_t* materials;
     int first_emitter;
     uint32_t mask; // 0: each triangle its own
+    const MovingGeometry& geometry;
 };
 
 void write_brush(const BrushMesh& mesh, const std::vector<Float4>& points, const Transform& transform,
@@ -86,8 +87,9 @@ void write_brush(const BrushMesh& mesh, const std::vector<Float4>& points, const
         if (turned)
             turn_normals(triangle.normals, transform);
         triangle.material = look.materials[triangle.material];
-        triangle.emitter
-            = triangle.emitter >= 0 && look.first_emitter >= 0 ? triangle.emitter + look.first_emitter : -1;
+        triangle.emitter = triangle.emitter >= 0 && look.first_emitter >= 0
+            ? look.geometry.emitter_at(triangle.emitter + look.first_emitter)
+            : -1;
         triangle.cluster = -1;
         target.triangles[slot] = triangle;
         if (target.records)
@@ -212,7 +214,7 @@ void MovingWriter::write_item(const Job& job, size_t index, Scratch& scratch)
         write_md2(*item.md2, scratch.points, item.pose.mirror.has_value(), item.material, item.mask, out);
     else
         write_brush(*item.brush, scratch.points, item.transform,
-            { &geometry.brush_materials_[item.material], item.first_emitter, item.mask }, out);
+            { &geometry.brush_materials_[item.material], item.first_emitter, item.mask, geometry }, out);
     if (target.masks && item.brush && item.mask == 0)
         std::ranges::copy(item.brush->masks, target.masks + item.first_slot);
     else if (target.masks)

@@ -36,6 +36,21 @@ public:
     std::vector<shared::Triangle>& loose() { return loose_; }
     void mask_loose(uint32_t mask) { loose_masks_.resize(loose_.size(), mask); }
 
+    // Emitters got new places after the poses had been added: what was emitter first + n is now first + slots[n].
+    void move_emitters(int first, std::vector<uint32_t> slots)
+    {
+        first_moved_emitter_ = first;
+        emitter_slots_ = std::move(slots);
+    }
+
+    int emitter_at(int emitter) const
+    {
+        const size_t number = size_t(emitter - first_moved_emitter_);
+        return emitter >= first_moved_emitter_ && number < emitter_slots_.size()
+            ? first_moved_emitter_ + int(emitter_slots_[number])
+            : emitter;
+    }
+
     uint32_t first_id() const { return first_id_; }
     size_t triangle_count() const { return mesh_triangles_ + loose_count(); }
     // The room that the tree takes at most.
@@ -70,6 +85,8 @@ private:
     Box bounds_; // of the items
     uint32_t mesh_triangles_ = 0, mesh_nodes_ = 0;
     bool all_have_trees_ = true;
+    int first_moved_emitter_ = 0;
+    std::vector<uint32_t> emitter_slots_;
 };
 
 // Where MovingWriter writes. nullptr: not wanted.

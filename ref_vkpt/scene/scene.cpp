@@ -26,11 +26,7 @@ bool ends_with(std::string_view name, std::string_view ending)
 // Emitters in an order that lasts over the frames, and the lists of those that can light each cluster.
 void list_lights(SceneSnapshot& snapshot, World& world)
 {
-    const std::vector<uint32_t> slots = world.dynamic_lights.arrange(snapshot.emitters);
-    const int first = int(world.models[0].emitters.size());
-    for (shared::Triangle& triangle : snapshot.triangles)
-        if (triangle.emitter >= first)
-            triangle.emitter = first + int(slots[size_t(triangle.emitter - first)]);
+    snapshot.moving.move_emitters(int(world.models[0].emitters.size()), world.dynamic_lights.arrange(snapshot.emitters));
     world.light_lists.update(snapshot.emitters);
 }
 
