@@ -16,6 +16,9 @@ namespace {
 
 constexpr size_t row_count = std::size(cvar_rows);
 
+static_assert(std::string_view(find_cvar_row("pt_light_weight")->choices) == "chapter|ltc");
+static_assert(std::string_view(find_cvar_row("pt_light_point")->choices) == "area|solid_angle|projected");
+static_assert(std::string_view(find_cvar_row("pt_noise")->choices) == "blue|white");
 static_assert(std::string_view(find_cvar_row("pt_tone_map")->choices) == "none|filmic");
 static_assert(std::string_view(find_cvar_row("flt_denoiser")->choices) == "off|temporal|svgf|asvgf");
 constexpr int debug_view(std::string_view name) { return find_choice(find_cvar_row("pt_debug_view")->choices, name); }

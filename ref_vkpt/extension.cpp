@@ -69,7 +69,7 @@ void fill_world_counts(ModuleInfo& info, const Module& m)
     if (!world)
         return;
     info.triangles = world->models[0].triangles.size();
-    info.dynamic_triangles = m.snapshot ? m.snapshot->triangles.size() : 0;
+    info.dynamic_triangles = m.snapshot ? m.snapshot->moving.triangle_count() : 0;
     info.clusters = world->light_lists.lists().size() - 1;
     info.emitters = world->models[0].emitters.size() + (m.snapshot ? m.snapshot->emitters.size() : 0);
     info.light_list_entries = world->light_lists.static_indices().size() + world->light_lists.dynamic_indices().size();

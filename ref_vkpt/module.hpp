@@ -8,6 +8,7 @@
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/scene/scene.hpp"
 #include "ref_vkpt/trace/trace_choice.hpp"
+#include "ref_vkpt/workers.hpp"
 
 #include <optional>
 
@@ -16,6 +17,7 @@ namespace vkpt {
 struct Module {
     explicit Module(const GraphicsSettings& settings);
 
+    Workers workers;
     Graphics graphics;
     TraceChoice trace_choice;
     TextureStore textures;

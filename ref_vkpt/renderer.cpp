@@ -157,7 +157,7 @@ Module::Module(const GraphicsSettings& settings)
     , textures(graphics.gpu, graphics.bindings, graphics.uploader)
     , draw2d(graphics.gpu, graphics.bindings, graphics.pipelines, textures, frames_in_flight)
     , scene(textures)
-    , frame(graphics)
+    , frame(graphics, workers)
 {
 }
 
@@ -245,7 +245,6 @@ void begin_registration(std::string_view map)
     m.frame.forget_world();
     m.frame.restart_accumulation();
     m.scene.begin_registration(map);
-    m.gpu_world = upload_world(*m.scene.world(), m.graphics.uploader);
 }
 
 void* register_model(std::string_view name) { return running->scene.register_model(name); }
@@ -257,11 +256,20 @@ void set_sky(std::string_view name, float rotate, const float axis[3])
     running->scene.set_sky(name, rotate, { axis[0], axis[1], axis[2] });
 }
 
+// Late, because the map's tree takes its time, on a thread of its own.
+static void upload_world_if_needed()
+{
+    Module& m = *running;
+    if (m.gpu_world.version == 0 && m.scene.world())
+        m.gpu_world = upload_world(*m.scene.world(), m.graphics.uploader);
+}
+
 void end_registration()
 {
     running->graphics.finish();
     running->scene.end_registration();
     running->textures.flush_if_needed();
+    upload_world_if_needed();
     running->graphics.uploader.flush();
 }
 
@@ -314,10 +322,14 @@ void render_view(const engine::RefDef& refdef)
         record_view(refdef, snapshot, nullptr, false);
         return;
     }
+    if (m.gpu_world.version == 0) { // drawn during registration
+        upload_world_if_needed();
+        m.graphics.uploader.flush();
+    }
     const bool freeze = cvars::values().pt_accumulate != 0;
     if (!freeze || !m.snapshot_is_frozen || !m.snapshot) {
         SceneSnapshot snapshot = take_snapshot(refdef);
-        find_previous_positions(snapshot, m.snapshot ? *m.snapshot : SceneSnapshot());
+        find_previous_poses(snapshot, m.snapshot ? *m.snapshot : SceneSnapshot());
         m.snapshot = std::move(snapshot);
         m.snapshot_is_frozen = freeze;
         m.frame.restart_accumulation();

@@ -79,7 +79,7 @@ vec3 without_broken(vec3 light) { return any(isnan(light)) || any(isinf(light)) 
 // Averaged, for the specular lobe is sampled now and then only.
 float update_reflected_distance(uint index, float before)
 {
-    float now = frame.cvars.pt_bounces > 0 ? load_reflected_distance(index) : -1.0;
+    float now = load_reflected_distance(index);
     if (now <= 0.0)
         return before;
     now = min(now, 16384.0);

@@ -11,8 +11,8 @@ void light_pixel(uvec2 pixel, uint index)
     ReflectedLight light = ReflectedLight(vec3(0.0), vec3(0.0));
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0) {
-        Random random = random_for_bounce(random_of_pixel(pixel, index), 1u);
-        light = sample_direct_light(primary.surface, primary.cluster, random);
+        LightRandom random = light_random(random_of_pixel(pixel, index), 0u);
+        light = sample_direct_light(primary.surface, primary.cluster, random, bsdf_ray_count() > 0u);
     }
     store_diffuse_light(index, light.diffuse);
     store_specular_light(index, light.specular);

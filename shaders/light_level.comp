@@ -14,8 +14,8 @@ float sample_floor(Surface surface, int cluster, uint lane)
 {
     float sum = 0.0;
     [[dont_unroll]] for (uint i = 0u; i < samples_per_lane; i++) {
-        Random random = make_random(uvec2(lane, i), frame.frame_index, frame.seed);
-        sum += luminance(sample_direct_light(surface, cluster, random).diffuse);
+        LightRandom random = light_random(make_random(uvec2(lane, i), frame.frame_index, frame.seed), 0u);
+        sum += luminance(sample_direct_light(surface, cluster, random, false).diffuse);
     }
     return sum / float(samples_per_lane);
 }

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Camera rays through mirrors, glass and water to the first surface that is shaded, written to the G-buffer.
 #include "lib/frame.glsl"
-#include "lib/random.glsl"
+#include "lib/pixel_random.glsl"
 #include "lib/reprojection.glsl"
 #include "lib/surfaces.glsl"
 
@@ -175,7 +175,7 @@ void store_reprojection(uint index, Path path, vec3 direction, vec2 offset)
 
 void see_pixel(uvec2 pixel, uint index)
 {
-    Random random = make_random(pixel, frame.frame_index, frame.seed);
+    Random random = make_pixel_random(pixel);
     vec2 offset = (frame.flags & FRAME_JITTER) != 0u ? next_vec2(random) : frame.pixel_offset;
     Path path;
     path.ray = camera_ray(pixel, offset);

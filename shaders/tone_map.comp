@@ -62,7 +62,7 @@ vec3 shown_colour(uvec2 pixel, uint index)
     vec3 colour = mix(encode_srgb(display), frame.blend.rgb, frame.blend.a);
     // The players' gamma was made for unlit darkness: 1.2, its default, changes nothing here.
     colour = pow(colour, vec3(1.2 / max(frame.gamma, 0.1)));
-    float dither = random_dimension(pixel, frame.frame_index, 0u, 0u) - 0.5;
+    float dither = blue_dimension(BlueNoiseBuffer(frame.blue_noise), pixel, frame.frame_index, 0u, 0u) - 0.5;
     return colour + dither / 255.0;
 }
 

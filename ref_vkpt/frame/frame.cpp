@@ -2,6 +2,8 @@
 #include "ref_vkpt/frame/frame.hpp"
 
 #include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/lights/ltc_table.hpp"
+#include "ref_vkpt/noise/blue_noise.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,16 +24,6 @@ constexpr size_t light_level_bytes = sizeof(float) * shared::LIGHT_LEVEL_LANES;
 static_assert(shared::LIGHT_LEVEL_LANES == shared::PIXEL_GROUP_SIZE);
 
 constexpr VkAccessFlags shader_access = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
-
-shared::BvhView make_bvh_view(const Bvh& bvh, VkDeviceAddress nodes, VkDeviceAddress triangles)
-{
-    shared::BvhView view;
-    view.nodes = nodes;
-    view.triangles = triangles;
-    view.grid_origin = bvh.grid_origin;
-    view.grid_scale = bvh.grid_scale;
-    return view;
-}
 
 // What a map's data looks like to the shaders where there is no map: one list with every emitter.
 struct NoWorld {
@@ -57,19 +49,20 @@ GpuWorld upload_world(const World& world, Uploader& uploader)
 {
     static uint64_t versions = 0;
     GpuWorld gpu;
-    gpu.bvh_nodes = uploader.make_buffer(world.bvh.nodes, MemoryKind::acceleration, "world BVH nodes");
-    gpu.bvh_triangles = uploader.make_buffer(world.bvh.triangles, MemoryKind::acceleration, "world BVH triangles");
+    gpu.bvh_nodes = uploader.make_buffer(world.bvh().nodes, MemoryKind::acceleration, "world BVH nodes");
+    gpu.bvh_triangles = uploader.make_buffer(world.bvh().triangles, MemoryKind::acceleration, "world BVH triangles");
     gpu.light_indices = uploader.make_buffer(world.light_lists.static_indices(), MemoryKind::lights, "light lists");
     gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
     gpu.version = ++versions;
     return gpu;
 }
 
-Frame::Frame(Graphics& graphics)
+Frame::Frame(Graphics& graphics, Workers& workers)
     : graphics_(graphics)
     , uploads_(graphics.gpu, MemoryKind::staging)
     , triangles_(graphics.gpu, MemoryKind::geometry, "triangles")
     , emitters_(graphics.gpu, MemoryKind::lights, "emitters")
+    , moving_writer_(workers)
     , structures_(graphics.gpu)
 {
     const VkDeviceSize alignment = graphics.device.properties.limits.minUniformBufferOffsetAlignment;
@@ -78,6 +71,10 @@ Frame::Frame(Graphics& graphics)
         MemoryKind::staging, "frame uniforms");
     exposure_ = graphics.uploader.make_buffer(
         std::vector<shared::ExposureState>(1), MemoryKind::images, "exposure");
+    ltc_ = graphics.uploader.make_buffer(
+        std::vector<float>(ltc_table.begin(), ltc_table.end()), MemoryKind::lights, "linearly transformed cosines");
+    blue_noise_ = graphics.uploader.make_buffer(
+        std::as_bytes(std::span(blue_noise_words)), MemoryKind::images, "blue noise");
     readback_ = Buffer(
         graphics.gpu, light_level_bytes * frames_in_flight, BufferHome::readback, MemoryKind::staging, "light level");
     std::memset(readback_.mapped(), 0, readback_.size());
@@ -127,6 +124,8 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.pixel_offset = glm::vec2(0.5f);
     uniforms.screen = graphics_.screen.addresses();
     uniforms.exposure = exposure_.address();
+    uniforms.ltc = ltc_.address();
+    uniforms.blue_noise = blue_noise_.address();
     uniforms.light_level = readback_.address() + graphics_.slot() * light_level_bytes;
     uniforms.size = size;
     uniforms.output_origin = glm::uvec2(view.origin);
@@ -142,25 +141,40 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     return uniforms;
 }
 
-void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world)
+void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world, Motion motion)
 {
     static const std::vector<shared::Triangle> no_triangles;
     static const std::vector<shared::Emitter> no_emitters;
     const uint32_t slot = graphics_.slot();
     const MapGeometry* world = scene.world ? &scene.world->models[0] : nullptr;
     const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
-    out.triangles = triangles_.update(slot, world ? world->triangles : no_triangles, version, scene.triangles);
-    out.emitters = emitters_.update(slot, world ? world->emitters : no_emitters, version, scene.emitters);
-    out.previous_positions = uploads_.push(scene.previous_positions);
-    out.first_moving = world ? uint32_t(world->triangles.size()) : 0;
+    const Upload triangles = triangles_.reserve(
+        slot, world ? world->triangles : no_triangles, version, scene.moving.triangle_count());
+    const Upload emitters
+        = emitters_.reserve(slot, world ? world->emitters : no_emitters, version, scene.emitters.size());
+    std::ranges::copy(scene.emitters, emitters.as<shared::Emitter>());
+    out.triangles = triangles.address;
+    out.emitters = emitters.address;
     out.materials = uploads_.push(scene.materials);
     out.lightstyles = uploads_.push(scene.lightstyles);
     out.trace_stack = graphics_.screen.trace_stack();
     out.sky = scene.sky;
-    fill_structures(out, scene, gpu_world);
+    MovingTarget target;
+    target.triangles = triangles.as<shared::Triangle>();
+    out.first_moving = UINT32_MAX;
+    if (motion == Motion::known && scene.moving.triangle_count() > 0) {
+        using Corners = std::array<glm::vec3, 3>;
+        const Upload previous = uploads_.reserve(scene.moving.triangle_count() * sizeof(Corners));
+        target.previous_positions = previous.as<Corners>();
+        out.previous_positions = previous.address;
+        out.first_moving = scene.moving.first_id();
+    }
+    shared::BvhView moving {};
+    if (backend_ == TraceBackend::software)
+        moving = write_moving(scene.moving, target);
+    else
+        fill_structures(out, scene, gpu_world, target);
 
-    const shared::BvhView moving
-        = make_bvh_view(scene.bvh, uploads_.push(scene.bvh.nodes), uploads_.push(scene.bvh.triangles));
     if (!world) {
         const NoWorld none = make_no_world(scene.emitters.size());
         out.trees[0] = moving;
@@ -172,9 +186,11 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
         return;
     }
     const LightLists& lights = scene.world->light_lists;
-    out.trees[0] = make_bvh_view(scene.world->bvh, gpu_world->bvh_nodes.address(), gpu_world->bvh_triangles.address());
+    const Bvh& bvh = scene.world->bvh();
+    out.trees[0]
+        = { gpu_world->bvh_nodes.address(), gpu_world->bvh_triangles.address(), bvh.grid_origin, bvh.grid_scale };
     out.trees[1] = moving;
-    out.tree_count = scene.bvh.triangle_count > 0 ? 2 : 1;
+    out.tree_count = scene.moving.triangle_count() > 0 ? 2 : 1;
     out.light_lists = uploads_.push(lights.lists());
     out.static_light_indices = gpu_world->light_indices.address();
     out.dynamic_light_indices = uploads_.push(lights.dynamic_indices());
@@ -182,10 +198,22 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     out.light_list_count = uint32_t(lights.lists().size());
 }
 
-void Frame::fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world)
+// What moves, right into the memory that the device reads.
+shared::BvhView Frame::write_moving(const MovingGeometry& moving, MovingTarget target)
 {
-    if (backend_ == TraceBackend::software)
-        return;
+    const Upload nodes = uploads_.reserve(moving.node_count() * shared::BVH_NODE_BYTES);
+    // One record even where there is none: its address must be one.
+    const Upload records
+        = uploads_.reserve(std::max<size_t>(moving.triangle_count(), 1) * shared::BVH_TRIANGLE_BYTES);
+    target.nodes = nodes.as<uint32_t>();
+    target.records = records.as<uint32_t>();
+    const Grid grid = moving_writer_.write(moving, target);
+    return { nodes.address, records.address, grid.origin, grid.scale };
+}
+
+void Frame::fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world,
+    const MovingTarget& target)
+{
     // Only Mesa's CPU driver depends on the order, and sorting costs time every frame.
     const bool sorts = graphics_.device.is_cpu;
     const bool has_world = scene.world && gpu_world;
@@ -195,11 +223,17 @@ void Frame::fill_structures(shared::SceneView& out, const SceneSnapshot& scene, 
                                     sorts ? TriangleOrder::halves_best : TriangleOrder::as_given),
             gpu_world->version, graphics_.uploader);
     }
-    std::vector<uint8_t> has_holes(scene.triangles.size());
+    // Read again here, for which memory of the device is slow.
+    std::vector<shared::Triangle> triangles(scene.moving.triangle_count());
+    std::vector<uint32_t> masks(triangles.size());
+    MovingTarget staging { triangles.data(), masks.data() };
+    staging.previous_positions = target.previous_positions;
+    moving_writer_.write(scene.moving, staging);
+    std::ranges::copy(triangles, target.triangles);
+    std::vector<uint8_t> has_holes(triangles.size());
     for (size_t i = 0; i < has_holes.size(); i++)
-        has_holes[i] = (scene.materials[scene.triangles[i].material].flags & shared::MATERIAL_ALPHA_TEST) != 0;
-    const uint32_t first_id = scene.world ? uint32_t(scene.world->models[0].triangles.size()) : 0;
-    const GroupedTriangles moving = group_triangles({ scene.triangles, scene.masks, has_holes, first_id },
+        has_holes[i] = (scene.materials[triangles[i].material].flags & shared::MATERIAL_ALPHA_TEST) != 0;
+    const GroupedTriangles moving = group_triangles({ triangles, masks, has_holes, scene.moving.first_id() },
         sorts ? TriangleOrder::halves_quick : TriangleOrder::as_given);
     const AccelerationStructures::View view = structures_.record_view(commands_, moving, has_world);
     out.structure = view.structure;
@@ -279,8 +313,7 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfac
         record_pass("probe_surfaces", pixels.groups);
     record_replay(uniforms);
     record_lit_pass("direct_light", pixels);
-    if (uniforms.cvars.pt_bounces > 0)
-        record_lit_pass("indirect_light", pixels);
+    record_lit_pass("indirect_light", pixels); // also without bounces: MIS samplers need its rays
     if (uniforms.flags & shared::FRAME_DENOISED)
         record_denoiser(uniforms);
     record_pass("accumulate", pixels.groups);
@@ -311,11 +344,12 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
 
     commands_ = graphics_.commands();
     shared::FrameUniforms uniforms = make_uniforms(view, size);
-    fill_scene(uniforms.scene, scene, gpu_world);
+    begin_filters(uniforms, scene, gpu_world, average);
+    fill_scene(uniforms.scene, scene, gpu_world,
+        uniforms.flags & shared::FRAME_HISTORY ? Motion::known : Motion::unknown);
     uniforms.time = scene.time;
     uniforms.flags |= (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0) | (scene.world ? 0 : shared::FRAME_NO_WORLD)
         | (average ? shared::FRAME_JITTER : 0);
-    begin_filters(uniforms, scene, gpu_world, average);
     bind(write_uniforms(uniforms));
     const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
     // The picture may just have been cleared or drawn on, and the last frame may still be read.
@@ -362,7 +396,7 @@ void Frame::measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t
             commands_ = commands;
             begin();
             shared::FrameUniforms uniforms = make_uniforms(view, view.size);
-            fill_scene(uniforms.scene, scene, &gpu_world);
+            fill_scene(uniforms.scene, scene, &gpu_world, Motion::unknown);
             uniforms.frame_index = sample;
             uniforms.probes = uploads_.push(std::as_bytes(probes));
             uniforms.probe_count = uint32_t(probes.size());
@@ -408,7 +442,7 @@ void Frame::trace_chunk(std::span<const TracedRay> rays, uint32_t row, const Tra
         commands_ = commands;
         begin();
         shared::FrameUniforms uniforms = make_uniforms(view, view.size);
-        fill_scene(uniforms.scene, scene, &gpu_world);
+        fill_scene(uniforms.scene, scene, &gpu_world, Motion::unknown);
         uniforms.probes = uploads_.push(std::as_bytes(rays));
         uniforms.probe_count = uint32_t(rays.size());
         uniforms.probe_hits = result.address();

@@ -21,14 +21,14 @@ struct GpuWorld {
     Buffer bvh_nodes, bvh_triangles;
     Buffer light_indices;
     Buffer bsp_tree;
-    uint64_t version = 0; // another for every map
+    uint64_t version = 0; // another for every map; 0: not uploaded yet
 };
-// Usable after uploader.flush().
+// Waits for the map's tree. Usable after uploader.flush().
 GpuWorld upload_world(const World& world, Uploader& uploader);
 
 class Frame {
 public:
-    explicit Frame(Graphics& graphics);
+    Frame(Graphics& graphics, Workers& workers);
     ~Frame();
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
@@ -74,8 +74,11 @@ private:
     };
     static Work pixel_work(glm::uvec2 size) { return { pixel_groups(size), size }; }
     shared::FrameUniforms make_uniforms(const View& view, glm::uvec2 size);
-    void fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world);
-    void fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world);
+    // known: primary_visibility asks where moving things were in the last view.
+    enum class Motion { unknown, known };
+    void fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world, Motion motion);
+    shared::BvhView write_moving(const MovingGeometry& moving, MovingTarget target);
+    void fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target);
     uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
     void bind(uint32_t uniform_offset) const;
     void record_passes(const shared::FrameUniforms& uniforms, Surfaces surfaces, bool world);
@@ -98,9 +101,10 @@ private:
     Graphics& graphics_;
     FrameUploads uploads_;
     PrefixedUpload triangles_, emitters_;
+    MovingWriter moving_writer_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;
-    Buffer uniforms_, exposure_, readback_;
+    Buffer uniforms_, exposure_, ltc_, blue_noise_, readback_;
     VkDeviceSize uniform_stride_;
     uint32_t views_this_frame_ = 0;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;

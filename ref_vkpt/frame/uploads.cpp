@@ -32,27 +32,33 @@ void FrameUploads::begin_frame(uint32_t frame_slot)
     slot.used = slot.total = 0;
 }
 
-VkDeviceAddress FrameUploads::push(std::span<const std::byte> bytes)
+Upload FrameUploads::reserve(size_t bytes)
 {
     Slot& slot = slots_[slot_];
     VkDeviceSize offset = (slot.used + alignment - 1) & ~(alignment - 1);
-    if (offset + bytes.size() > slot.buffers.back().size()) {
-        slot.buffers.emplace_back(gpu_, std::max<VkDeviceSize>(first_size, bytes.size() * 2), BufferHome::upload, kind_,
+    if (offset + bytes > slot.buffers.back().size()) {
+        slot.buffers.emplace_back(gpu_, std::max<VkDeviceSize>(first_size, bytes * 2), BufferHome::upload, kind_,
             "frame uploads");
         offset = 0;
     }
     Buffer& buffer = slot.buffers.back();
-    copy(buffer.mapped() + offset, bytes);
-    slot.used = offset + bytes.size();
-    slot.total += bytes.size() + alignment;
-    return buffer.address() + offset;
+    slot.used = offset + bytes;
+    slot.total += bytes + alignment;
+    return { buffer.mapped() + offset, buffer.address() + offset };
 }
 
-VkDeviceAddress PrefixedUpload::update(uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version,
-    std::span<const std::byte> rest)
+VkDeviceAddress FrameUploads::push(std::span<const std::byte> bytes)
+{
+    const Upload upload = reserve(bytes.size());
+    copy(upload.mapped, bytes);
+    return upload.address;
+}
+
+Upload PrefixedUpload::reserve(
+    uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version, size_t rest_bytes)
 {
     Slot& slot = slots_[frame_slot];
-    const VkDeviceSize bytes = prefix.size() + rest.size();
+    const VkDeviceSize bytes = prefix.size() + rest_bytes;
     if (!slot.buffer || bytes > slot.buffer.size()) {
         slot.buffer = Buffer();
         slot.buffer = Buffer(gpu_, bytes + bytes / 4 + 65536, BufferHome::upload, kind_, name_);
@@ -62,8 +68,7 @@ VkDeviceAddress PrefixedUpload::update(uint32_t frame_slot, std::span<const std:
         copy(slot.buffer.mapped(), prefix);
         slot.version = prefix_version;
     }
-    copy(slot.buffer.mapped() + prefix.size(), rest);
-    return slot.buffer.address();
+    return { slot.buffer.mapped() + prefix.size(), slot.buffer.address() };
 }
 
 } // namespace vkpt

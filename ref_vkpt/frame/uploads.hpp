@@ -12,6 +12,17 @@
 
 namespace vkpt {
 
+// Memory to fill before the device runs.
+struct Upload {
+    std::byte* mapped = nullptr;
+    VkDeviceAddress address = 0;
+    template <class T>
+    T* as() const
+    {
+        return reinterpret_cast<T*>(mapped);
+    }
+};
+
 // A bump allocator; grows by another buffer, which is folded into one when the frame's turn comes again.
 class FrameUploads {
 public:
@@ -19,6 +30,8 @@ public:
 
     // The device has finished the last frame with this slot.
     void begin_frame(uint32_t frame_slot);
+    // Valid until the frame is submitted.
+    Upload reserve(size_t bytes);
     VkDeviceAddress push(std::span<const std::byte> bytes);
     template <class T>
     VkDeviceAddress push(const std::vector<T>& items)
@@ -45,14 +58,13 @@ public:
     PrefixedUpload(const Gpu& gpu, MemoryKind kind, const char* name) : gpu_(gpu), kind_(kind), name_(name) { }
 
     // `prefix_version`: another number whenever the prefix changes. The device has finished with this slot.
-    VkDeviceAddress update(uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version,
-        std::span<const std::byte> rest);
+    // The result's address is the prefix's, its memory is for the rest.
+    Upload reserve(
+        uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version, size_t rest_bytes);
     template <class T>
-    VkDeviceAddress update(
-        uint32_t frame_slot, const std::vector<T>& prefix, uint64_t prefix_version, const std::vector<T>& rest)
+    Upload reserve(uint32_t frame_slot, const std::vector<T>& prefix, uint64_t prefix_version, size_t rest_count)
     {
-        return update(
-            frame_slot, std::as_bytes(std::span(prefix)), prefix_version, std::as_bytes(std::span(rest)));
+        return reserve(frame_slot, std::as_bytes(std::span(prefix)), prefix_version, rest_count * sizeof(T));
     }
 
 private:

@@ -33,6 +33,19 @@ Emission classify(const BspTexinfo& texinfo)
     return (texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0 ? Emission::face : Emission::none;
 }
 
+// Rays that bounce see through it or through its holes.
+bool is_veil(const BspTexinfo& texinfo)
+{
+    return (texinfo.flags & (formats::SURF_TRANS33 | formats::SURF_TRANS66 | formats::SURF_ALPHATEST)) != 0;
+}
+
+uint32_t emitter_type(const BspTexinfo& texinfo)
+{
+    if (classify(texinfo) == Emission::sky)
+        return shared::EMITTER_SKY;
+    return is_veil(texinfo) ? shared::EMITTER_VEIL : shared::EMITTER_TRIANGLE;
+}
+
 float max_component(glm::vec3 colour) { return std::max({ colour.x, colour.y, colour.z }); }
 
 // The classic compilers scale the picture's average colour so that its greatest component is 1.
@@ -128,7 +141,7 @@ std::vector<shared::Emitter> emitters_of_face(
         emitter.p0 = outline[t[0]];
         emitter.p1 = outline[t[1]];
         emitter.p2 = outline[t[2]];
-        emitter.type = emission == Emission::sky ? shared::EMITTER_SKY : shared::EMITTER_TRIANGLE;
+        emitter.type = emitter_type(texinfo);
         emitter.area = 0.5f * glm::length(glm::cross(emitter.p1 - emitter.p0, emitter.p2 - emitter.p0));
         emitter.radiance = radiance;
         emitters.push_back(emitter);

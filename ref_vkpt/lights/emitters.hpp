@@ -35,7 +35,11 @@ struct EmissionScales {
 
 // What a picture lends to the light that its surface emits.
 struct PictureColour {
-    PictureColour(glm::vec3 average_, float strength_ = 1) : average(average_), strength(strength_) { }
+    PictureColour(glm::vec3 average_, float strength_ = 1)
+        : average(average_)
+        , strength(strength_)
+    {
+    }
     glm::vec3 average; // linear RGB 0..1
     float strength; // of the light: missing_picture_strength where `average` is that of a stand-in
 };

@@ -2,6 +2,7 @@
 #include "ref_vkpt/lights/light_lists.hpp"
 
 #include "ref_vkpt/lights/cluster_finder.hpp"
+#include "ref_vkpt/lights/dynamic_lights.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -14,6 +15,7 @@ namespace {
 
 using formats::Bsp;
 using formats::ClusterSet;
+using shared::Emitter;
 
 // How far off their face triangles are looked up, units: first just in front of it; farther where that is inside of a
 // wall (faces that the map compiler left a little inside).
@@ -66,6 +68,13 @@ std::vector<shared::BspTreeNode> compact_tree(const Bsp& bsp)
     return tree;
 }
 
+// Whether the same clusters list both.
+bool is_same_place(const Emitter& a, const Emitter& b)
+{
+    return a.p0 == b.p0 && a.p1 == b.p1 && a.p2 == b.p2 && a.type == b.type && a.reach == b.reach
+        && is_dark(a) == is_dark(b);
+}
+
 } // namespace
 
 void LightLists::build(const Bsp& bsp, std::span<const shared::Emitter> static_emitters)
@@ -78,6 +87,8 @@ void LightLists::build(const Bsp& bsp, std::span<const shared::Emitter> static_e
     build_visibility(bsp);
     build_cluster_bounds(bsp);
     build_static_lists(static_emitters);
+    placed_.clear();
+    flatten();
     update({});
 }
 
@@ -155,50 +166,64 @@ bool LightLists::reaches(const shared::Emitter& emitter, size_t cluster) const
     return glm::dot(offset, offset) <= emitter.reach * emitter.reach;
 }
 
-void LightLists::append_receivers_in_reach(const shared::Emitter& emitter, const ClusterSet& receivers)
+void LightLists::place(Placed& placed, const Emitter& emitter) const
 {
+    placed.emitter = emitter;
+    placed.clusters.clear();
+    if (is_dark(emitter))
+        return;
+    ClusterSet receivers;
+    // What moves may be inside a wall for a moment, or be an effect at a wall: then it may be seen from anywhere.
+    if (!find_receivers(emitter, receivers))
+        for (size_t cluster = 0; cluster < cluster_count_; cluster++)
+            receivers.insert(int(cluster));
     for_each_cluster(receivers, [&](size_t cluster) {
         if (reaches(emitter, cluster))
-            receiver_clusters_.push_back(uint32_t(cluster));
+            placed.clusters.push_back(uint32_t(cluster));
     });
 }
 
-void LightLists::update(std::span<const shared::Emitter> dynamic_emitters)
+void LightLists::update(std::span<const Emitter> dynamic_emitters)
 {
-    receiver_clusters_.clear();
-    receiver_ends_.clear();
-    ClusterSet receivers;
-    for (const shared::Emitter& emitter : dynamic_emitters) {
-        // What moves may be inside a wall for a moment, or be an effect at a wall: then it may be seen from anywhere.
-        if (!find_receivers(emitter, receivers))
-            for (size_t cluster = 0; cluster < cluster_count_; cluster++)
-                receivers.insert(int(cluster));
-        append_receivers_in_reach(emitter, receivers);
-        receiver_ends_.push_back(receiver_clusters_.size());
+    previous_lengths_.clear();
+    for (const shared::LightList& list : lists_)
+        previous_lengths_.push_back(list.static_count + list.dynamic_count);
+    bool changed = placed_.size() != dynamic_emitters.size();
+    placed_.resize(dynamic_emitters.size());
+    for (size_t i = 0; i < dynamic_emitters.size(); i++) {
+        if (is_same_place(placed_[i].emitter, dynamic_emitters[i]))
+            continue;
+        place(placed_[i], dynamic_emitters[i]);
+        changed = true;
     }
+    if (changed)
+        flatten();
+}
 
+void LightLists::flatten()
+{
+    const uint32_t outside = uint32_t(lists_.size() - 1);
+    const auto for_each_entry = [&](auto visit) {
+        for (uint32_t i = 0; i < placed_.size(); i++) {
+            for (const uint32_t cluster : placed_[i].clusters)
+                visit(lists_[cluster], i);
+            if (!is_dark(placed_[i].emitter))
+                visit(lists_[outside], i);
+        }
+    };
     for (shared::LightList& list : lists_)
         list.dynamic_count = 0;
-    for (const uint32_t cluster : receiver_clusters_)
-        lists_[cluster].dynamic_count++;
-    lists_.back().dynamic_count = uint32_t(dynamic_emitters.size());
+    for_each_entry([](shared::LightList& list, uint32_t) { list.dynamic_count++; });
     uint32_t first = 0;
     for (shared::LightList& list : lists_) {
         list.first_dynamic = first;
         first += list.dynamic_count;
         list.dynamic_count = 0; // counted again while filling
     }
-
     dynamic_indices_.resize(first);
-    const auto append = [&](shared::LightList& list, size_t emitter) {
-        dynamic_indices_[list.first_dynamic + list.dynamic_count++] = uint32_t(static_emitter_count_ + emitter);
-    };
-    size_t at = 0;
-    for (size_t i = 0; i < dynamic_emitters.size(); i++) {
-        for (; at < receiver_ends_[i]; at++)
-            append(lists_[receiver_clusters_[at]], i);
-        append(lists_.back(), i);
-    }
+    for_each_entry([&](shared::LightList& list, uint32_t i) {
+        dynamic_indices_[list.first_dynamic + list.dynamic_count++] = uint32_t(static_emitter_count_ + i);
+    });
 }
 
 } // namespace vkpt

@@ -15,7 +15,9 @@ public:
     // At map load. An emitter lists in every cluster that the PVS lets see any cluster which it touches. The map must
     // live as long as update() is called.
     void build(const formats::Bsp& bsp, std::span<const shared::Emitter> static_emitters);
-    // Each frame: dynamic emitters get indices static_count + i. Emitters with a reach list only where it extends to.
+    // Each frame: dynamic emitters get indices static_count + i. Emitters with a reach list only where it extends to,
+    // dark ones (radiance 0) nowhere. Where in the map an emitter can be seen is looked up again only if it has moved;
+    // nothing is done where all stand still.
     void update(std::span<const shared::Emitter> dynamic_emitters);
 
     // Index = cluster; one more entry at the end, for points outside every cluster: it holds all emitters.
@@ -23,6 +25,9 @@ public:
     // Changed by build only: upload once.
     const std::vector<uint32_t>& static_indices() const { return static_indices_; }
     const std::vector<uint32_t>& dynamic_indices() const { return dynamic_indices_; }
+    // Length of every list before the last update: a list that grows or shrinks changes the strides of subset samplers,
+    // and who replays last frame's choices needs the length that they were made with.
+    const std::vector<uint32_t>& previous_lengths() const { return previous_lengths_; }
     size_t static_emitter_count() const { return static_emitter_count_; }
     // Static emitters that touch no cluster (they lie in solid): only the list for outside holds them.
     size_t unlisted_static_count() const { return unlisted_static_count_; }
@@ -35,7 +40,13 @@ private:
     void build_static_lists(std::span<const shared::Emitter> emitters);
     // The clusters from which `emitter` can be seen. False: it touches no cluster; then the set is empty.
     bool find_receivers(const shared::Emitter& emitter, formats::ClusterSet& receivers) const;
-    void append_receivers_in_reach(const shared::Emitter& emitter, const formats::ClusterSet& receivers);
+    // One dynamic emitter as of the last update, and the clusters that list it, ascending.
+    struct Placed {
+        shared::Emitter emitter {};
+        std::vector<uint32_t> clusters;
+    };
+    void place(Placed& placed, const shared::Emitter& emitter) const;
+    void flatten();
     bool reaches(const shared::Emitter& emitter, size_t cluster) const;
 
     const formats::Bsp* bsp_ = nullptr;
@@ -47,9 +58,8 @@ private:
     std::vector<shared::BspTreeNode> tree_;
     std::vector<formats::ClusterSet> visible_from_; // PVS rows, kept decompressed and made symmetric
     std::vector<glm::vec3> cluster_mins_, cluster_maxs_;
-    // update()'s scratch memory: the clusters of all dynamic emitters one after the other, and where each one's end.
-    std::vector<uint32_t> receiver_clusters_;
-    std::vector<size_t> receiver_ends_;
+    std::vector<Placed> placed_; // by dynamic index
+    std::vector<uint32_t> previous_lengths_;
 };
 
 } // namespace vkpt

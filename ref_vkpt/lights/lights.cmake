@@ -2,8 +2,10 @@
 # Emitters and light lists: a static library of its own, so that tests and tools can use it without Vulkan.
 add_library(vkpt_lights STATIC
     ${CMAKE_CURRENT_LIST_DIR}/cluster_finder.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/dynamic_lights.cpp
     ${CMAKE_CURRENT_LIST_DIR}/emitters.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_lists.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/ltc_table.cpp
     ${CMAKE_CURRENT_LIST_DIR}/point_lights.cpp
     ${CMAKE_CURRENT_LIST_DIR}/triangulate.cpp)
 find_package(fmt REQUIRED)

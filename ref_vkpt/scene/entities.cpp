@@ -54,11 +54,8 @@ public:
     void add_particle(const Particle& particle);
     void add_dlight(const DynamicLight& light);
     void add_preview_light();
-    void finish();
 
 private:
-    // Gives everything appended since the last call a ray mask.
-    void mask_new(uint32_t mask) { snapshot_.masks.resize(snapshot_.triangles.size(), mask); }
     uint32_t add_material(const shared::Material& material);
     shared::Material plain_material() const;
     uint32_t entity_mask(const Entity& entity, const shared::Material& material) const;
@@ -70,7 +67,8 @@ private:
     void add_beam(const Entity& entity);
     void add_null_model(const Entity& entity);
     shared::Material mesh_material(const Entity& entity, const Model& model, const Model::Mesh& mesh) const;
-    void fit_weapon_fov(size_t first_triangle);
+    void add_md2(const Model::Mesh& mesh, const Md2Pose& pose, const shared::Material& material, uint32_t mask);
+    Squeeze fit_weapon_fov() const;
 
     SceneSnapshot& snapshot_;
     const RefDef& refdef_;
@@ -129,33 +127,35 @@ void SnapshotBuilder::add_brush(const Entity& entity, const Model::Brush& brush)
         return;
     const World& world = *snapshot_.world;
     const MapGeometry& geometry = world.models[brush.index];
-    BrushModelPose pose;
-    pose.transform = brush_model_transform(to_vec3(entity.origin), to_vec3(entity.angles));
-    pose.first_emitter = emitter_base_ + int(snapshot_.emitters.size());
+    const BrushMesh& mesh = world.brush_meshes[brush.index];
     const bool translucent = (entity.flags & RF_TRANSLUCENT) != 0;
-    pose.remap_material = [&](uint32_t texinfo) {
+    std::vector<uint32_t> materials;
+    for (const uint32_t texinfo : mesh.texinfos) {
         const uint32_t shown = world.animation_frame(texinfo, entity.frame);
+        materials.push_back(shown);
         if (!translucent)
-            return shown;
+            continue;
         shared::Material material = snapshot_.materials[shown];
         material.opacity = std::clamp(entity.alpha, 0.0f, 1.0f);
         material.flags |= shared::MATERIAL_TRANSLUCENT;
-        return add_material(material);
-    };
-    const size_t before = snapshot_.triangles.size();
-    append_brush_model(geometry.triangles, pose, snapshot_.triangles);
-    if (snapshot_.triangles.size() == before)
+        materials.back() = add_material(material);
+    }
+    BrushPose pose;
+    pose.transform = brush_model_transform(to_vec3(entity.origin), to_vec3(entity.angles));
+    pose.materials = materials;
+    pose.first_emitter = emitter_base_ + int(snapshot_.emitters.size());
+    pose.mask = translucent ? shared::MASK_TRANSLUCENT : 0;
+    if (!snapshot_.moving.add(mesh, pose))
         return;
     for (shared::Emitter emitter : geometry.emitters) {
         emitter.p0 = pose.transform.point(emitter.p0);
         emitter.p1 = pose.transform.point(emitter.p1);
         emitter.p2 = pose.transform.point(emitter.p2);
+        if (translucent)
+            emitter.type = shared::EMITTER_VEIL;
         snapshot_.emitters.push_back(emitter);
     }
-    if (translucent)
-        return mask_new(shared::MASK_TRANSLUCENT);
-    snapshot_.masks.insert(snapshot_.masks.end(), geometry.masks.begin(), geometry.masks.end());
-    snapshot_.has_alpha_test |= geometry.has_alpha_test;
+    snapshot_.has_alpha_test |= geometry.has_alpha_test && !translucent;
 }
 
 shared::Material SnapshotBuilder::mesh_material(
@@ -207,16 +207,19 @@ void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const M
     if (is_weapon && cvars.hand == hand_left)
         pose.mirror = Mirror { eye_, axes_.right };
 
-    const size_t first = snapshot_.triangles.size();
-    if (entity.flags & RF_SHELLS) {
-        add_shell(entity, mesh, pose);
-    } else {
-        const shared::Material material = mesh_material(entity, model, mesh);
-        append_md2(mesh.md2, pose, add_material(material), snapshot_.triangles);
-        mask_new(entity_mask(entity, material));
-    }
-    if (is_weapon)
-        fit_weapon_fov(first);
+    if (is_weapon && cvars.r_gunfov > 0)
+        pose.squeeze = fit_weapon_fov();
+    if (entity.flags & RF_SHELLS)
+        return add_shell(entity, mesh, pose);
+    const shared::Material material = mesh_material(entity, model, mesh);
+    add_md2(mesh, pose, material, entity_mask(entity, material));
+}
+
+void SnapshotBuilder::add_md2(
+    const Model::Mesh& mesh, const Md2Pose& pose, const shared::Material& material, uint32_t mask)
+{
+    if (snapshot_.moving.add(mesh.md2, pose, uint32_t(snapshot_.materials.size()), mask))
+        add_material(material);
 }
 
 // Shells are entities of their own: the model inflated, glowing in the power-ups' colours.
@@ -239,26 +242,16 @@ void SnapshotBuilder::add_shell(const Entity& entity, const Model::Mesh& mesh, M
     material.emission = colour * shell_radiance;
     material.opacity = shell_opacity;
     material.flags = shared::MATERIAL_TRANSLUCENT;
-    append_md2(mesh.md2, pose, add_material(material), snapshot_.triangles);
-    mask_new(entity_mask(entity, material));
+    add_md2(mesh, pose, material, entity_mask(entity, material));
 }
 
 // The view weapon is made for a field of view of its own (r_gunfov, at 4:3): seen from the eye it is squeezed so that it
 // looks as it would there.
-void SnapshotBuilder::fit_weapon_fov(size_t first_triangle)
+Squeeze SnapshotBuilder::fit_weapon_fov() const
 {
-    const float gun_fov = cvars::values().r_gunfov;
-    if (gun_fov <= 0)
-        return;
     const auto tangent = [](float degrees) { return std::tan(glm::radians(std::clamp(degrees, 1.0f, 170.0f)) / 2); };
-    const float gun_tangent_y = tangent(gun_fov) * 3 / 4;
-    const float squeeze = tangent(refdef_.fov_y) / gun_tangent_y;
-    for (size_t i = first_triangle; i < snapshot_.triangles.size(); i++)
-        for (glm::vec3& p : snapshot_.triangles[i].positions) {
-            const glm::vec3 offset = p - eye_;
-            const glm::vec3 along = axes_.forward * glm::dot(offset, axes_.forward);
-            p = eye_ + along + (offset - along) * squeeze;
-        }
+    const float gun_tangent_y = tangent(cvars::values().r_gunfov) * 3 / 4;
+    return { eye_, axes_.forward, tangent(refdef_.fov_y) / gun_tangent_y };
 }
 
 void SnapshotBuilder::add_sprite(const Entity& entity, const Model::Sprite& sprite)
@@ -275,8 +268,8 @@ void SnapshotBuilder::add_sprite(const Entity& entity, const Model::Sprite& spri
     material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
     material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_ALPHA_TEST
         | (material.opacity < 1 ? shared::MATERIAL_TRANSLUCENT : 0);
-    append_sprite(sprite.sp2.frames[frame], to_vec3(entity.origin), axes_, add_material(material), snapshot_.triangles);
-    mask_new(shared::MASK_TRANSLUCENT);
+    append_sprite(sprite.sp2.frames[frame], to_vec3(entity.origin), axes_, add_material(material), snapshot_.moving.loose());
+    snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
     snapshot_.has_alpha_test = true;
 }
 
@@ -289,15 +282,15 @@ void SnapshotBuilder::add_beam(const Entity& entity)
     material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
     material.flags = shared::MATERIAL_TRANSLUCENT;
     append_beam(to_vec3(entity.origin), to_vec3(entity.previous_origin), float(entity.frame), add_material(material),
-        snapshot_.triangles);
-    mask_new(shared::MASK_TRANSLUCENT);
+        snapshot_.moving.loose());
+    snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
 }
 
 void SnapshotBuilder::add_null_model(const Entity& entity)
 {
     const Transform transform = md2_transform(to_vec3(entity.origin), to_vec3(entity.angles));
-    vkpt::append_null_model(transform, add_material(plain_material()), snapshot_.triangles);
-    mask_new(shared::MASK_OPAQUE);
+    vkpt::append_null_model(transform, add_material(plain_material()), snapshot_.moving.loose());
+    snapshot_.moving.mask_loose(shared::MASK_OPAQUE);
 }
 
 void SnapshotBuilder::add_particle(const Particle& particle)
@@ -306,8 +299,8 @@ void SnapshotBuilder::add_particle(const Particle& particle)
     material.tint = to_linear(textures_.palette()[size_t(particle.color & 255)]) * unlit_radiance;
     material.opacity = std::clamp(particle.alpha, 0.0f, 1.0f);
     material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_TRANSLUCENT;
-    append_particle(to_vec3(particle.origin), eye_, axes_, add_material(material), snapshot_.triangles);
-    mask_new(shared::MASK_TRANSLUCENT);
+    append_particle(to_vec3(particle.origin), eye_, axes_, add_material(material), snapshot_.moving.loose());
+    snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
 }
 
 void SnapshotBuilder::add_dlight(const DynamicLight& light)
@@ -332,18 +325,6 @@ void SnapshotBuilder::add_preview_light()
     snapshot_.emitters.push_back(light);
 }
 
-void SnapshotBuilder::finish()
-{
-    const uint32_t first_id = snapshot_.world ? uint32_t(snapshot_.world->models[0].triangles.size()) : 0;
-    std::vector<BvhTriangle> triangles(snapshot_.triangles.size());
-    for (size_t i = 0; i < triangles.size(); i++) {
-        std::ranges::copy(snapshot_.triangles[i].positions, triangles[i].positions);
-        triangles[i].id = first_id + uint32_t(i);
-        triangles[i].mask = snapshot_.masks[i];
-    }
-    snapshot_.bvh = build_bvh(triangles, BvhQuality::fast);
-}
-
 } // namespace
 
 void add_entities(
@@ -352,10 +333,10 @@ void add_entities(
     SnapshotBuilder builder(snapshot, refdef, textures, defaults);
     for (int i = 0; i < refdef.entity_count; i++) {
         const Entity& entity = refdef.entities[i];
-        const size_t first = snapshot.triangles.size();
+        const MovingGeometry::Extent first = snapshot.moving.extent();
         builder.add_entity(entity);
         snapshot.things.push_back(
-            { entity.model, entity.flags, to_vec3(entity.origin), first, snapshot.triangles.size() - first });
+            { entity.model, entity.flags, to_vec3(entity.origin), first, snapshot.moving.extent() });
     }
     for (int i = 0; i < refdef.particle_count; i++)
         builder.add_particle(refdef.particles[i]);
@@ -363,7 +344,6 @@ void add_entities(
         builder.add_dlight(refdef.dlights[i]);
     if (!snapshot.world)
         builder.add_preview_light();
-    builder.finish();
 }
 
 } // namespace vkpt

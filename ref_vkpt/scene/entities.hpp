@@ -8,7 +8,7 @@
 
 namespace vkpt {
 
-// `snapshot` holds the world's materials already (none without a world). Builds the tree of what was added.
+// `snapshot` holds the world's materials already (none without a world).
 void add_entities(SceneSnapshot& snapshot, const engine::RefDef& refdef, const TextureStore& textures,
     const MaterialDefaults& defaults);
 

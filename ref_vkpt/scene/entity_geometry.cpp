@@ -15,23 +15,6 @@ using shared::Triangle;
 
 namespace {
 
-constexpr vec3 any_direction { 0, 0, 1 };
-
-// Far outside of any map, and small enough that products of coordinates stay finite. False for NaN.
-bool is_sane(float value) { return std::abs(value) < 1e6f; }
-bool is_sane(vec3 v) { return is_sane(v.x) && is_sane(v.y) && is_sane(v.z); }
-bool is_sane(const Transform& t)
-{
-    return is_sane(t.origin) && is_sane(t.rotation[0]) && is_sane(t.rotation[1]) && is_sane(t.rotation[2]);
-}
-bool is_sane(const Axes& axes) { return is_sane(axes.forward) && is_sane(axes.right) && is_sane(axes.up); }
-
-vec3 normalize_or(vec3 v, vec3 fallback)
-{
-    const float length = glm::length(v);
-    return std::isfinite(length) && length > 1e-12f ? v / length : fallback;
-}
-
 // GLSL's sign() is 0 at 0; the octahedral map needs +1 there.
 vec2 signs(vec2 p) { return { p.x >= 0 ? 1.f : -1.f, p.y >= 0 ? 1.f : -1.f }; }
 
@@ -80,55 +63,26 @@ void append_billboard(
         material, out);
 }
 
-// Blends two frames and places the result; also the mirroring.
-class Md2Poser {
-public:
-    Md2Poser(const formats::Md2Model& model, const Md2Pose& pose)
-        : pose_(pose)
-        , frame_(pick(model, pose.frame))
-        , old_frame_(pick(model, pose.old_frame))
-        , backlerp_(pose.backlerp > 0 ? std::min(pose.backlerp, 1.f) : 0) // NaN: 0
-        , shell_(is_sane(pose.shell_distance) ? pose.shell_distance : 0)
-    {
-    }
-
-    Corner corner(size_t vertex, vec2 uv) const
-    {
-        const vec3 blended = glm::mix(frame_.normals[vertex], old_frame_.normals[vertex], backlerp_);
-        const vec3 normal = normalize_or(blended, frame_.normals[vertex]);
-        const vec3 position
-            = glm::mix(frame_.positions[vertex], old_frame_.positions[vertex], backlerp_) + normal * shell_;
-        vec3 p = pose_.transform.point(position), n = pose_.transform.direction(normal);
-        if (pose_.mirror) {
-            p -= 2 * glm::dot(p - pose_.mirror->point, pose_.mirror->normal) * pose_.mirror->normal;
-            n -= 2 * glm::dot(n, pose_.mirror->normal) * pose_.mirror->normal;
-        }
-        return { p, uv, encode_octahedral(n) };
-    }
-
-private:
-    static const formats::Md2Model::Frame& pick(const formats::Md2Model& model, int frame)
-    {
-        return model.frames[size_t(std::clamp(frame, 0, int(model.frames.size()) - 1))];
-    }
-
-    const Md2Pose& pose_;
-    const formats::Md2Model::Frame& frame_;
-    const formats::Md2Model::Frame& old_frame_;
-    float backlerp_, shell_;
-};
-
 } // namespace
+
+bool is_sane(float value) { return std::abs(value) < 1e6f; } // not NaN
+bool is_sane(vec3 v) { return is_sane(v.x) && is_sane(v.y) && is_sane(v.z); }
+bool is_sane(const Axes& axes) { return is_sane(axes.forward) && is_sane(axes.right) && is_sane(axes.up); }
+bool is_sane(const Transform& t)
+{
+    return is_sane(t.origin) && is_sane(t.rotation[0]) && is_sane(t.rotation[1]) && is_sane(t.rotation[2]);
+}
 
 uint32_t encode_octahedral(vec3 direction)
 {
-    vec3 d = normalize_or(direction, any_direction);
-    d /= std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+    const float length = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
+    const vec3 d = length > 1e-12f && length < 1e30f ? direction / length : vec3(0, 0, 1);
     vec2 p(d.x, d.y);
     if (d.z < 0)
         p = (vec2(1) - glm::abs(vec2(p.y, p.x))) * signs(p);
-    const auto pack
-        = [](float x) { return uint32_t(uint16_t(int16_t(std::lround(std::clamp(x, -1.f, 1.f) * 32767)))); };
+    const auto pack = [](float x) { // to the nearest; the conversion cuts off
+        return uint32_t(uint16_t(int16_t(int(std::clamp(x, -1.f, 1.f) * 32767 + (x < 0 ? -0.5f : 0.5f)))));
+    };
     return pack(p.x) | pack(p.y) << 16;
 }
 
@@ -169,43 +123,6 @@ Transform md2_transform(vec3 origin, vec3 angles)
 vec3 blend_origins(vec3 origin, vec3 old_origin, float backlerp)
 {
     return backlerp > 0 && is_sane(old_origin) ? glm::mix(origin, old_origin, std::min(backlerp, 1.f)) : origin;
-}
-
-void append_md2(const formats::Md2Model& model, const Md2Pose& pose, uint32_t material, std::vector<Triangle>& out)
-{
-    if (model.frames.empty() || !is_sane(pose.transform))
-        return;
-    if (pose.mirror && !(is_sane(pose.mirror->point) && is_sane(pose.mirror->normal)))
-        return;
-    const Md2Poser poser(model, pose);
-    std::vector<Corner> corners;
-    corners.reserve(model.vertex_count());
-    for (size_t vertex = 0; vertex < model.vertex_count(); vertex++)
-        corners.push_back(poser.corner(vertex, model.texture_coordinates[vertex]));
-    out.reserve(out.size() + model.triangle_count());
-    for (size_t i = 0; i + 2 < model.indices.size(); i += 3) {
-        const uint32_t a = model.indices[i], b = model.indices[i + 1], c = model.indices[i + 2];
-        append_triangle(corners[a], corners[pose.mirror ? c : b], corners[pose.mirror ? b : c], material, out);
-    }
-}
-
-void append_brush_model(std::span<const Triangle> triangles, const BrushModelPose& pose, std::vector<Triangle>& out)
-{
-    if (!is_sane(pose.transform))
-        return;
-    out.reserve(out.size() + triangles.size());
-    for (Triangle triangle : triangles) {
-        for (int i = 0; i < 3; i++) {
-            triangle.positions[i] = pose.transform.point(triangle.positions[i]);
-            triangle.normals[i] = encode_octahedral(pose.transform.direction(decode_octahedral(triangle.normals[i])));
-        }
-        if (pose.remap_material)
-            triangle.material = pose.remap_material(triangle.material);
-        triangle.emitter
-            = triangle.emitter >= 0 && pose.first_emitter >= 0 ? triangle.emitter + pose.first_emitter : -1;
-        triangle.cluster = -1;
-        out.push_back(triangle);
-    }
 }
 
 void append_sprite(const formats::Sp2Sprite::Frame& frame, vec3 origin, const Axes& camera, uint32_t material,

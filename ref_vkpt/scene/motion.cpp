@@ -10,7 +10,8 @@ namespace {
 
 bool is_same_kind(const MovingThing& a, const MovingThing& b)
 {
-    return a.model == b.model && a.flags == b.flags && a.triangle_count == b.triangle_count;
+    return a.model == b.model && a.flags == b.flags && a.end.items - a.first.items == b.end.items - b.first.items
+        && a.end.loose - a.first.loose == b.end.loose - b.first.loose;
 }
 
 // The nearest thing of the same kind that is not taken yet; count: none.
@@ -32,21 +33,20 @@ size_t find_thing(const MovingThing& thing, const std::vector<MovingThing>& befo
 
 } // namespace
 
-void find_previous_positions(SceneSnapshot& now, const SceneSnapshot& before)
+void find_previous_poses(SceneSnapshot& now, const SceneSnapshot& before)
 {
-    now.previous_positions.clear();
-    now.previous_positions.reserve(now.triangles.size() * 3);
-    for (const shared::Triangle& triangle : now.triangles)
-        now.previous_positions.insert(now.previous_positions.end(), triangle.positions, triangle.positions + 3);
     std::vector<bool> taken(before.things.size());
     for (const MovingThing& thing : now.things) {
         const size_t found = find_thing(thing, before.things, taken);
         if (found == before.things.size())
             continue;
         taken[found] = true;
-        for (size_t i = 0; i < thing.triangle_count; i++)
-            std::copy_n(before.triangles[before.things[found].first_triangle + i].positions, 3,
-                &now.previous_positions[(thing.first_triangle + i) * 3]);
+        const MovingThing& old = before.things[found];
+        now.moving.keep_previous(
+            thing.first.items, thing.end.items - thing.first.items, before.moving, old.first.items);
+        if (thing.end.loose > thing.first.loose)
+            now.moving.keep_previous_loose(
+                thing.first.loose, thing.end.loose - thing.first.loose, before.moving, old.first.loose);
     }
 }
 

@@ -23,6 +23,13 @@ bool ends_with(std::string_view name, std::string_view ending)
     return name.size() >= ending.size() && name.substr(name.size() - ending.size()) == ending;
 }
 
+// Emitters in an order that lasts over the frames, and the lists of those that can light each cluster.
+void list_lights(SceneSnapshot& snapshot, World& world)
+{
+    snapshot.moving.move_emitters(int(world.models[0].emitters.size()), world.dynamic_lights.arrange(snapshot.emitters));
+    world.light_lists.update(snapshot.emitters);
+}
+
 WorldPicture describe(const Texture& texture)
 {
     return { texture.slot, texture.width, texture.height, texture.average, texture.has_alpha, texture.missing };
@@ -112,8 +119,10 @@ std::optional<Model> Scene::load_model(const std::string& name) const
         return std::nullopt;
     if (ends_with(name, ".sp2"))
         model.shape = Model::Sprite { formats::read_sp2(file->bytes(), name), {} };
-    else
-        model.shape = Model::Mesh { formats::read_md2(file->bytes(), name), {} };
+    else {
+        formats::Md2Model md2 = formats::read_md2(file->bytes(), name);
+        model.shape = Model::Mesh { std::make_shared<Md2Mesh>(md2), std::move(md2.skins), {} };
+    }
     return model;
 }
 
@@ -122,7 +131,7 @@ void Scene::find_pictures(Model& model)
 {
     if (auto* mesh = std::get_if<Model::Mesh>(&model.shape)) {
         mesh->skins.clear();
-        for (const std::string& skin : mesh->md2.skins)
+        for (const std::string& skin : mesh->skin_names)
             mesh->skins.push_back(textures_.find(skin, TextureUse::skin));
     }
     if (auto* sprite = std::get_if<Model::Sprite>(&model.shape)) {
@@ -198,12 +207,13 @@ SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef) const
     if (!(refdef.flags & engine::RDF_NOWORLDMODEL) && world_) {
         snapshot.world = world_.get();
         snapshot.has_alpha_test = world_->models[0].has_alpha_test;
+        snapshot.moving = MovingGeometry(uint32_t(world_->models[0].triangles.size()));
         snapshot.materials = world_->make_materials(refdef.time, defaults);
         snapshot.sky = make_sky(refdef.time);
     }
     add_entities(snapshot, refdef, textures_, defaults);
     if (snapshot.world)
-        world_->light_lists.update(snapshot.emitters);
+        list_lights(snapshot, *world_);
     return snapshot;
 }
 
@@ -215,7 +225,7 @@ void Scene::print_models() const
             continue;
         count++;
         if (const auto* mesh = std::get_if<Model::Mesh>(&model.shape))
-            engine::print("{:6} triangles {:4} frames  {}", mesh->md2.triangle_count(), mesh->md2.frames.size(), model.name);
+            engine::print("{:6} triangles {:4} frames  {}", mesh->md2->triangle_count(), mesh->md2->frame_count(), model.name);
         else if (const auto* brush = std::get_if<Model::Brush>(&model.shape))
             engine::print("{:6} triangles    1 frame   {}", world_->models[brush->index].triangles.size(), model.name);
         else

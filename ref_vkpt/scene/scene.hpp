@@ -19,7 +19,8 @@ namespace vkpt {
 // A handle that the engine holds. Brush models belong to the current map.
 struct Model {
     struct Mesh {
-        formats::Md2Model md2;
+        std::shared_ptr<const Md2Mesh> md2; // views may outlive a model's registration
+        std::vector<std::string> skin_names;
         std::vector<const Texture*> skins; // nullptr: not found
     };
     struct Sprite {

@@ -2,8 +2,8 @@
 // Everything that one 3D view shows and that may differ in the next one. CPU side.
 #pragma once
 
+#include "ref_vkpt/scene/moving_geometry.hpp"
 #include "ref_vkpt/scene/world.hpp"
-#include "ref_vkpt/trace/bvh.hpp"
 #include "shaders/shared/frame.h"
 
 #include <array>
@@ -11,24 +11,21 @@
 
 namespace vkpt {
 
-// The triangles of one entity, and what tells it from the others of a view.
+// What one entity added to `moving`, and what tells it from the others of a view.
 struct MovingThing {
     const void* model = nullptr;
     int32_t flags = 0; // of the entity
     glm::vec3 origin { 0 };
-    size_t first_triangle = 0, triangle_count = 0;
+    MovingGeometry::Extent first, end;
 };
 
 struct SceneSnapshot {
     const World* world = nullptr; // nullptr: models alone (menus)
     // What moves: ids continue after the world's triangles, emitters after the world's emitters, materials after the world's.
-    std::vector<shared::Triangle> triangles;
-    std::vector<uint32_t> masks;
-    std::vector<MovingThing> things; // in the order of their triangles
-    std::vector<glm::vec3> previous_positions; // three per triangle: where its corners were in the last view
+    MovingGeometry moving;
+    std::vector<MovingThing> things; // of `moving`, in its order
     std::vector<shared::Emitter> emitters;
     std::vector<shared::Material> materials; // all: the world's first
-    Bvh bvh; // of `triangles`
     std::vector<float> lightstyles; // lightstyle_count of them
     shared::Sky sky {};
     bool has_alpha_test = false;

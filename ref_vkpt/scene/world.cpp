@@ -238,11 +238,14 @@ std::unique_ptr<World> load_world(
     const std::vector<int> face_clusters = find_face_clusters(world.bsp);
     world.models.push_back(
         make_world_geometry({ world.bsp, world.pictures, face_clusters, true }, std::move(emitters)));
-    for (size_t i = 1; i < world.bsp.models.size(); i++)
-        world.models.push_back(
+    world.brush_meshes.emplace_back();
+    for (size_t i = 1; i < world.bsp.models.size(); i++) {
+        const MapGeometry& geometry = world.models.emplace_back(
             make_brush_geometry({ world.bsp, world.pictures, face_clusters, false }, i, colour, scales));
+        world.brush_meshes.push_back(make_brush_mesh(geometry.triangles, geometry.masks));
+    }
+    world.bvh_future = std::async(std::launch::async, [&geometry = world.models[0]] { return build_world_bvh(geometry); });
     world.light_lists.build(world.bsp, world.models[0].emitters);
-    world.bvh = build_world_bvh(world.models[0]);
     return made;
 }
 

@@ -3,12 +3,15 @@
 #pragma once
 
 #include "formats/bsp.hpp"
+#include "ref_vkpt/lights/dynamic_lights.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
+#include "ref_vkpt/scene/brush_mesh.hpp"
 #include "ref_vkpt/trace/bvh.hpp"
 #include "shaders/shared/scene.h"
 
 #include <functional>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,10 +50,14 @@ struct World {
     std::string name;
     formats::Bsp bsp;
     std::vector<MapGeometry> models; // 0: the world
+    std::vector<BrushMesh> brush_meshes; // of `models`; [0] is empty
     std::vector<WorldPicture> pictures; // per texinfo
     std::vector<glm::vec3> emission;    // per texinfo: Material::emission
     LightLists light_lists;
-    Bvh bvh; // of model 0
+    DynamicLights dynamic_lights;
+    // Of model 0: made on a thread of its own while pictures and models are read.
+    const Bvh& bvh() const { return bvh_future.get(); }
+    std::shared_future<Bvh> bvh_future; // behind `models`, which it reads
     // Mean luminance of the sky faces that the map's author gave a light value; 0: none. Their sky is as bright as that.
     float lit_sky_luminance = 0;
     std::vector<std::string> messages; // what could not be used; for the console

@@ -74,7 +74,7 @@ TraceBackend TraceChoice::choose_automatically()
         say(measured->fastest, fmt::format("measured on this device: {}", measured->figures));
         return measured->fastest;
     }
-    // Our own trees are 4 to 12 times as fast as Mesa's ray query (docs/benchmarks.md), and measuring it costs seconds
+    // Our own trees are 3 to 5 times as fast as Mesa's ray query (docs/benchmarks.md), and measuring it costs seconds
     // of compilation before the first picture.
     if (device_.is_cpu) {
         say(TraceBackend::software, "the fastest on CPU drivers; pt_trace_measure measures it");

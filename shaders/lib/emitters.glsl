@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// One emitter: picking a point on it, the density of that, and a prediction of what it contributes to a surface.
+// One emitter: what it sends to a surface, picking a point on it, and the density of that.
 // An Emitter passed to these functions has its lightstyle already multiplied into `radiance` (load_emitter does it).
 #ifndef VKPT_LIB_EMITTERS
 #define VKPT_LIB_EMITTERS
 
 #include "../shared/functions.h"
+#include "../shared/cvars.h"
 #include "../shared/scene.h"
 #include "bsdf.glsl"
+#include "projected_triangle.glsl"
+
+VKPT_BUFFER(LtcBuffer, float, 4);
+
+// How lights are chosen, and points on them.
+struct LightOptions {
+    uint subset_length; // pt_light_subset
+    int weight;         // LIGHT_WEIGHT_*
+    int point;          // LIGHT_POINT_*
+    LtcBuffer ltc;      // LTC_* of shared/ltc.h
+};
 
 struct EmitterSample {
     vec3 point;
@@ -19,10 +31,15 @@ struct EmitterSample {
 const float emitter_pi = 3.14159265358979f;
 // Triangles are sampled by solid angle from here on; below, float rounding would show, and area sampling is as good.
 const float least_spherical_angle = 3e-4f;
-const float least_contribution = 1e-30f;    // the weight of what is possible but predicted to be nothing
-const float greatest_contribution = 1e20f;  // keeps sums of weights finite
-const float prediction_roughness = 0.35f;   // no lobe narrower than this guides the choice of lights
-const float prediction_horizon = 0.05f;     // sine of the lowest elevation at which the reflectance is looked up
+// Below this projected solid angle, too, uniform sampling takes over.
+const float least_projected_angle = 3e-4f;
+
+// Whether bounce rays meet all of the emitter's front, wherever it is not hidden. Spheres are lights without a surface in the
+// scene, and rays pass what is translucent or cut out: light sampling alone accounts for those.
+bool is_met_by_rays(Emitter e)
+{
+    return e.type == EMITTER_TRIANGLE || e.type == EMITTER_SKY;
+}
 
 // Emitters with a reach fade to nothing there, smoothly: (1 - (d / reach)^4)^2.
 float reach_window(Emitter e, vec3 receiver)
@@ -69,11 +86,6 @@ TriangleAspect view_triangle(Emitter e, vec3 receiver)
     return t;
 }
 
-bool uses_spherical_sampling(TriangleAspect t)
-{
-    return t.solid_angle >= least_spherical_angle;
-}
-
 // Arvo 1995: first the sub-triangle (a, b, c') that has the share xi.x of the solid angle, c' on the arc from a to c; then
 // uniform height on the arc from b to c'. c' without trigonometric inverses: write it as the mirror image of a at
 // r = p a + q c; then tan(angle / 2) = q G0 / (p G2 + q G1) with the G below, which is linear in p and q.
@@ -104,7 +116,7 @@ vec3 sample_spherical_triangle(TriangleAspect t, vec2 xi)
     return normalize(b * (1.0f - depth) + sideways * sideways_length);
 }
 
-EmitterSample sample_triangle_point(Emitter e, vec3 receiver, vec2 xi)
+EmitterSample no_emitter_sample(Emitter e)
 {
     EmitterSample result;
     result.point = e.p0;
@@ -112,28 +124,66 @@ EmitterSample sample_triangle_point(Emitter e, vec3 receiver, vec2 xi)
     result.distance = 0.0f;
     result.radiance = vec3(0.0f);
     result.pdf = 0.0f;
-    TriangleAspect t = view_triangle(e, receiver);
+    return result;
+}
+
+// How the points of one triangle are drawn for one surface. pdf_emitter_point takes the same decision.
+struct TriangleSampling {
+    int method; // LIGHT_POINT_*
+    ProjectedTriangle projected;
+};
+
+TriangleSampling choose_triangle_sampling(TriangleAspect t, Surface s, LightOptions options)
+{
+    TriangleSampling sampling;
+    sampling.method = options.point;
+    if (sampling.method == LIGHT_POINT_PROJECTED) {
+        sampling.projected = project_triangle(t.a, t.b, t.c, s.normal);
+        if (sampling.projected.area < least_projected_angle)
+            sampling.method = LIGHT_POINT_SOLID_ANGLE;
+    }
+    if (sampling.method == LIGHT_POINT_SOLID_ANGLE && t.solid_angle < least_spherical_angle)
+        sampling.method = LIGHT_POINT_AREA;
+    return sampling;
+}
+
+float pdf_of_direction(TriangleAspect t, TriangleSampling sampling, Surface s, vec3 direction, float distance)
+{
+    if (sampling.method == LIGHT_POINT_PROJECTED)
+        return max(dot(direction, s.normal), 0.0f) / sampling.projected.area;
+    if (sampling.method == LIGHT_POINT_SOLID_ANGLE)
+        return 1.0f / t.solid_angle;
+    // Distance^2 / (area * cosine), where area * cosine = volume / (2 * distance).
+    return 2.0f * distance * distance * distance / t.volume;
+}
+
+EmitterSample sample_triangle_point(Emitter e, Surface s, vec2 xi, LightOptions options)
+{
+    EmitterSample result = no_emitter_sample(e);
+    TriangleAspect t = view_triangle(e, s.position);
     if (t.volume <= 0.0f || t.solid_angle <= 0.0f)
         return result;
-    if (uses_spherical_sampling(t)) {
-        result.direction = sample_spherical_triangle(t, xi);
-        float farthest = sqrt(max(max(dot(t.a, t.a), dot(t.b, t.b)), dot(t.c, t.c)));
-        // Grazing rays may be rounded past the plane: no point of the triangle is farther than its farthest corner.
-        float slope = max(-dot(result.direction, t.edges_cross), t.volume / farthest);
-        result.distance = t.volume / slope;
-        result.pdf = 1.0f / t.solid_angle;
-    } else {
+    TriangleSampling sampling = choose_triangle_sampling(t, s, options);
+    if (sampling.method == LIGHT_POINT_AREA) {
         float root = sqrt(xi.x);
         vec3 offset = t.a * (1.0f - root) + t.b * (root * (1.0f - xi.y)) + t.c * (root * xi.y);
         result.distance = length(offset);
         if (result.distance <= 0.0f)
             return result;
         result.direction = offset / result.distance;
-        // Distance^2 / (area * cosine), where area * cosine = volume / (2 * distance).
-        result.pdf = 2.0f * result.distance * result.distance * result.distance / t.volume;
+    } else {
+        if (sampling.method == LIGHT_POINT_PROJECTED)
+            result.direction = sample_projected_triangle(sampling.projected, xi);
+        else
+            result.direction = sample_spherical_triangle(t, xi);
+        float farthest = sqrt(max(max(dot(t.a, t.a), dot(t.b, t.b)), dot(t.c, t.c)));
+        // Grazing rays may be rounded past the plane: no point of the triangle is farther than its farthest corner.
+        float slope = max(-dot(result.direction, t.edges_cross), t.volume / farthest);
+        result.distance = t.volume / slope;
     }
-    result.point = receiver + result.direction * result.distance;
-    result.radiance = emitted_radiance(e, receiver);
+    result.pdf = pdf_of_direction(t, sampling, s, result.direction, result.distance);
+    result.point = s.position + result.direction * result.distance;
+    result.radiance = emitted_radiance(e, s.position);
     return result;
 }
 
@@ -173,98 +223,27 @@ EmitterSample sample_sphere_point(Emitter e, vec3 receiver, vec2 xi)
     return result;
 }
 
-EmitterSample sample_emitter_point(Emitter e, vec3 receiver, vec2 xi)
+// `xi` in [0, 1)^2. Triangles by options.point, spheres by the cone under which they appear.
+EmitterSample sample_emitter_point(Emitter e, Surface s, vec2 xi, LightOptions options)
 {
     if (e.type == EMITTER_SPHERE)
-        return sample_sphere_point(e, receiver, xi);
-    return sample_triangle_point(e, receiver, xi);
+        return sample_sphere_point(e, s.position, xi);
+    return sample_triangle_point(e, s, xi, options);
 }
 
-// Density with which sample_emitter_point picks `point` (on the emitter, visible from the receiver), per solid angle.
-float pdf_emitter_point(Emitter e, vec3 receiver, vec3 point)
+// Density with which sample_emitter_point picks `point` (on the emitter, visible from the surface), per solid angle.
+float pdf_emitter_point(Emitter e, Surface s, vec3 point, LightOptions options)
 {
     if (e.type == EMITTER_SPHERE) {
-        float cone_depth = sphere_cone_depth(e.p0 - receiver, e.p1.x);
+        float cone_depth = sphere_cone_depth(e.p0 - s.position, e.p1.x);
         return e.p1.x > 0.0f ? 1.0f / (2.0f * emitter_pi * cone_depth) : 0.0f;
     }
-    TriangleAspect t = view_triangle(e, receiver);
+    TriangleAspect t = view_triangle(e, s.position);
     if (t.volume <= 0.0f || t.solid_angle <= 0.0f)
         return 0.0f;
-    if (uses_spherical_sampling(t))
-        return 1.0f / t.solid_angle;
-    vec3 offset = point - receiver;
-    float len = length(offset);
-    return 2.0f * len * len * len / t.volume;
-}
-
-// What the prediction needs to know of an emitter's shape. solid_angle 0: it cannot light the surface.
-struct EmitterAspect {
-    vec3 centre; // receiver to centre
-    float solid_angle;
-    float cosine_bound;
-};
-
-EmitterAspect view_emitter_triangle(Surface s, Emitter e)
-{
-    EmitterAspect aspect;
-    TriangleAspect t = view_triangle(e, s.position);
-    aspect.centre = (t.a + t.b + t.c) * (1.0f / 3.0f);
-    aspect.solid_angle = t.solid_angle;
-    vec3 heights = vec3(dot(s.normal, t.a), dot(s.normal, t.b), dot(s.normal, t.c));
-    float geometric_height = max(
-        max(dot(s.geometric_normal, t.a), dot(s.geometric_normal, t.b)), dot(s.geometric_normal, t.c));
-    if (max(max(heights.x, heights.y), heights.z) <= 0.0f || geometric_height <= 0.0f)
-        aspect.solid_angle = 0.0f;
-    // The highest corner may lie lower than the middle of a triangle right above.
-    aspect.cosine_bound = max(max(heights.x / max(length(t.a), 1e-10f), heights.y / max(length(t.b), 1e-10f)),
-        max(heights.z / max(length(t.c), 1e-10f), dot(s.normal, aspect.centre) / max(length(aspect.centre), 1e-10f)));
-    return aspect;
-}
-
-EmitterAspect view_emitter_sphere(Surface s, Emitter e)
-{
-    EmitterAspect aspect;
-    float radius = e.p1.x;
-    aspect.centre = e.p0 - s.position;
-    float cone_depth = sphere_cone_depth(aspect.centre, radius);
-    aspect.solid_angle = 2.0f * emitter_pi * cone_depth;
-    float height = dot(s.normal, aspect.centre) + radius;
-    if (radius <= 0.0f || height <= 0.0f || dot(s.geometric_normal, aspect.centre) + radius <= 0.0f)
-        aspect.solid_angle = 0.0f;
-    aspect.cosine_bound = height / max(length(aspect.centre), radius);
-    return aspect;
-}
-
-// Reflectance (luminance) towards a direction that is lifted above the horizon, with the roughness limited from below.
-float predict_reflectance(Surface s, vec3 to_light)
-{
-    float len = length(to_light);
-    vec3 direction = len > 1e-10f ? to_light / len : s.normal;
-    float height = dot(s.normal, direction);
-    if (height < prediction_horizon)
-        direction = normalize(direction + s.normal * (prediction_horizon - height));
-    s.roughness = max(s.roughness, prediction_roughness);
-    BsdfValue value = evaluate_brdf(s, direction);
-    return value.diffuse * luminance(s.albedo) + luminance(value.specular);
-}
-
-// Section 47.4.5: the weight by which samplers choose. Radiance x reflectance at the horizon-clipped centre x solid angle x
-// bounded cosine; visibility is unknown. Never 0 where the emitter can contribute.
-float light_contribution(Surface s, Emitter e)
-{
-    float radiance = luminance(emitted_radiance(e, s.position));
-    if (!(radiance > 0.0f))
-        return 0.0f;
-    EmitterAspect aspect;
-    if (e.type == EMITTER_SPHERE)
-        aspect = view_emitter_sphere(s, e);
-    else
-        aspect = view_emitter_triangle(s, e);
-    if (!(aspect.solid_angle > 0.0f))
-        return 0.0f;
-    float reflectance = max(predict_reflectance(s, aspect.centre), 1e-4f);
-    float cosine = clamp(aspect.cosine_bound, 1e-4f, 1.0f);
-    return clamp(radiance * reflectance * aspect.solid_angle * cosine, least_contribution, greatest_contribution);
+    vec3 offset = point - s.position;
+    float distance = length(offset);
+    return pdf_of_direction(t, choose_triangle_sampling(t, s, options), s, offset / distance, distance);
 }
 
 #endif

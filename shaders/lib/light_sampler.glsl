@@ -2,13 +2,21 @@
 // What every light sampler shares. A sampler is one file shaders/light_samplers/NAME.glsl; NAME is the value of
 // pt_light_sampler. The file includes this one and defines
 //
-//     LightSample sample_light(LightListView list, Surface s, float xi, uint subset_length)
-//         Picks an emitter of the list for surface `s`. xi in [0, 1), uniform; subset_length >= 1: how many lights may be
-//         weighed. Reports the exact probability of the pick. Nothing to pick: no_light().
-//     float light_probability(LightListView list, Surface s, uint emitter, float xi, uint subset_length)
-//         The probability with which sample_light picks `emitter` (0: never, or not in the list). Averaged over xi the
-//         estimate f / probability must be unbiased; a sampler whose probability depends on random choices may use xi,
-//         which is then the one given to sample_light.
+//     const bool light_sampler_mis
+//         true: BSDF rays that meet an emitter count, too, and both are weighted by mis_share (lib/lighting.glsl).
+//         false: light sampling alone accounts for the lists' emitters.
+//     LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
+//         Picks an emitter of the list for surface `s`. Its report makes f(point) / (density of the point * probability)
+//         an unbiased estimate of the light of all emitters. Nothing to pick: no_light().
+//     float light_probability(LightListView list, Surface s, uint emitter, LightRandom random, LightOptions options)
+//         The probability with which sample_light picks `emitter` (0: never, or not in the list), all random choices that
+//         do not decide about this emitter taken as given by `random`. Averaged over `random` it is the frequency.
+//
+// What MIS asks for (section 47.5.3): let `random` consist of some numbers U that the probability depends on and of others
+// that it is averaged over. Then sample_light must report light_probability of what it picked, for the same U, and the two
+// functions may be called with different random numbers: for each emitter, E[report; picked] over sample_light and
+// E[light_probability ...] weigh the same point alike. A sampler for which the reported probability is not the average over
+// all choices that bring the emitter in is biased under MIS (subset_mis_biased shows it).
 //
 // Lists are sorted ascending by emitter index and hold no emitter twice. light_contribution() is the weight to choose by.
 // Files must compile as GLSL and as C++ (shared/functions.h); the tests check every file that the build finds.
@@ -18,36 +26,130 @@
 #include "bsdf.glsl"
 #include "emitters.glsl"
 #include "light_lists.glsl"
+#include "light_weights.glsl"
+#include "random.glsl"
+
+// The random numbers of one choice. `light` and `point` are dimensions of their own, stratified over the picture.
+struct LightRandom {
+    float light; // in [0, 1): which light
+    vec2 point;  // which point on it
+    Random more; // what a sampler draws beyond that, dimensions from 0 on, independent of the above
+};
 
 struct LightSample {
     int emitter; // index into the emitter table, -1: none
     float probability;
+    vec2 point;  // random numbers for sample_emitter_point: LightRandom::point unless the sampler chose among points
 };
 
-// Longer subsets than this are cut to it (weights are kept in an array).
-const uint max_subset_length = 64u;
 const float max_below_one = 0.99999994f; // 1 - 2^-24
+// In a surface's block of dimensions; the BSDF sample that led there has those before.
+const uint first_light_dimension = 3u;
+
+// The numbers of the light choice at a path's surface: 0 is the primary one. A pure function, so that a later pass knows
+// what an earlier one drew.
+LightRandom light_random(Random pixel_random, uint vertex)
+{
+    Random random = random_for_bounce(pixel_random, vertex + 1u);
+    random.dimension += first_light_dimension;
+    LightRandom result;
+    result.light = next_float(random);
+    result.point = next_vec2(random);
+    result.more = random_stream(random, vertex + 1u);
+    return result;
+}
 
 LightSample no_light()
 {
     LightSample result;
     result.emitter = -1;
     result.probability = 0.0f;
+    result.point = vec2(0.0f);
     return result;
 }
 
-LightSample make_light_sample(uint emitter, float probability)
+LightSample make_light_sample(uint emitter, float probability, LightRandom random)
 {
     LightSample result;
     result.emitter = int(emitter);
     result.probability = probability;
+    result.point = random.point;
     return result;
+}
+
+// The share of a point's light that goes to one way to find it, of density `own` > 0; another has density `other`. Balance
+// heuristic (equation 47.13), or Veach's power heuristic of exponent 2 for samplers that ask for it. The shares of the two
+// ways add up to 1, which is what keeps both unbiased.
+float mis_share(float own, float other)
+{
+    float ratio = other / own;
+#ifdef VKPT_MIS_POWER_HEURISTIC
+    ratio *= ratio;
+#endif
+    return 1.0f / (1.0f + ratio);
 }
 
 // floor(xi * count), safe against rounding up to count.
 uint choose_uniformly(float xi, uint count)
 {
     return min(uint(xi * float(count)), count - 1u);
+}
+
+float weigh_light(LightListView list, LightPredictor predictor, uint position)
+{
+    return light_contribution(predictor, load_emitter(list, light_at(list, position)));
+}
+
+// A cheap generator for many numbers in a row (PCG, RXS-M-XS 32 of O'Neill 2014). Its state starts as a hash of pixel, frame
+// and dimension: seeding it from the number that chooses within the subset would correlate the two and bias the result.
+uint start_fast_random(Random more)
+{
+    return hash_pcg4(uvec4(more.pixel.x | (more.pixel.y << 16u), more.frame, more.seed, more.dimension)).x;
+}
+
+float next_fast_random(INOUT(uint) state)
+{
+    state = state * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return uint_to_unit_float((word >> 22u) ^ word);
+}
+
+// Listing 47-2: keeps one of the lights offered so far, each with probability weight / total, using one number up.
+struct Reservoir {
+    int emitter;
+    float weight;
+    float total;
+    float xi;
+};
+
+Reservoir make_reservoir(float xi)
+{
+    Reservoir reservoir;
+    reservoir.emitter = -1;
+    reservoir.weight = 0.0f;
+    reservoir.total = 0.0f;
+    reservoir.xi = xi;
+    return reservoir;
+}
+
+// True: the reservoir now holds it.
+bool offer_light(INOUT(Reservoir) reservoir, uint emitter, float weight)
+{
+    if (!(weight > 0.0f))
+        return false;
+    float before = reservoir.total;
+    reservoir.total += weight;
+    float keep = before / reservoir.total;
+    bool taken = reservoir.xi >= keep;
+    if (taken) {
+        reservoir.emitter = int(emitter);
+        reservoir.weight = weight;
+        reservoir.xi = (reservoir.xi - keep) / (1.0f - keep);
+    } else {
+        reservoir.xi /= keep;
+    }
+    reservoir.xi = clamp(reservoir.xi, 0.0f, max_below_one);
+    return taken;
 }
 
 #endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Next event estimation: one light chosen by the light sampler that this pass was built with, one point on it, one shadow ray.
+// With samplers that say so, MIS: the ray that goes on from the surface anyway counts the emitters that it meets, and both
+// ways to find a point share its light by mis_share.
 #ifndef VKPT_LIB_LIGHTING
 #define VKPT_LIB_LIGHTING
 
@@ -16,17 +18,30 @@ struct ReflectedLight {
     vec3 specular;
 };
 
-ReflectedLight sample_direct_light(Surface s, int cluster, INOUT(Random) random)
+LightOptions light_options()
+{
+    return LightOptions(uint(frame.cvars.pt_light_subset), frame.cvars.pt_light_weight, frame.cvars.pt_light_point,
+        LtcBuffer(frame.ltc));
+}
+
+// How many of a path's surfaces send out a BSDF ray. With MIS the first one always does: without bounces, for emission alone.
+uint bsdf_ray_count()
+{
+    uint bounces = uint(frame.cvars.pt_bounces);
+    return light_sampler_mis ? max(bounces, 1u) : bounces;
+}
+
+// `bsdf_ray_follows`: a ray drawn by sample_bsdf leaves `s`, and its part is counted elsewhere (weigh_met_emitter).
+ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, bool bsdf_ray_follows)
 {
     ReflectedLight result = ReflectedLight(vec3(0.0), vec3(0.0));
-    float xi_light = next_float(random);
-    vec2 xi_point = next_vec2(random);
     LightListView list = open_light_list(light_tables(), cluster);
-    LightSample light = sample_light(list, s, xi_light, uint(frame.cvars.pt_light_subset));
+    LightOptions options = light_options();
+    LightSample light = sample_light(list, s, random, options);
     if (light.emitter < 0)
         return result;
     Emitter emitter = load_emitter(list, uint(light.emitter));
-    EmitterSample point = sample_emitter_point(emitter, s.position, xi_point);
+    EmitterSample point = sample_emitter_point(emitter, s, light.point, options);
     if (point.pdf <= 0.0)
         return result;
     BsdfValue bsdf = evaluate_bsdf(s, point.direction);
@@ -42,10 +57,27 @@ ReflectedLight sample_direct_light(Surface s, int cluster, INOUT(Random) random)
     Ray shadow = Ray(origin, to_light / distance, 0.0, distance - max(0.02, distance * 1e-4));
     if (!trace_visible(shadow, mask_shadow))
         return result;
-    vec3 incoming = radiance / (point.pdf * light.probability);
+    float density = point.pdf * light.probability;
+    if (light_sampler_mis && bsdf_ray_follows && is_met_by_rays(emitter))
+        density /= mis_share(density, pdf_bsdf(s, point.direction));
+    vec3 incoming = radiance / density;
     result.diffuse = bsdf.diffuse * incoming;
     result.specular = bsdf.specular * incoming;
     return result;
+}
+
+// The share, by MIS, of the light of an emitter that a BSDF ray of density `bsdf_pdf` from `s` met at `point`; `random` and
+// `s` are those of sample_direct_light. 1 where light sampling cannot find it: it is in no list. 0 where light sampling alone
+// accounts for it.
+float weigh_met_emitter(Surface s, int cluster, LightRandom random, uint emitter, vec3 point, float bsdf_pdf)
+{
+    LightListView list = open_light_list(light_tables(), cluster);
+    Emitter e = load_emitter(list, emitter);
+    if (!is_met_by_rays(e))
+        return 0.0;
+    LightOptions options = light_options();
+    float probability = light_probability(list, s, emitter, random, options);
+    return mis_share(bsdf_pdf, probability * pdf_emitter_point(e, s, point, options));
 }
 
 #endif

@@ -1,20 +1,31 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Random numbers as a pure function of pixel, frame, seed and dimension: a pixel can be replayed in a later frame, and
 // every decision of a path has its own dimension, so that a decision made or not made leaves the others' numbers alone.
+// Two kinds (pt_noise): white numbers are a hash; blue ones come from spatiotemporal masks, so that the errors of
+// neighbouring pixels and frames differ and cancel where the eye or a filter averages them. docs/light-sampling.md.
 #ifndef VKPT_LIB_RANDOM
 #define VKPT_LIB_RANDOM
 
 #include "../shared/functions.h"
+#include "../shared/cvars.h"
+#include "../shared/noise.h"
+
+VKPT_BUFFER(BlueNoiseBuffer, uint, 4);
 
 struct Random {
     uvec2 pixel;
     uint frame;
     uint seed;
     uint dimension; // of the next number
+    int kind;       // NOISE_*
+    BlueNoiseBuffer masks; // read where kind is NOISE_BLUE
 };
 
 // Dimensions are handed out in blocks: one block for each bounce of a path.
 const uint random_dimensions_per_bounce = 16u;
+// Deeper in a path a number acts through so many others that its order over the pixels is lost, and white numbers need no
+// memory: blue are those of the camera path (block 0), of direct light (1) and of the first bounce (2).
+const uint blue_blocks = 3u;
 
 // Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020: the four-word PCG hash.
 uvec4 hash_pcg4(uvec4 words)
@@ -38,16 +49,40 @@ float uint_to_unit_float(uint bits)
     return float(bits >> 8u) * 5.9604644775390625e-8f;
 }
 
-// The number of one dimension. Every number of the renderer comes through here: the place to look up blue noise instead.
-float random_dimension(uvec2 pixel, uint frame, uint seed, uint dimension)
+float white_dimension(uvec2 pixel, uint frame, uint seed, uint dimension)
 {
     uvec4 words = hash_pcg4(uvec4(pixel.x | (pixel.y << 16u), frame, seed, dimension));
     return uint_to_unit_float(words.x);
 }
 
+// A mask runs through its slices with the frames. Each period of a dimension shifts it anew, by a hash: over the periods a
+// pixel sees every value of the mask equally often, independently in each dimension, so the mean of any estimate is that
+// under white numbers. The hash also gives the bits below the mask's 16.
+float blue_dimension(BlueNoiseBuffer masks, uvec2 pixel, uint frame, uint seed, uint dimension)
+{
+    uint slice = frame % BLUE_NOISE_SLICES;
+    uvec4 words = hash_pcg4(uvec4(0x6a09e667u, frame / BLUE_NOISE_SLICES, seed, dimension));
+    uint x = (pixel.x + (words.x >> 16u)) % BLUE_NOISE_SIZE;
+    uint y = (pixel.y + (words.y >> 16u)) % BLUE_NOISE_SIZE;
+    uint mask = dimension % BLUE_NOISE_MASKS;
+    uint voxel = ((mask / 2u * BLUE_NOISE_SLICES + slice) * BLUE_NOISE_SIZE + y) * BLUE_NOISE_SIZE + x;
+    uint value = (masks.v[voxel] >> (mask % 2u * 16u)) & 0xffffu;
+    return uint_to_unit_float((value << 16u) | (words.z >> 16u));
+}
+
+// The number of one dimension. Every number of the renderer comes through here.
+float random_dimension(Random random, uint dimension)
+{
+    if (random.kind == NOISE_BLUE)
+        return blue_dimension(random.masks, random.pixel, random.frame, random.seed, dimension);
+    return white_dimension(random.pixel, random.frame, random.seed, dimension);
+}
+
+// White numbers.
 Random make_random(uvec2 pixel, uint frame, uint seed)
 {
     Random random;
+    random.kind = NOISE_WHITE;
     random.pixel = pixel;
     random.frame = frame;
     random.seed = seed;
@@ -55,10 +90,20 @@ Random make_random(uvec2 pixel, uint frame, uint seed)
     return random;
 }
 
+Random make_blue_random(BlueNoiseBuffer masks, uvec2 pixel, uint frame, uint seed)
+{
+    Random random = make_random(pixel, frame, seed);
+    random.kind = NOISE_BLUE;
+    random.masks = masks;
+    return random;
+}
+
 // The generator at the start of a bounce's block of dimensions.
 Random random_for_bounce(Random random, uint bounce)
 {
     random.dimension = bounce * random_dimensions_per_bounce;
+    if (bounce >= blue_blocks)
+        random.kind = NOISE_WHITE;
     return random;
 }
 
@@ -72,7 +117,7 @@ Random random_stream(Random random, uint stream)
 
 float next_float(INOUT(Random) random)
 {
-    float value = random_dimension(random.pixel, random.frame, random.seed, random.dimension);
+    float value = random_dimension(random, random.dimension);
     random.dimension += 1u;
     return value;
 }

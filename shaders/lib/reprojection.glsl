@@ -4,7 +4,7 @@
 #define VKPT_LIB_REPROJECTION
 
 #include "frame.glsl"
-#include "random.glsl"
+#include "pixel_random.glsl"
 
 struct ScreenPoint {
     vec2 pixel;  // (0, 0): the corner of the first pixel
@@ -39,9 +39,9 @@ float plane_tolerance(vec2 slope, vec2 pixels) { return 0.008 + 0.25 * dot(abs(s
 Random random_of_pixel(uvec2 pixel, uint index)
 {
     if ((frame.flags & FRAME_REPLAYED) == 0u)
-        return make_random(pixel, frame.frame_index, frame.seed);
+        return make_pixel_random(pixel);
     uvec2 seed = load_random_seed(index);
-    return make_random(uvec2(seed.x & 0xffffu, seed.x >> 16u), seed.y, frame.seed);
+    return make_pixel_random_of(uvec2(seed.x & 0xffffu, seed.x >> 16u), seed.y);
 }
 
 #endif

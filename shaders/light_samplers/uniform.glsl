@@ -5,15 +5,17 @@
 
 #include "../lib/light_sampler.glsl"
 
-LightSample sample_light(LightListView list, Surface s, float xi, uint subset_length)
+const bool light_sampler_mis = false;
+
+LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 {
     uint count = light_count(list);
     if (count == 0u)
         return no_light();
-    return make_light_sample(light_at(list, choose_uniformly(xi, count)), 1.0f / float(count));
+    return make_light_sample(light_at(list, choose_uniformly(random.light, count)), 1.0f / float(count), random);
 }
 
-float light_probability(LightListView list, Surface s, uint emitter, float xi, uint subset_length)
+float light_probability(LightListView list, Surface s, uint emitter, LightRandom random, LightOptions options)
 {
     return find_light(list, emitter) >= 0 ? 1.0f / float(light_count(list)) : 0.0f;
 }

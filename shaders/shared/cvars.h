@@ -14,7 +14,18 @@ struct ShaderCvars {
 #include "cvars.def"
 };
 
-// Places in the choices of pt_tone_map, flt_denoiser and pt_debug_view; cvars.cpp asserts that they agree with the rows.
+// Places in the choices of pt_noise, pt_light_weight, pt_light_point, pt_tone_map, flt_denoiser and pt_debug_view;
+// cvars.cpp asserts that they agree with the rows.
+VKPT_CONST int LIGHT_WEIGHT_CHAPTER = 0;
+VKPT_CONST int LIGHT_WEIGHT_LTC = 1;
+
+VKPT_CONST int LIGHT_POINT_AREA = 0;
+VKPT_CONST int LIGHT_POINT_SOLID_ANGLE = 1;
+VKPT_CONST int LIGHT_POINT_PROJECTED = 2;
+
+VKPT_CONST int NOISE_BLUE = 0;
+VKPT_CONST int NOISE_WHITE = 1;
+
 VKPT_CONST int TONE_MAP_NONE = 0;
 VKPT_CONST int TONE_MAP_FILMIC = 1;
 

@@ -79,7 +79,7 @@ struct SceneView {
     uint64_t structure_ids[2]; // tables of triangle ids, see STRUCTURE_TABLE_SHIFT
     uint64_t triangles;
     uint64_t previous_positions; // of the moving things' triangles, nine floats each: where they were in the last view
-    uint first_moving;           // triangle id
+    uint first_moving;           // triangle id; UINT_MAX: previous_positions are not known
     uint64_t materials;
     uint64_t emitters;
     uint64_t light_lists;
@@ -100,6 +100,8 @@ struct FrameUniforms {
     SceneView scene;
     ScreenBuffers screen;
     uint64_t exposure; // ExposureState
+    uint64_t ltc; // shared/ltc.h
+    uint64_t blue_noise; // words as in noise.h
     uint64_t probes; // IrradianceProbe list where FRAME_PROBES; rays of probe_rays.comp
     uint64_t probe_hits; // written by probe_rays.comp
     uint probe_mask; // of the rays

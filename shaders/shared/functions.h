@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lets the function libraries (shaders/lib, shaders/light_samplers) be read as GLSL and as C++, so that tests run the very
 // code that the shaders run. Rules for such a file: floats with the suffix f, no swizzles of more than one component,
-// INOUT(T) for inout parameters, buffers by VKPT_BUFFER, no global bindings. A C++ user includes shared/scene.h and this
-// header at file level, then the library inside a namespace that says `using namespace vkpt::shared; using namespace glm;`.
+// INOUT(T) for inout parameters, buffers by VKPT_BUFFER, no global bindings. A C++ user includes the shared headers that
+// the library reads and this one at file level, then the library inside a namespace that says `using namespace
+// vkpt::shared; using namespace glm;`.
 #ifndef VKPT_SHARED_FUNCTIONS_H
 #define VKPT_SHARED_FUNCTIONS_H
 

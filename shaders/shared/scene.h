@@ -50,6 +50,7 @@ VKPT_ASSERT_SIZE(Material, 56);
 VKPT_CONST uint EMITTER_TRIANGLE = 0u; // one-sided, front as in Triangle
 VKPT_CONST uint EMITTER_SPHERE = 1u;   // p0 centre, p1.x radius
 VKPT_CONST uint EMITTER_SKY = 2u;      // triangle whose radiance is the sky's in the ray's direction; `radiance` is the average
+VKPT_CONST uint EMITTER_VEIL = 3u;     // triangle that bounce rays pass, all of it or its holes: translucent or alpha-tested
 
 struct Emitter {
     vec3 p0;

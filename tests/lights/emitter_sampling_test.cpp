@@ -41,7 +41,22 @@ Surface make_surface(vec3 position, vec3 normal)
     return Surface { position, normal, normal, normal, vec3(0.5f), 0.5f, 0 };
 }
 
-std::vector<dvec3> clip_to_horizon(const std::vector<dvec3>& polygon, dvec3 normal)
+constexpr LightOptions by_solid_angle { 8, LIGHT_WEIGHT_CHAPTER, LIGHT_POINT_SOLID_ANGLE, {} };
+
+EmitterSample sample_point(const Emitter& e, vec3 receiver, vec2 xi)
+{
+    return sample_emitter_point(e, make_surface(receiver, vec3(0, 0, 1)), xi, by_solid_angle);
+}
+float pdf_point(const Emitter& e, vec3 receiver, vec3 point)
+{
+    return pdf_emitter_point(e, make_surface(receiver, vec3(0, 0, 1)), point, by_solid_angle);
+}
+float contribution_of(const Surface& s, const Emitter& e)
+{
+    return light_contribution(make_predictor(s, by_solid_angle), e);
+}
+
+std::vector<dvec3> clip_polygon_to_horizon(const std::vector<dvec3>& polygon, dvec3 normal)
 {
     std::vector<dvec3> kept;
     for (size_t i = 0; i < polygon.size(); i++) {
@@ -60,7 +75,7 @@ double irradiance_of_polygon(const Emitter& e, vec3 receiver, vec3 normal)
 {
     const dvec3 origin(receiver), n(normal);
     const std::vector<dvec3> polygon
-        = clip_to_horizon({ dvec3(e.p0) - origin, dvec3(e.p1) - origin, dvec3(e.p2) - origin }, n);
+        = clip_polygon_to_horizon({ dvec3(e.p0) - origin, dvec3(e.p1) - origin, dvec3(e.p2) - origin }, n);
     double sum = 0;
     for (size_t i = 0; i < polygon.size(); i++) {
         const dvec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
@@ -77,7 +92,7 @@ double estimate_irradiance(const Emitter& e, vec3 receiver, vec3 normal, int n =
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             const vec2 xi((float(i) + 0.5f) / float(n), (float(j) + 0.5f) / float(n));
-            const EmitterSample drawn = sample_emitter_point(e, receiver, xi);
+            const EmitterSample drawn = sample_point(e, receiver, xi);
             if (drawn.pdf > 0)
                 sum += drawn.radiance.x * std::max(0.0f, dot(normal, drawn.direction)) / drawn.pdf;
         }
@@ -128,9 +143,9 @@ TEST(EmitterSampling, TrianglePointsLieOnTheTriangleWithTheReportedDensity)
         const vec3 across = cross(e.p1 - e.p0, e.p2 - e.p0);
         const float size = std::sqrt(e.area);
         for (int i = 0; i < 2000; i++) {
-            const EmitterSample drawn = sample_emitter_point(e, c.receiver, vec2(unit(rng), unit(rng)));
+            const EmitterSample drawn = sample_point(e, c.receiver, vec2(unit(rng), unit(rng)));
             ASSERT_GT(drawn.pdf, 0) << c.name;
-            ASSERT_NEAR(drawn.pdf, pdf_emitter_point(e, c.receiver, drawn.point), 2e-3f * drawn.pdf) << c.name;
+            ASSERT_NEAR(drawn.pdf, pdf_point(e, c.receiver, drawn.point), 2e-3f * drawn.pdf) << c.name;
             const vec3 p = drawn.point;
             const float tolerance = 2e-3f * size + 2e-6f * length(p);
             ASSERT_LT(std::abs(dot(p - e.p0, normalize(across))), tolerance) << c.name;
@@ -154,7 +169,7 @@ TEST(EmitterSampling, TrianglePointsAreUniformInSolidAngle)
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             const EmitterSample drawn
-                = sample_emitter_point(whole, receiver, vec2((float(i) + 0.5f) / n, (float(j) + 0.5f) / n));
+                = sample_point(whole, receiver, vec2((float(i) + 0.5f) / n, (float(j) + 0.5f) / n));
             // In `part` if on a's side of the plane through the receiver, the cut and b.
             inside += dot(drawn.direction, cross(cut, b)) * dot(a, cross(cut, b)) > 0;
         }
@@ -164,10 +179,10 @@ TEST(EmitterSampling, TrianglePointsAreUniformInSolidAngle)
 TEST(EmitterSampling, TrianglesAreOneSided)
 {
     const Emitter e = make_triangle({ -32, -32, 64 }, { 32, -32, 64 }, { 0, 32, 64 }); // faces up
-    EXPECT_EQ(sample_emitter_point(e, vec3(0), vec2(0.3f, 0.6f)).pdf, 0);
-    EXPECT_EQ(pdf_emitter_point(e, vec3(0), vec3(0, 0, 64)), 0);
-    EXPECT_EQ(light_contribution(make_surface(vec3(0), vec3(0, 0, 1)), e), 0);
-    EXPECT_EQ(sample_emitter_point(e, vec3(5, 5, 64), vec2(0.3f, 0.6f)).pdf, 0); // in its plane
+    EXPECT_EQ(sample_point(e, vec3(0), vec2(0.3f, 0.6f)).pdf, 0);
+    EXPECT_EQ(pdf_point(e, vec3(0), vec3(0, 0, 64)), 0);
+    EXPECT_EQ(contribution_of(make_surface(vec3(0), vec3(0, 0, 1)), e), 0);
+    EXPECT_EQ(sample_point(e, vec3(5, 5, 64), vec2(0.3f, 0.6f)).pdf, 0); // in its plane
 }
 
 TEST(EmitterSampling, SphereMatchesTheFormula)
@@ -192,7 +207,7 @@ TEST(EmitterSampling, SphereAroundTheReceiverLightsFromEverywhere)
 {
     const Emitter e = make_sphere(vec3(1, 2, 3), 8);
     EXPECT_NEAR(estimate_irradiance(e, vec3(0), vec3(0, 0, 1)), 2 * M_PI, 0.005 * 2 * M_PI);
-    const EmitterSample drawn = sample_emitter_point(e, vec3(0), vec2(0.2f, 0.7f));
+    const EmitterSample drawn = sample_point(e, vec3(0), vec2(0.2f, 0.7f));
     EXPECT_NEAR(length(drawn.point - e.p0), 8, 1e-3);
 }
 
@@ -202,10 +217,10 @@ TEST(EmitterSampling, SpherePointsLieOnItsNearSide)
     std::uniform_real_distribution<float> unit(0, 1);
     const Emitter e = make_sphere(vec3(100, 50, 70), 12);
     for (int i = 0; i < 2000; i++) {
-        const EmitterSample drawn = sample_emitter_point(e, vec3(0), vec2(unit(rng), unit(rng)));
+        const EmitterSample drawn = sample_point(e, vec3(0), vec2(unit(rng), unit(rng)));
         ASSERT_NEAR(length(drawn.point - e.p0), 12, 0.01);
         ASSERT_LT(dot(drawn.point - e.p0, drawn.direction), 0.01f);
-        ASSERT_FLOAT_EQ(drawn.pdf, pdf_emitter_point(e, vec3(0), drawn.point));
+        ASSERT_FLOAT_EQ(drawn.pdf, pdf_point(e, vec3(0), drawn.point));
     }
 }
 
@@ -216,9 +231,9 @@ TEST(EmitterSampling, LightEndsAtItsReach)
     const Surface near_by = make_surface(vec3(0), vec3(0, 0, 1)),
                   beyond = make_surface(vec3(0, 0, -50.1f), vec3(0, 0, 1));
     EXPECT_NEAR(emitted_radiance(e, near_by.position).x, 2 * 0.9375f * 0.9375f, 1e-5);
-    EXPECT_GT(light_contribution(near_by, e), 0);
+    EXPECT_GT(contribution_of(near_by, e), 0);
     EXPECT_EQ(emitted_radiance(e, beyond.position).x, 0);
-    EXPECT_EQ(light_contribution(beyond, e), 0);
+    EXPECT_EQ(contribution_of(beyond, e), 0);
 }
 
 Emitter make_random_emitter(std::mt19937& rng)
@@ -249,11 +264,11 @@ TEST(LightContribution, IsNeverZeroWhereLightArrives)
         s.albedo = i % 8 == 0 ? vec3(0) : vec3(unit(rng));
         bool receives = false;
         for (int j = 0; j < 64; j++) {
-            const EmitterSample drawn = sample_emitter_point(e, s.position, vec2(unit(rng), unit(rng)));
+            const EmitterSample drawn = sample_point(e, s.position, vec2(unit(rng), unit(rng)));
             const vec3 light = reflected_radiance(s, evaluate_bsdf(s, drawn.direction), drawn.radiance);
             receives |= drawn.pdf > 0 && light.x > 0;
         }
-        const float weight = light_contribution(s, e);
+        const float weight = contribution_of(s, e);
         ASSERT_TRUE(std::isfinite(weight) && weight >= 0);
         ASSERT_TRUE(weight > 0 || !receives) << "case " << i;
         lit += receives;
@@ -277,7 +292,7 @@ TEST(LightContribution, FollowsTheTruthOnDiffuseSurfaces)
         Surface s = make_surface(vec3(0), vec3(0, 0, 1));
         s.roughness = 1;
         const double truth = estimate_irradiance(e, vec3(0), s.normal, 16) * 0.5 / M_PI;
-        const double ratio = light_contribution(s, e) / truth;
+        const double ratio = contribution_of(s, e) / truth;
         ASSERT_GT(ratio, 0.8);
         ASSERT_LT(ratio, 1.8);
     }

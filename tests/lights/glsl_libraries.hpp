@@ -3,7 +3,10 @@
 // part: its functions are not inline, hence the anonymous namespace.
 #pragma once
 
+#include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
+#include "shaders/shared/ltc.h"
+#include "shaders/shared/noise.h"
 #include "shaders/shared/scene.h"
 
 #pragma GCC diagnostic push
@@ -17,6 +20,8 @@ using namespace ::glm;
 #include "shaders/lib/bsdf.glsl"
 #include "shaders/lib/emitters.glsl"
 #include "shaders/lib/light_lists.glsl"
+#include "shaders/lib/light_subsets.glsl"
+#include "shaders/lib/light_weights.glsl"
 #include "shaders/lib/random.glsl"
 
 } // namespace

@@ -185,6 +185,7 @@ TEST(LightLists, EmittersInSolidAreCountedAndListedOutside)
     buried.type = shared::EMITTER_SPHERE;
     buried.p0 = glm::vec3(-500);
     buried.p1 = glm::vec3(4, 0, 0);
+    buried.radiance = glm::vec3(1);
     LightLists lists;
     lists.build(world.bsp, std::vector { buried });
     EXPECT_EQ(lists.unlisted_static_count(), 1u);

@@ -41,7 +41,7 @@ std::vector<float> picture_of(uint frame, uint seed, uint dimension)
     std::vector<float> numbers;
     for (uint y = 0; y < 128; y++)
         for (uint x = 0; x < 128; x++)
-            numbers.push_back(random_dimension(uvec2(x, y), frame, seed, dimension));
+            numbers.push_back(white_dimension(uvec2(x, y), frame, seed, dimension));
     return numbers;
 }
 
@@ -83,9 +83,9 @@ TEST(Random, CanBeReplayed)
     for (int i = 0; i < 100; i++)
         ASSERT_EQ(next_float(first), next_float(again));
     Random second_bounce = random_for_bounce(first, 2);
-    EXPECT_EQ(next_float(second_bounce), random_dimension(uvec2(100, 200), 42, 9, 2 * random_dimensions_per_bounce));
+    EXPECT_EQ(next_float(second_bounce), white_dimension(uvec2(100, 200), 42, 9, 2 * random_dimensions_per_bounce));
     Random other = random_stream(make_random(uvec2(100, 200), 42, 9), 1);
-    EXPECT_NE(next_float(other), random_dimension(uvec2(100, 200), 42, 9, 0));
+    EXPECT_NE(next_float(other), white_dimension(uvec2(100, 200), 42, 9, 0));
 }
 
 } // namespace

@@ -2,10 +2,15 @@
 // The light samplers as C++: every file of shaders/light_samplers, compiled into a namespace of its own.
 #pragma once
 
+#include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
+#include "shaders/shared/ltc.h"
+#include "shaders/shared/noise.h"
 #include "shaders/shared/scene.h"
 
 #include <cstdint>
+#include <random>
+#include <string_view>
 #include <vector>
 
 namespace vkpt::test {
@@ -15,7 +20,7 @@ struct ShadingPoint {
     float roughness = 0.5f, metallic = 0;
 };
 
-// A light list in memory.
+// A light list in memory. Emitters that are not in it are part of the scene, too: BSDF rays may meet them.
 struct ListCase {
     std::vector<shared::Emitter> emitters;
     std::vector<uint32_t> static_indices, dynamic_indices;
@@ -23,6 +28,13 @@ struct ListCase {
     shared::LightList range {};
     ShadingPoint point;
 
+    bool contains(uint32_t emitter) const
+    {
+        for (size_t i = 0; i < light_count(); i++)
+            if (light_at(i) == emitter)
+                return true;
+        return false;
+    }
     size_t light_count() const { return range.static_count + range.dynamic_count; }
     uint32_t light_at(size_t i) const
     {
@@ -31,16 +43,57 @@ struct ListCase {
     }
 };
 
+struct SamplerOptions {
+    uint32_t subset_length = 8;
+    int weight = shared::LIGHT_WEIGHT_CHAPTER;
+    int point = shared::LIGHT_POINT_SOLID_ANGLE;
+};
+
+// The random numbers of one choice.
+struct Draw {
+    float light = 0;
+    glm::vec2 point { 0.5f };
+    uint32_t stream = 0; // what the sampler draws beyond
+};
+
+float draw_unit(std::mt19937& rng); // as the shaders do: 24 bits
+Draw make_draw(std::mt19937& rng);
+
 struct PickedLight {
     int emitter;
     float probability;
+    glm::vec2 point;
+};
+
+// The numbers of a pixel's path, as the shaders draw them.
+struct PixelNumbers {
+    glm::uvec2 pixel { 0 };
+    uint32_t frame = 0, seed = 1;
+    const uint32_t* masks = nullptr; // nullptr: white
+};
+
+struct BsdfNumbers {
+    glm::vec2 direction;
+    float lobe;
 };
 
 struct Sampler {
     const char* name;
-    PickedLight (*pick)(const ListCase& list, float xi, uint32_t subset_length);
-    float (*probability)(const ListCase& list, uint32_t emitter, float xi, uint32_t subset_length);
-    float (*contribution)(const ListCase& list, uint32_t emitter);
+    bool mis;
+    PickedLight (*pick)(const ListCase& list, const Draw& draw, const SamplerOptions& options);
+    float (*probability)(const ListCase& list, uint32_t emitter, const Draw& draw, const SamplerOptions& options);
+    float (*contribution)(const ListCase& list, uint32_t emitter, const SamplerOptions& options);
+    // One sample of the light (luminance) that all emitters, unshadowed, make the point reflect: the share found by
+    // light sampling, and with mis that found by a BSDF ray, which passes through what it meets.
+    double (*sample_lights)(const ListCase& list, const Draw& draw, const SamplerOptions& options);
+    double (*sample_bsdf_ray)(
+        const ListCase& list, const BsdfNumbers& numbers, const Draw& draw, const SamplerOptions& options);
+    // Both together for a pixel.
+    double (*light_pixel)(const ListCase& list, const PixelNumbers& numbers, const SamplerOptions& options);
+    // The same by quadrature with n x n points on each emitter.
+    double (*integrate)(const ListCase& list, int n);
+
+    bool is_biased() const { return std::string_view(name).find("biased") != std::string_view::npos; }
 };
 
 std::vector<Sampler>& all_samplers();

@@ -157,6 +157,44 @@ TEST_P(Lambert, PictureAgrees)
     RecordProperty("worst_error", std::to_string(worst));
 }
 
+// Every sampler, weight and way to choose a point, more coarsely. Without bounces MIS has to trace rays for emission
+// alone.
+TEST(LambertOfSamplers, Agree)
+{
+    constexpr size_t copies = 512;
+    constexpr double tolerance = 0.01;
+    GameFolder folder;
+    folder.add_wall("floor", white_index);
+    folder.add_wall("lamp", white_index);
+    MapBuilder map;
+    const uint16_t floor = map.add_material("floor"), lamp = map.add_material("lamp", 0, light_value);
+    map.add(rectangle({ 0, 0, 0 }, { floor_half, 0, 0 }, { 0, floor_half, 0 }), floor);
+    map.add(quad, lamp);
+    folder.add_map("lambert", map.finish());
+    Session session(folder, matte);
+    session.load_map("lambert");
+    const float emission = measure_emission(session, quad);
+    const IrradianceProbe place { { -20, 80, 70 }, { 0, 0, 1 } };
+    const double expected = emission * lambert_irradiance(quad, { -20, 80, 70 }, { 0, 0, 1 });
+    const std::vector<IrradianceProbe> probes(copies, place);
+    const auto expect_agreement = [&](const std::string& what) {
+        double sum = 0;
+        for (const glm::vec3& measured : session.probe(probes, 256))
+            sum += double(measured.y);
+        EXPECT_NEAR(sum / copies / expected, 1, tolerance) << what;
+    };
+    for (const char* const* name = session.extension().info().light_samplers; *name; name++) {
+        if (is_biased_sampler(*name))
+            continue;
+        session.set("pt_light_sampler", *name);
+        for (const char* point : { "area", "solid_angle", "projected" }) {
+            session.set("pt_light_point", point);
+            session.set("pt_light_weight", std::string(point) == "area" ? "ltc" : "chapter");
+            expect_agreement(std::string(*name) + " " + point);
+        }
+    }
+}
+
 constexpr float light_height = 100, light_number = 200;
 
 // Irradiance / pi of a point light over a floor: a sphere of radiance L above the horizon gives pi L (r / d)^2 cos.

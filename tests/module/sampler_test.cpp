@@ -86,7 +86,7 @@ TEST_F(Samplers, AgreeWithinFourSigma)
     ASSERT_GE(names.size(), 2u);
     const Estimate reference = estimate("uniform");
     for (const std::string& name : names) {
-        if (name == "uniform")
+        if (name == "uniform" || is_biased_sampler(name))
             continue;
         const Estimate other = estimate(name);
         ASSERT_EQ(other.mean.size(), reference.mean.size());

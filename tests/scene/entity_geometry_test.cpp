@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/entity_geometry.hpp"
+#include "ref_vkpt/scene/moving_geometry.hpp"
 
 #include <array>
 #include <cmath>
@@ -65,6 +66,35 @@ void expect_plain(const Triangles& triangles, uint32_t material)
         EXPECT_EQ(t.emitter, -1);
         EXPECT_EQ(t.cluster, -1);
     }
+}
+
+// What the list makes of it.
+void append(const MovingGeometry& geometry, Triangles& out)
+{
+    static Workers workers(1);
+    const size_t before = out.size();
+    out.resize(before + geometry.triangle_count());
+    MovingWriter(workers).write(geometry, { out.data() + before });
+}
+
+void append_md2(const formats::Md2Model& model, const Md2Pose& pose, uint32_t material, Triangles& out)
+{
+    MovingGeometry geometry;
+    geometry.add(std::make_shared<Md2Mesh>(model), pose, material, shared::MASK_OPAQUE);
+    append(geometry, out);
+}
+
+void append_brush_model(std::span<const Triangle> triangles, BrushPose pose, uint32_t added_to_material, Triangles& out)
+{
+    const std::vector<uint32_t> masks(triangles.size(), shared::MASK_OPAQUE);
+    const BrushMesh mesh = make_brush_mesh(triangles, masks);
+    std::vector<uint32_t> materials;
+    for (const uint32_t texinfo : mesh.texinfos)
+        materials.push_back(texinfo + added_to_material);
+    pose.materials = materials;
+    MovingGeometry geometry;
+    geometry.add(mesh, pose);
+    append(geometry, out);
 }
 
 formats::Md2Model make_model()
@@ -240,10 +270,8 @@ TEST(BrushModel, MovesTurnsAndRemaps)
 {
     const Triangle wall = make_wall();
     Triangles out;
-    append_brush_model(std::span(&wall, 1),
-        { .transform = brush_model_transform({ 0, 0, 100 }, { 0, 90, 0 }),
-            .remap_material = [](uint32_t m) { return m + 30; } },
-        out);
+    append_brush_model(
+        std::span(&wall, 1), { .transform = brush_model_transform({ 0, 0, 100 }, { 0, 90, 0 }) }, 30, out);
     ASSERT_EQ(out.size(), 1u);
     expect_plain(out, 37);
     expect_near(out[0].positions[1], { 0, 16, 100 });
@@ -257,7 +285,7 @@ TEST(BrushModel, AllThreeAnglesAsTheyStand)
 {
     const Triangle wall = make_wall();
     Triangles out;
-    append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(vec3(0), { 90, 0, 0 }) }, out);
+    append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(vec3(0), { 90, 0, 0 }) }, 0, out);
     expect_near(out[0].positions[1], { 0, 0, -16 }); // forward looks down
     expect_near(out[0].positions[2], { 16, 0, 0 });
 }
@@ -266,11 +294,98 @@ TEST(BrushModel, AtRestNothingChangesAndEmittersAreCounted)
 {
     const Triangle wall = make_wall();
     Triangles out;
-    append_brush_model(std::span(&wall, 1), { .first_emitter = 40 }, out);
+    append_brush_model(std::span(&wall, 1), { .first_emitter = 40 }, 0, out);
     EXPECT_EQ(std::memcmp(out[0].positions, wall.positions, sizeof(wall.positions)), 0);
     EXPECT_EQ(std::memcmp(out[0].normals, wall.normals, sizeof(wall.normals)), 0);
     EXPECT_EQ(out[0].material, 7u);
     EXPECT_EQ(out[0].emitter, 42);
+}
+
+// The corners of the last view, as they are written beside the triangles.
+std::vector<std::array<vec3, 3>> previous_corners(const MovingGeometry& geometry, Triangles& triangles)
+{
+    Workers workers(2);
+    triangles.resize(geometry.triangle_count());
+    std::vector<std::array<vec3, 3>> previous(
+        geometry.triangle_count(), { vec3(nan_value), vec3(nan_value), vec3(nan_value) });
+    MovingTarget target;
+    target.triangles = triangles.data();
+    target.previous_positions = previous.data();
+    MovingWriter(workers).write(geometry, target);
+    return previous;
+}
+
+void expect_corners(const std::array<vec3, 3>& corners, const Triangle& triangle)
+{
+    for (size_t i = 0; i < 3; i++)
+        EXPECT_EQ(corners[i], triangle.positions[i]) << "corner " << i;
+}
+
+// A view with a model, a brush model and two loose triangles, all of them `moved` from where they rest.
+MovingGeometry make_view(const std::shared_ptr<Md2Mesh>& model, const BrushMesh& brush, float moved)
+{
+    static constexpr uint32_t material = 0;
+    MovingGeometry geometry;
+    geometry.add(model,
+        { .transform = md2_transform({ moved, 0, 0 }, { 0, moved, 0 }),
+            .frame = 0,
+            .old_frame = 1,
+            .backlerp = moved / 64,
+            .mirror = Mirror { vec3(moved), { 0, -1, 0 } } },
+        0, shared::MASK_OPAQUE);
+    geometry.add(
+        brush, { .transform = brush_model_transform({ 0, 0, moved }, { 0, moved, 0 }), .materials = { &material, 1 } });
+    for (int i = 0; i < 2; i++) {
+        Triangle loose = make_wall();
+        for (vec3& p : loose.positions)
+            p += vec3(0, moved, 100 * float(i));
+        geometry.loose().push_back(loose);
+        geometry.mask_loose(shared::MASK_OPAQUE);
+    }
+    return geometry;
+}
+
+TEST(PreviousPositions, AreThoseOfTheLastView)
+{
+    const auto model = std::make_shared<Md2Mesh>(make_model());
+    const Triangle wall = make_wall();
+    const uint32_t mask = shared::MASK_OPAQUE;
+    const BrushMesh brush = make_brush_mesh(std::span(&wall, 1), std::span(&mask, 1));
+    const MovingGeometry before = make_view(model, brush, 10);
+    MovingGeometry now = make_view(model, brush, 30);
+    Triangles old, triangles;
+    previous_corners(before, old);
+    // Nothing is known yet: nothing has moved.
+    const auto unknown = previous_corners(now, triangles);
+    ASSERT_EQ(unknown.size(), 4u);
+    for (size_t i = 0; i < 4; i++)
+        expect_corners(unknown[i], triangles[i]);
+
+    now.keep_previous(0, 2, before, 0);
+    now.keep_previous_loose(1, 1, before, 1);
+    const auto known = previous_corners(now, triangles);
+    expect_corners(known[0], old[0]);
+    expect_corners(known[1], old[1]);
+    expect_corners(known[2], triangles[2]);
+    expect_corners(known[3], old[3]);
+    EXPECT_NE(known[0][0], triangles[0].positions[0]);
+    EXPECT_NE(known[1][0], triangles[1].positions[0]);
+}
+
+TEST(PreviousPositions, OtherMeshesAndMissingOnesHaveNotMoved)
+{
+    const auto model = std::make_shared<Md2Mesh>(make_model()), other = std::make_shared<Md2Mesh>(make_model());
+    const Triangle wall = make_wall();
+    const uint32_t mask = shared::MASK_OPAQUE;
+    const BrushMesh brush = make_brush_mesh(std::span(&wall, 1), std::span(&mask, 1));
+    MovingGeometry now = make_view(model, brush, 30);
+    now.keep_previous(0, 1, make_view(other, brush, 10), 0);
+    now.keep_previous(1, 1, make_view(model, brush, 10), 2);
+    now.keep_previous_loose(0, 2, make_view(model, brush, 10), 5);
+    Triangles triangles;
+    const auto corners = previous_corners(now, triangles);
+    for (size_t i = 0; i < 4; i++)
+        expect_corners(corners[i], triangles[i]);
 }
 
 TEST(Sprite, StandsUprightFacingTheCamera)
@@ -359,7 +474,7 @@ TEST(Garbage, AppendsNothing)
         const vec3 place { 0, bad, 0 };
         append_md2(make_model(), { .transform = md2_transform(place, vec3(0)) }, 0, out);
         append_md2(make_model(), { .mirror = Mirror { place, { 0, 1, 0 } } }, 0, out);
-        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(place, vec3(0)) }, out);
+        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(place, vec3(0)) }, 0, out);
         append_sprite({ 8, 8, 4, 4, "" }, place, camera, 0, out);
         append_beam(place, vec3(0), 4, 0, out);
         append_beam(vec3(0), place, 4, 0, out);
@@ -369,7 +484,7 @@ TEST(Garbage, AppendsNothing)
     }
     for (const float bad : { nan_value, infinity }) {
         append_md2(make_model(), { .transform = md2_transform(vec3(0), { bad, 0, 0 }) }, 0, out);
-        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(vec3(0), { 0, 0, bad }) }, out);
+        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(vec3(0), { 0, 0, bad }) }, 0, out);
         append_beam(vec3(0), vec3(9), bad, 0, out);
     }
     append_sprite({ 8, 8, 4, 4, "" }, vec3(0), broken_camera, 0, out);
@@ -404,7 +519,7 @@ TEST(Garbage, WhatIsAppendedIsFinite)
             .shell_distance = any_float(),
             .mirror = Mirror { any_vec3(), any_vec3() } };
         append_md2(make_model(), pose, 0, out);
-        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(any_vec3(), any_vec3()) }, out);
+        append_brush_model(std::span(&wall, 1), { .transform = brush_model_transform(any_vec3(), any_vec3()) }, 0, out);
         append_sprite({ int(random()), int(random()), int(random() % 65536), 0, "" }, any_vec3(), camera, 0, out);
         append_beam(any_vec3(), any_vec3(), any_float(), 0, out);
         append_particle(any_vec3(), any_vec3(), camera, 0, out);

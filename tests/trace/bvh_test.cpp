@@ -3,6 +3,7 @@
 #include "ref_vkpt/trace/bvh.hpp"
 #include "shaders/shared/trace.h"
 #include "tests/trace/scenes.hpp"
+#include "tests/trace/tree_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,115 +15,6 @@ namespace vkpt::tests {
 namespace {
 
 using namespace shared;
-
-struct DecodedTriangle {
-    glm::vec3 corners[3];
-    uint32_t id_and_mask;
-};
-static_assert(sizeof(DecodedTriangle) == BVH_TRIANGLE_BYTES);
-
-DecodedTriangle decode_triangle(const Bvh& bvh, uint32_t slot)
-{
-    DecodedTriangle triangle;
-    std::memcpy(static_cast<void*>(&triangle), &bvh.triangles[slot * size_t(BVH_TRIANGLE_BYTES) / 4], sizeof triangle);
-    return triangle;
-}
-
-struct DecodedChild {
-    uint16_t low[3], high[3];
-    uint32_t word;
-    bool exists() const { return word != BVH_NO_CHILD; }
-    bool is_leaf() const { return word & BVH_LEAF; }
-    uint32_t first() const { return word & BVH_LEAF_FIRST_MASK; }
-    uint32_t count() const { return ((word & BVH_LEAF_COUNT_MASK) >> BVH_LEAF_COUNT_SHIFT) + 1; }
-};
-
-DecodedChild decode_child(const Bvh& bvh, uint32_t node, uint32_t slot)
-{
-    const auto* bytes = reinterpret_cast<const std::byte*>(bvh.nodes.data()) + node * size_t(BVH_NODE_BYTES);
-    DecodedChild child;
-    for (uint32_t axis = 0; axis < 3; axis++) {
-        std::memcpy(&child.low[axis], bytes + axis * 32 + slot * 2, 2);
-        std::memcpy(&child.high[axis], bytes + axis * 32 + 16 + slot * 2, 2);
-    }
-    std::memcpy(&child.word, bytes + BVH_CHILD_WORDS_OFFSET + slot * 4, 4);
-    return child;
-}
-
-struct WorldBox {
-    glm::dvec3 low { std::numeric_limits<double>::max() }, high { std::numeric_limits<double>::lowest() };
-};
-
-struct TreeCheck {
-    const Bvh& bvh;
-    std::vector<uint32_t> node_visits, triangle_visits;
-
-    explicit TreeCheck(const Bvh& tree)
-        : bvh(tree)
-        , node_visits(tree.node_count)
-        , triangle_visits(tree.triangle_count)
-    {
-    }
-
-    // Checks that what lies below is inside the planes of each child; returns its bounds and the stack it needs.
-    std::pair<WorldBox, uint32_t> check(uint32_t node, uint32_t depth)
-    {
-        WorldBox bounds;
-        uint32_t children = 0, need = 0;
-        if (node >= bvh.node_count || depth > bvh.max_depth) {
-            ADD_FAILURE() << "node " << node << " of " << bvh.node_count << " at depth " << depth;
-            return { bounds, 0 };
-        }
-        node_visits[node]++;
-        for (uint32_t slot = 0; slot < BVH_WIDTH; slot++) {
-            DecodedChild child = decode_child(bvh, node, slot);
-            if (!child.exists()) {
-                for (int axis = 0; axis < 3; axis++)
-                    EXPECT_GT(child.low[axis], child.high[axis]);
-                continue;
-            }
-            children++;
-            auto [inside, child_need]
-                = child.is_leaf() ? std::pair(leaf_bounds(child), 0u) : check(child.word, depth + 1);
-            need = std::max(need, child_need);
-            expect_contained(child, inside, node, slot);
-            bounds.low = glm::min(bounds.low, inside.low);
-            bounds.high = glm::max(bounds.high, inside.high);
-        }
-        return { bounds, need + (children ? children - 1 : 0) };
-    }
-
-    WorldBox leaf_bounds(const DecodedChild& leaf)
-    {
-        WorldBox bounds;
-        EXPECT_LE(leaf.count(), BVH_MAX_LEAF_TRIANGLES);
-        for (uint32_t slot = leaf.first(); slot < leaf.first() + leaf.count(); slot++) {
-            if (slot >= bvh.triangle_count) {
-                ADD_FAILURE() << "triangle " << slot << " of " << bvh.triangle_count;
-                break;
-            }
-            triangle_visits[slot]++;
-            DecodedTriangle triangle = decode_triangle(bvh, slot);
-            for (glm::dvec3 q : triangle.corners) {
-                bounds.low = glm::min(bounds.low, q);
-                bounds.high = glm::max(bounds.high, q);
-            }
-        }
-        return bounds;
-    }
-
-    // With half a cell to spare: the shader needs the margin for its own rounding.
-    void expect_contained(const DecodedChild& child, const WorldBox& inside, uint32_t node, uint32_t slot) const
-    {
-        for (int axis = 0; axis < 3; axis++) {
-            double cell = 1.0 / double(bvh.grid_scale[axis]), origin = double(bvh.grid_origin[axis]);
-            EXPECT_LE(origin + (child.low[axis] + 0.5) * cell, inside.low[axis])
-                << "node " << node << " child " << slot;
-            EXPECT_GE(origin + (child.high[axis] - 0.5) * cell, inside.high[axis])
-                << "node " << node << " child " << slot;
-        }
-    }
-};
 
 // Everything that must hold for any input. `expected`: the ids that must be there, each as often as it is named.
 void expect_sound(const Bvh& bvh, std::vector<uint32_t> expected)

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/trace/wide_tree.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <glm/common.hpp>
+
+namespace vkpt {
+namespace {
+
+using namespace shared;
+
+// Stack entries that a balanced tree over `count` boxes can need: every wide level leaves seven children behind and an
+// eighth of the boxes before it.
+uint32_t balanced_stack_need(uint32_t count, uint32_t max_leaf)
+{
+    uint32_t leaves = (count + max_leaf - 1) / max_leaf;
+    uint32_t binary_levels = leaves > 1 ? uint32_t(std::bit_width(leaves - 1)) : 0;
+    return (binary_levels + 2) / 3 * (BVH_WIDTH - 1);
+}
+
+struct Children {
+    std::array<uint32_t, BVH_WIDTH> nodes {};
+    uint32_t count = 0;
+};
+
+// Adds wide nodes in depth-first order.
+class WideMaker {
+public:
+    WideMaker(BinaryTree& tree, std::span<const Box> boxes, uint32_t max_leaf)
+        : tree_(tree)
+        , boxes_(boxes)
+        , max_leaf_(max_leaf)
+    {
+    }
+
+    WideTree make(uint32_t stack_budget)
+    {
+        if (tree_.nodes.empty())
+            wide_.nodes.emplace_back();
+        else {
+            wide_.nodes.reserve(tree_.nodes.size() / 8 + 1);
+            wide_.stack_need = add_node(0, stack_budget, 1, false);
+        }
+        return std::move(wide_);
+    }
+
+private:
+    // Returns the stack entries that the node needs. `stack_left`: those that are free when a ray enters it.
+    // `balanced`: it is from rebuild_balanced().
+    uint32_t add_node(uint32_t node, uint32_t stack_left, uint32_t depth, bool balanced)
+    {
+        Children children = balanced ? open_children(node, &count_of) : open_children(node, &area_of);
+        if (!balanced && !fits_stack(children, stack_left)) {
+            balanced = true;
+            rebuild_balanced(tree_, node, boxes_, max_leaf_);
+            children = open_children(node, &count_of);
+        }
+        wide_.max_depth = std::max(wide_.max_depth, depth);
+        const size_t index = wide_.nodes.size();
+        wide_.nodes.emplace_back().child_count = children.count;
+        uint32_t need = 0;
+        for (uint32_t slot = 0; slot < children.count; slot++) {
+            const BinaryNode child = tree_.nodes[children.nodes[slot]]; // a copy: adding children may move the nodes
+            uint32_t word = BVH_LEAF | (child.count - 1) << BVH_LEAF_COUNT_SHIFT | child.first;
+            if (!child.is_leaf()) {
+                word = uint32_t(wide_.nodes.size());
+                need = std::max(
+                    need, add_node(children.nodes[slot], stack_left - (children.count - 1), depth + 1, balanced));
+            }
+            wide_.nodes[index].boxes[slot] = child.box;
+            wide_.nodes[index].words[slot] = word;
+        }
+        return need + children.count - 1;
+    }
+
+    static float area_of(const BinaryNode& node) { return node.box.half_area(); }
+    static float count_of(const BinaryNode& node) { return float(node.count); }
+
+    // Replaces the inner node of the highest `weight` by its two children until eight are there. By area, these are the
+    // nodes that most rays would have to open; by count, all of one level come before those of the next.
+    Children open_children(uint32_t node, float (*weight)(const BinaryNode&)) const
+    {
+        Children children;
+        children.nodes[children.count++] = node;
+        while (children.count < BVH_WIDTH) {
+            uint32_t best = BVH_WIDTH;
+            float best_weight = -1.0f;
+            for (uint32_t i = 0; i < children.count; i++) {
+                const BinaryNode& child = tree_.nodes[children.nodes[i]];
+                if (!child.is_leaf() && weight(child) > best_weight) {
+                    best = i;
+                    best_weight = weight(child);
+                }
+            }
+            if (best == BVH_WIDTH)
+                break;
+            const BinaryNode& opened = tree_.nodes[children.nodes[best]];
+            children.nodes[best] = opened.left;
+            children.nodes[children.count++] = opened.right;
+        }
+        return children;
+    }
+
+    // Whether below each child at least a balanced tree can still be walked. Holds for the root by max_boxes_within(),
+    // so that wherever it fails first, a balanced tree can stand in.
+    bool fits_stack(const Children& children, uint32_t stack_left) const
+    {
+        return std::all_of(children.nodes.begin(), children.nodes.begin() + children.count, [&](uint32_t node) {
+            return balanced_stack_need(tree_.nodes[node].count, max_leaf_) + children.count - 1 <= stack_left;
+        });
+    }
+
+    BinaryTree& tree_;
+    std::span<const Box> boxes_;
+    uint32_t max_leaf_;
+    WideTree wide_;
+};
+
+struct NodeBytes {
+    uint16_t planes[3][2][BVH_WIDTH]; // by axis, then low and high
+    uint32_t words[BVH_WIDTH];
+};
+static_assert(sizeof(NodeBytes) == BVH_NODE_BYTES);
+
+} // namespace
+
+Grid::Grid(const Box& bounds)
+{
+    constexpr float cells = 65500.0f, cells_before = 16.0f;
+    if (!(bounds.low.x <= bounds.high.x))
+        return;
+    const glm::vec3 extent = glm::max(bounds.high - bounds.low, glm::vec3(min_extent));
+    scale = cells / extent;
+    origin = bounds.low - cells_before / scale;
+}
+
+uint32_t max_boxes_within(uint32_t stack_budget, uint32_t max_leaf)
+{
+    const uint32_t binary_levels = std::min(stack_budget / (BVH_WIDTH - 1) * 3, 24u);
+    return max_leaf << binary_levels;
+}
+
+WideTree make_wide(BinaryTree& tree, std::span<const Box> boxes, uint32_t max_leaf, uint32_t stack_budget)
+{
+    return WideMaker(tree, boxes, max_leaf).make(stack_budget);
+}
+
+void write_node(const Grid& grid, const Box4* boxes, const uint32_t* words, uint32_t child_count, uint32_t* node)
+{
+    // Inverted planes, and BVH_NO_CHILD, for children that are not there.
+    static constexpr NodeBytes empty = [] {
+        NodeBytes bytes {};
+        for (auto& axis : bytes.planes)
+            std::fill_n(axis[0], BVH_WIDTH, uint16_t(0xffff));
+        std::fill_n(bytes.words, BVH_WIDTH, BVH_NO_CHILD);
+        return bytes;
+    }();
+    const Float4 origin = to_float4(grid.origin), scale = to_float4(grid.scale), last = splat(65533.0f);
+    NodeBytes bytes = empty;
+    for (uint32_t slot = 0; slot < child_count; slot++) {
+        const Float4 low = higher((boxes[slot].low - origin) * scale, splat(1.0f));
+        const Float4 high = higher((boxes[slot].high - origin) * scale, splat(0.0f));
+        const Int4 low_planes = __builtin_convertvector(lower(low, last), Int4) - 1;
+        const Int4 high_planes = __builtin_convertvector(lower(high, last), Int4) + 2;
+        for (int axis = 0; axis < 3; axis++) {
+            bytes.planes[axis][0][slot] = uint16_t(low_planes[axis]);
+            bytes.planes[axis][1][slot] = uint16_t(high_planes[axis]);
+        }
+        bytes.words[slot] = words[slot];
+    }
+    std::memcpy(node, &bytes, sizeof bytes);
+}
+
+void write_node(const Grid& grid, const WideNode& wide, uint32_t* node)
+{
+    std::array<Box4, BVH_WIDTH> boxes;
+    for (uint32_t slot = 0; slot < wide.child_count; slot++)
+        boxes[slot] = to_box4(wide.boxes[slot]);
+    write_node(grid, boxes.data(), wide.words.data(), wide.child_count, node);
+}
+
+} // namespace vkpt

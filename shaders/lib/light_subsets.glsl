@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Subsets of a light list: S = ceil(K / R) strides of consecutive lights, of which each gives one light to the subset.
+// Other than in the text of section 47.4.1, S is not floor(K / R): the lights past R strides would never be reached.
+#ifndef VKPT_LIB_LIGHT_SUBSETS
+#define VKPT_LIB_LIGHT_SUBSETS
+
+#include "light_sampler.glsl"
+
+// Longer subsets than this are cut to it (weights are kept in an array).
+const uint max_subset_length = 64u;
+
+uint subset_stride(uint count, uint subset_length)
+{
+    uint length_limit = clamp(subset_length, 1u, max_subset_length);
+    return (count + length_limit - 1u) / length_limit;
+}
+
+// One number decides the subset, and what remains of it the light in the subset: each light owns one interval.
+struct SubsetChoice {
+    uint stride; // S
+    uint offset; // of the subset's light in each stride
+    float rest;  // in [0, 1)
+};
+
+SubsetChoice choose_subset(uint count, float xi, uint subset_length)
+{
+    SubsetChoice choice;
+    choice.stride = subset_stride(count, subset_length);
+    choice.offset = choose_uniformly(xi, choice.stride);
+    choice.rest = clamp(xi * float(choice.stride) - float(choice.offset), 0.0f, max_below_one);
+    return choice;
+}
+
+// Listing 47-1 from line 6 on.
+LightSample sample_subset_in_two_sweeps(
+    LightListView list, LightPredictor predictor, SubsetChoice choice, LightRandom random)
+{
+    uint count = light_count(list);
+    float weights[max_subset_length];
+    float total = 0.0f;
+    uint length_used = 0u;
+    for (uint position = choice.offset; position < count; position += choice.stride) {
+        float weight = weigh_light(list, predictor, position);
+        weights[length_used] = weight;
+        total += weight;
+        length_used += 1u;
+    }
+    if (!(total > 0.0f))
+        return no_light();
+
+    // Lights of weight 0 own no interval. Rounding may leave a rest behind the last one: that belongs to the last with weight.
+    float threshold = choice.rest * total;
+    uint chosen = 0u;
+    float mass = 0.0f;
+    for (uint i = 0u; i < length_used; i++) {
+        if (weights[i] <= 0.0f)
+            continue;
+        chosen = i;
+        mass = weights[i];
+        if (threshold < mass)
+            break;
+        threshold -= mass;
+    }
+    uint emitter = light_at(list, choice.offset + chosen * choice.stride);
+    return make_light_sample(emitter, mass / (total * float(choice.stride)), random);
+}
+
+// The light's place in the list tells the only subset of equal offsets that holds it, so no random number matters.
+float strided_subset_probability(LightListView list, LightPredictor predictor, uint emitter, uint subset_length)
+{
+    int place = find_light(list, emitter);
+    if (place < 0)
+        return 0.0f;
+    uint count = light_count(list);
+    uint stride = subset_stride(count, subset_length);
+    float total = 0.0f, mass = 0.0f;
+    for (uint position = uint(place) % stride; position < count; position += stride) {
+        float weight = weigh_light(list, predictor, position);
+        total += weight;
+        if (position == uint(place))
+            mass = weight;
+    }
+    return mass > 0.0f ? mass / (total * float(stride)) : 0.0f;
+}
+
+// Listing 47-3 without its MIS: each stride has an offset of its own, and a reservoir chooses within the subset. Given the
+// other strides' offsets, a light of weight w is picked with probability w / (S (their weights + w)), and that is reported.
+LightSample sample_independent_strides(
+    LightListView list, LightPredictor predictor, LightRandom random, uint subset_length)
+{
+    uint count = light_count(list);
+    if (count == 0u)
+        return no_light();
+    uint stride = subset_stride(count, subset_length);
+    uint state = start_fast_random(random.more);
+    Reservoir reservoir = make_reservoir(random.light);
+    for (uint first = 0u; first < count; first += stride) {
+        uint position = first + choose_uniformly(next_fast_random(state), stride);
+        if (position >= count) // the last stride may be short: then it gives no light
+            break;
+        uint emitter = light_at(list, position);
+        offer_light(reservoir, emitter, light_contribution(predictor, load_emitter(list, emitter)));
+    }
+    if (reservoir.emitter < 0)
+        return no_light();
+    return make_light_sample(
+        uint(reservoir.emitter), reservoir.weight / (reservoir.total * float(stride)), random);
+}
+
+// Equation 47.20: averaged over the offset of the stride that holds `emitter`, for the other strides' offsets as drawn by
+// sample_independent_strides.
+float independent_strides_probability(
+    LightListView list, LightPredictor predictor, uint emitter, LightRandom random, uint subset_length)
+{
+    int place = find_light(list, emitter);
+    if (place < 0)
+        return 0.0f;
+    uint count = light_count(list);
+    uint stride = subset_stride(count, subset_length);
+    uint state = start_fast_random(random.more);
+    float total = 0.0f, mass = 0.0f;
+    for (uint first = 0u; first < count; first += stride) {
+        uint position = first + choose_uniformly(next_fast_random(state), stride);
+        bool own_stride = uint(place) - first < stride; // unsigned: false where the place lies before
+        if (own_stride)
+            position = uint(place);
+        if (position >= count)
+            break;
+        float weight = weigh_light(list, predictor, position);
+        total += weight;
+        if (own_stride)
+            mass = weight;
+    }
+    return mass > 0.0f ? mass / (total * float(stride)) : 0.0f;
+}
+
+#endif

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The weights by which samplers choose lights: a prediction of what an emitter, unshadowed, contributes to a surface.
+// LIGHT_WEIGHT_CHAPTER: section 47.4.5. LIGHT_WEIGHT_LTC: Heitz et al. 2016, "Real-Time Polygonal-Light Shading with Linearly
+// Transformed Cosines", with a table of our own (tools/fit_ltc).
+// A weight is never 0 where light can arrive: that would be bias.
+#ifndef VKPT_LIB_LIGHT_WEIGHTS
+#define VKPT_LIB_LIGHT_WEIGHTS
+
+#include "../shared/cvars.h"
+#include "../shared/ltc.h"
+#include "bsdf.glsl"
+#include "emitters.glsl"
+#include "projected_triangle.glsl"
+
+const float least_contribution = 1e-30f;    // the weight of what is possible but predicted to be nothing
+const float greatest_contribution = 1e20f;  // keeps sums of weights finite
+const float prediction_roughness = 0.35f;   // no lobe narrower than this guides the choice of lights
+const float ltc_tail = 0.15f;               // density of a lobe of alpha 1, far from its peak
+const float prediction_horizon = 0.05f;     // sine of the lowest elevation at which the reflectance is looked up
+
+// A surface prepared for weighing many lights.
+struct LightPredictor {
+    Surface s;
+    int weight; // LIGHT_WEIGHT_*
+    // LTC only: rows that turn the world into the space where the lobe is a cosine, and what the lobes reflect (luminance).
+    vec3 diffuse_rows[3];
+    vec3 specular_rows[3];
+    float diffuse;
+    float specular;
+};
+
+struct LtcEntry {
+    float xx, xz, yy, zx; // of the inverse matrix
+    float albedo;         // of the lobe with a Fresnel factor of 1
+    float grazing;        // of it with a Fresnel factor of (1 - cosine)^5
+};
+
+LtcEntry load_ltc_entry(LtcBuffer table, uint row, uint column)
+{
+    uint first = (row * LTC_SIZE + column) * LTC_VALUES;
+    LtcEntry e;
+    e.xx = table.v[first];
+    e.xz = table.v[first + 1u];
+    e.yy = table.v[first + 2u];
+    e.zx = table.v[first + 3u];
+    e.albedo = table.v[first + 4u];
+    e.grazing = table.v[first + 5u];
+    return e;
+}
+
+LtcEntry mix_ltc(LtcEntry a, LtcEntry b, float t)
+{
+    LtcEntry e;
+    e.xx = mix(a.xx, b.xx, t);
+    e.xz = mix(a.xz, b.xz, t);
+    e.yy = mix(a.yy, b.yy, t);
+    e.zx = mix(a.zx, b.zx, t);
+    e.albedo = mix(a.albedo, b.albedo, t);
+    e.grazing = mix(a.grazing, b.grazing, t);
+    return e;
+}
+
+LtcEntry find_ltc_entry(LtcBuffer table, float roughness, float cosine)
+{
+    float last = float(LTC_SIZE - 1u);
+    float y = clamp((roughness - LTC_LEAST_ROUGHNESS) / (1.0f - LTC_LEAST_ROUGHNESS), 0.0f, 1.0f) * last;
+    float x = sqrt(clamp(1.0f - cosine, 0.0f, 1.0f)) * last;
+    uint row = min(uint(y), LTC_SIZE - 2u), column = min(uint(x), LTC_SIZE - 2u);
+    float u = x - float(column), v = y - float(row);
+    LtcEntry low = mix_ltc(load_ltc_entry(table, row, column), load_ltc_entry(table, row, column + 1u), u);
+    LtcEntry high = mix_ltc(load_ltc_entry(table, row + 1u, column), load_ltc_entry(table, row + 1u, column + 1u), u);
+    return mix_ltc(low, high, v);
+}
+
+void prepare_ltc(INOUT(LightPredictor) p, LtcBuffer table)
+{
+    vec3 z = p.s.normal;
+    float cosine = dot(z, p.s.view);
+    vec3 along = p.s.view - z * cosine;
+    float along2 = dot(along, along);
+    vec3 x = along2 > 1e-10f ? along * inversesqrt(along2) : any_tangent(z);
+    vec3 y = cross(z, x);
+    p.diffuse_rows[0] = x;
+    p.diffuse_rows[1] = y;
+    p.diffuse_rows[2] = z;
+    p.diffuse = bsdf_pi * coupled_diffuse(p.s, cosine, cosine) * luminance(p.s.albedo);
+
+    LtcEntry e = find_ltc_entry(table, p.s.roughness, cosine);
+    p.specular_rows[0] = x * e.xx + z * e.xz;
+    p.specular_rows[1] = y * e.yy;
+    p.specular_rows[2] = x * e.zx + z;
+    // Schlick: F0 + (1 - F0) (1 - cosine)^5.
+    float head_on = luminance(specular_fresnel(p.s, 0.0f)), grazing = luminance(specular_fresnel(p.s, 1.0f));
+    p.specular = head_on * (e.albedo - e.grazing) + grazing * e.grazing;
+}
+
+LightPredictor make_predictor(Surface s, LightOptions options)
+{
+    LightPredictor p;
+    p.s = s;
+    p.s.view = view_above_horizon(s);
+    p.weight = options.weight;
+    if (p.weight == LIGHT_WEIGHT_LTC)
+        prepare_ltc(p, options.ltc);
+    else
+        p.s.roughness = max(s.roughness, prediction_roughness);
+    return p;
+}
+
+// Angle over sine of the angle for a cosine: a rational fit for [0, 1], relative error 6e-7; below 0 by symmetry.
+float angle_over_sine(float cosine)
+{
+    float x = abs(cosine);
+    float near_part = (1.570795f + x * (0.9058243f + x * 0.02603313f)) / (1.0f + x * (1.213246f + x * 0.2894057f));
+    return cosine >= 0.0f ? near_part : bsdf_pi * inversesqrt(max(1.0f - x * x, 1e-10f)) - near_part;
+}
+
+float form_factor_edge(vec3 a, vec3 b)
+{
+    return (a.x * b.y - a.y * b.x) * angle_over_sine(dot(a, b));
+}
+
+// What share of a cosine lobe a triangle takes: its part above the horizon, projected, over pi. Corners in the lobe's space.
+float cosine_form_factor(vec3 a, vec3 b, vec3 c)
+{
+    ClippedTriangle t = clip_to_horizon(a, b, c);
+    if (t.count == 0u)
+        return 0.0f;
+    vec3 centre = (a + b + c) * (1.0f / 3.0f);
+    float centre2 = dot(centre, centre);
+    vec3 ab = b - a, ac = c - a;
+    const float small = 0.004f; // sides shorter than 1/16 of the distance: no more than a point, and edges would cancel out
+    if (t.count == 3u && max(dot(ab, ab), dot(ac, ac)) < small * centre2 && min(a.z, min(b.z, c.z)) > 0.0f)
+        return 0.5f * abs(dot(centre, cross(ab, ac))) * centre.z / (bsdf_pi * centre2 * centre2);
+    vec3 v0 = normalize(t.v0), v1 = normalize(t.v1), v2 = normalize(t.v2), v3 = normalize(t.v3);
+    float sum = form_factor_edge(v0, v1) + form_factor_edge(v1, v2) + form_factor_edge(v3, v0);
+    if (t.count == 4u)
+        sum += form_factor_edge(v2, v3);
+    return abs(sum) * (0.5f / bsdf_pi);
+}
+
+// Shares of the two lobes that a triangle takes. Corners relative to the surface.
+vec2 form_factors(LightPredictor p, vec3 a, vec3 b, vec3 c)
+{
+    vec2 shares = vec2(0.0f);
+    if (p.diffuse > 0.0f)
+        shares.x = cosine_form_factor(to_axes(a, p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2]),
+            to_axes(b, p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2]),
+            to_axes(c, p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2]));
+    if (p.specular > 0.0f)
+        shares.y = cosine_form_factor(to_axes(a, p.specular_rows[0], p.specular_rows[1], p.specular_rows[2]),
+            to_axes(b, p.specular_rows[0], p.specular_rows[1], p.specular_rows[2]),
+            to_axes(c, p.specular_rows[0], p.specular_rows[1], p.specular_rows[2]));
+    return shares;
+}
+
+// A sphere as the square that faces the surface and looks as large.
+vec2 sphere_form_factors(LightPredictor p, vec3 to_centre, float radius)
+{
+    float distance2 = dot(to_centre, to_centre), distance = sqrt(distance2);
+    const float half_side_of_disc = 0.886226925f; // sqrt(pi) / 2
+    float half_side = half_side_of_disc * radius * distance
+        * inversesqrt(max(distance2 - radius * radius, 0.02f * distance2));
+    vec3 x = any_tangent(to_centre / distance), y = cross(to_centre / distance, x);
+    vec3 across = (x + y) * half_side, other = (x - y) * half_side;
+    return form_factors(p, to_centre + across, to_centre + other, to_centre - across)
+        + form_factors(p, to_centre + across, to_centre - across, to_centre - other);
+}
+
+// What the prediction needs to know of an emitter's shape. solid_angle 0: it cannot light the surface.
+struct EmitterAspect {
+    vec3 centre; // receiver to centre
+    float solid_angle;
+    float cosine_bound;
+};
+
+EmitterAspect view_emitter_triangle(Surface s, Emitter e)
+{
+    EmitterAspect aspect;
+    TriangleAspect t = view_triangle(e, s.position);
+    aspect.centre = (t.a + t.b + t.c) * (1.0f / 3.0f);
+    aspect.solid_angle = t.solid_angle;
+    vec3 heights = vec3(dot(s.normal, t.a), dot(s.normal, t.b), dot(s.normal, t.c));
+    float geometric_height = max(
+        max(dot(s.geometric_normal, t.a), dot(s.geometric_normal, t.b)), dot(s.geometric_normal, t.c));
+    if (max(max(heights.x, heights.y), heights.z) <= 0.0f || geometric_height <= 0.0f)
+        aspect.solid_angle = 0.0f;
+    // The highest corner may lie lower than the middle of a triangle right above.
+    aspect.cosine_bound = max(max(heights.x / max(length(t.a), 1e-10f), heights.y / max(length(t.b), 1e-10f)),
+        max(heights.z / max(length(t.c), 1e-10f), dot(s.normal, aspect.centre) / max(length(aspect.centre), 1e-10f)));
+    return aspect;
+}
+
+EmitterAspect view_emitter_sphere(Surface s, Emitter e)
+{
+    EmitterAspect aspect;
+    float radius = e.p1.x;
+    aspect.centre = e.p0 - s.position;
+    float cone_depth = sphere_cone_depth(aspect.centre, radius);
+    aspect.solid_angle = 2.0f * emitter_pi * cone_depth;
+    float height = dot(s.normal, aspect.centre) + radius;
+    if (radius <= 0.0f || height <= 0.0f || dot(s.geometric_normal, aspect.centre) + radius <= 0.0f)
+        aspect.solid_angle = 0.0f;
+    aspect.cosine_bound = height / max(length(aspect.centre), radius);
+    return aspect;
+}
+
+// Reflectance (luminance) towards a direction that is lifted above the horizon.
+float predict_reflectance(Surface s, vec3 to_light)
+{
+    float len = length(to_light);
+    vec3 direction = len > 1e-10f ? to_light / len : s.normal;
+    float height = dot(s.normal, direction);
+    if (height < prediction_horizon)
+        direction = normalize(direction + s.normal * (prediction_horizon - height));
+    BsdfValue value = evaluate_brdf(s, direction);
+    return value.diffuse * luminance(s.albedo) + luminance(value.specular);
+}
+
+// Reflectance at the horizon-clipped centre, its lobes not too narrow, x solid angle x bounded cosine.
+float predict_by_chapter(LightPredictor p, EmitterAspect aspect)
+{
+    float reflectance = max(predict_reflectance(p.s, aspect.centre), 1e-4f);
+    return reflectance * aspect.solid_angle * clamp(aspect.cosine_bound, 1e-4f, 1.0f);
+}
+
+float predict_by_ltc(LightPredictor p, Emitter e, EmitterAspect aspect)
+{
+    vec2 shares = vec2(1.0f); // inside of a sphere: it is all around
+    if (e.type != EMITTER_SPHERE)
+        shares = form_factors(p, e.p0 - p.s.position, e.p1 - p.s.position, e.p2 - p.s.position);
+    else if (dot(aspect.centre, aspect.centre) > e.p1.x * e.p1.x)
+        shares = sphere_form_factors(p, aspect.centre, e.p1.x);
+    // Transformed cosines end at a horizon of their own, GGX does not: about what it has far off its peak.
+    float alpha = ggx_alpha(p.s.roughness);
+    float tail = ltc_tail * alpha * alpha * aspect.solid_angle * clamp(aspect.cosine_bound, 1e-2f, 1.0f);
+    return p.diffuse * max(shares.x, 1e-4f * aspect.solid_angle) + p.specular * max(shares.y, tail);
+}
+
+// The weight: reflected luminance, visibility unknown. 0 only where the emitter cannot contribute.
+float light_contribution(LightPredictor p, Emitter e)
+{
+    float radiance = luminance(emitted_radiance(e, p.s.position));
+    if (!(radiance > 0.0f))
+        return 0.0f;
+    EmitterAspect aspect;
+    if (e.type == EMITTER_SPHERE)
+        aspect = view_emitter_sphere(p.s, e);
+    else
+        aspect = view_emitter_triangle(p.s, e);
+    if (!(aspect.solid_angle > 0.0f))
+        return 0.0f;
+    float share = p.weight == LIGHT_WEIGHT_LTC ? predict_by_ltc(p, e, aspect) : predict_by_chapter(p, aspect);
+    return clamp(radiance * share, least_contribution, greatest_contribution);
+}
+
+#endif

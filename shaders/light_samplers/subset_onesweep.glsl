@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Listing 47-2: the probabilities of `subset` in one sweep and without an array. A reservoir keeps one light; the random
+// number is stretched at each decision. A light's share of it is then many intervals: blue noise in it counts for less.
+#ifndef VKPT_LIGHT_SAMPLER_SUBSET_ONESWEEP
+#define VKPT_LIGHT_SAMPLER_SUBSET_ONESWEEP
+
+#include "../lib/light_subsets.glsl"
+
+const bool light_sampler_mis = false;
+
+LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
+{
+    uint count = light_count(list);
+    if (count == 0u)
+        return no_light();
+    LightPredictor predictor = make_predictor(s, options);
+    SubsetChoice choice = choose_subset(count, random.light, options.subset_length);
+    Reservoir reservoir = make_reservoir(choice.rest);
+    for (uint position = choice.offset; position < count; position += choice.stride) {
+        uint emitter = light_at(list, position);
+        offer_light(reservoir, emitter, light_contribution(predictor, load_emitter(list, emitter)));
+    }
+    if (reservoir.emitter < 0)
+        return no_light();
+    return make_light_sample(
+        uint(reservoir.emitter), reservoir.weight / (reservoir.total * float(choice.stride)), random);
+}
+
+float light_probability(LightListView list, Surface s, uint emitter, LightRandom random, LightOptions options)
+{
+    return strided_subset_probability(list, make_predictor(s, options), emitter, options.subset_length);
+}
+
+#endif

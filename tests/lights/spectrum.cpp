@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "spectrum.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+namespace vkpt::test {
+
+namespace {
+
+using Complex = std::complex<double>;
+constexpr size_t bands = 32;
+constexpr double low_limit = 1.0 / 8; // cycles per pixel
+
+// In place, decimation in time; the length is a power of two.
+void transform(std::vector<Complex>& line)
+{
+    const size_t n = line.size();
+    for (size_t i = 1, reversed = 0; i < n; i++) {
+        size_t bit = n / 2;
+        for (; reversed & bit; bit /= 2)
+            reversed ^= bit;
+        reversed ^= bit;
+        if (i < reversed)
+            std::swap(line[i], line[reversed]);
+    }
+    for (size_t half = 1; half < n; half *= 2)
+        for (size_t k = 0; k < half; k++) {
+            const Complex turn = std::polar(1.0, -std::numbers::pi * double(k) / double(half));
+            for (size_t i = k; i < n; i += 2 * half) {
+                const Complex even = line[i], odd = turn * line[i + half];
+                line[i] = even + odd;
+                line[i + half] = even - odd;
+            }
+        }
+}
+
+std::vector<double> power_of(const std::vector<double>& picture, size_t side)
+{
+    if (picture.size() != side * side || side < 16 || (side & (side - 1)) != 0)
+        throw std::invalid_argument("measure_spectrum wants a square picture whose side is a power of two");
+    const double mean = std::accumulate(picture.begin(), picture.end(), 0.0) / double(picture.size());
+    std::vector<Complex> values(picture.size());
+    for (size_t i = 0; i < picture.size(); i++)
+        values[i] = picture[i] - mean;
+    std::vector<Complex> line(side);
+    for (const size_t step : { size_t(1), side })
+        for (size_t k = 0; k < side; k++) {
+            const size_t start = step == 1 ? k * side : k;
+            for (size_t i = 0; i < side; i++)
+                line[i] = values[start + i * step];
+            transform(line);
+            for (size_t i = 0; i < side; i++)
+                values[start + i * step] = line[i];
+        }
+    std::vector<double> power(values.size());
+    for (size_t i = 0; i < values.size(); i++)
+        power[i] = std::norm(values[i]) / double(values.size());
+    return power;
+}
+
+} // namespace
+
+Spectrum measure_spectrum(const std::vector<double>& picture, size_t side)
+{
+    return measure_spectrum(std::vector<std::vector<double>> { picture }, side);
+}
+
+Spectrum measure_spectrum(const std::vector<std::vector<double>>& pictures, size_t side)
+{
+    Spectrum spectrum;
+    spectrum.power.assign(bands, 0);
+    std::vector<double> counts(bands, 0);
+    double low_count = 0, high_count = 0;
+    const auto frequency = [&](size_t i) { return double(i < side / 2 ? i : side - i) / double(side); };
+    for (const std::vector<double>& picture : pictures) {
+        const std::vector<double> power = power_of(picture, side);
+        for (size_t i = 1; i < power.size(); i++) {
+            const double radius = std::hypot(frequency(i % side), frequency(i / side));
+            const bool is_low = radius < low_limit;
+            (is_low ? spectrum.low : spectrum.high) += power[i];
+            (is_low ? low_count : high_count)++;
+            const size_t band = size_t(radius * 2 * double(bands));
+            if (band < bands) {
+                spectrum.power[band] += power[i];
+                counts[band]++;
+            }
+        }
+    }
+    spectrum.low /= low_count;
+    spectrum.high /= high_count;
+    for (size_t band = 0; band < bands; band++)
+        spectrum.power[band] /= counts[band] > 0 ? counts[band] : 1;
+    return spectrum;
+}
+
+} // namespace vkpt::test
