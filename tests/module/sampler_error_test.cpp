@@ -72,7 +72,7 @@ TEST_F(SamplerError, FallsWithTheLengthOfTheSubset)
         map.add(rectangle({ float(i % 8) * 60 - 210, float(i / 8) * 60 - 210, 150 }, { 0, 6, 0 }, { 6, 0, 0 }),
             lamps[i * 7 % 3]);
     start(map, { { "pt_roughness_default", "1" } });
-    session_->look({ -220, -220, 120 }, { 60, 60, 20 });
+    session_->look({ 0, -40, 100 }, { 0, 0, 0 }); // no lamp in sight: the edges' error would drown the lights'
     use_sampler(*session_, "full", 8);
     const Radiance reference = draw_average(*session_, 1000, 256);
     const double full = measure_error(*session_, reference);

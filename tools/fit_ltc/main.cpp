@@ -37,7 +37,7 @@ int main(int argc, char** argv)
     for (size_t at = 0; (at = text.find("f,", at)) != std::string::npos; at += 2) {
         const size_t start = text.find_last_of(",\n", at - 1) + 1;
         if (text.find_first_of(".e", start) > at) {
-            text.insert(at, ".");
+            text.insert(at, 1, '.');
             at++;
         }
     }
