@@ -19,7 +19,7 @@ trap 'rm -rf "$folder"' EXIT
 # Milliseconds of direct and indirect light, medians over the frames.
 measure() { # SAMPLER SUBSET
     "$vkpt" render "$scene" --basedir "$build_dir/game" --size "$size" --frames "$frames" --seed 1 --verbose \
-        --set pt_times=1 --set pt_light_sampler="$1" --set pt_light_subset="$2" -o "$folder/frame.png" 2>&1 \
+        --set flt_denoiser=off --set flt_taa=off --set pt_times=1 --set pt_light_sampler="$1" --set pt_light_subset="$2" -o "$folder/frame.png" 2>&1 \
         | awk '/pass (direct|indirect)_light / { sum += $5 } END { print sum }'
 }
 
