@@ -42,7 +42,8 @@ TEST_F(Cvars, RowsAreSound)
         EXPECT_TRUE(std::string_view(row.help).ends_with('.'));
         if (row.owner == CvarOwner::engine)
             continue;
-        EXPECT_TRUE(std::string_view(row.name).starts_with("pt_"));
+        const std::string_view name = row.name;
+        EXPECT_TRUE(name.starts_with("pt_") || name.starts_with("flt_")) << "neither the tracer's nor the filters'";
         if (row.type == CvarType::text) {
             EXPECT_TRUE(*row.choices == '\0' || find_choice(row.choices, row.initial) >= 0);
         } else {
