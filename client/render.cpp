@@ -2,8 +2,8 @@
 // vkpt render: one picture of a map.
 #include "client/host/errors.hpp"
 #include "client/host/exr.hpp"
+#include "client/host/frame_source.hpp"
 #include "client/host/output_file.hpp"
-#include "client/host/scene.hpp"
 #include "client/options.hpp"
 #include "formats/image.hpp"
 
@@ -16,8 +16,6 @@
 namespace vkpt::client {
 
 namespace {
-
-constexpr float live_frame_seconds = 1.0f / 60;
 
 struct RenderOptions {
     ModuleOptions module;
@@ -96,19 +94,18 @@ void run_render(const RenderOptions& options)
 {
     const PictureKind kind = picture_kind(options.output);
     const Size size = parse_size(options.scene.size);
-    const SceneName name = parse_scene_name(options.scene.scene);
     const HostOptions host_options = make_render_host(options, size);
     OutputFile output(options.output);
     FileSystem files(options.scene.base_folder, options.scene.game);
-    Scene scene(files, name);
+    const std::unique_ptr<FrameSource> source = open_frame_source(files, options.scene.scene);
     Host host(host_options, &files);
-    scene.register_with(host);
-    for (const std::string& note : scene.notes())
+    source->register_with(host);
+    for (const std::string& note : source->notes())
         std::fprintf(stderr, "vkpt: %s\n", note.c_str());
-    const int frames = options.frames ? options.frames : options.samples;
-    for (int frame = 0; frame < frames; frame++) {
-        host.draw_frame(scene.view(size.width, size.height, options.frames ? float(frame) * live_frame_seconds : 0));
-        show_progress(frame + 1, frames);
+    const int first = source->chosen_frame(), frames = options.frames ? options.frames : options.samples;
+    for (int i = 0; i < frames; i++) {
+        source->draw(host, options.frames ? first + i : first);
+        show_progress(i + 1, frames);
     }
     if (kind == PictureKind::png)
         write_display(host.extension(), output);

@@ -151,12 +151,18 @@ double trace_rays(const TracedRay* rays, size_t count, const TraceRequest* reque
     return m->frame.trace_rays({ rays, count }, *request, *m->snapshot, m->gpu_world, hits);
 }
 
+void thaw_scene()
+{
+    if (Module* m = module())
+        m->snapshot_is_frozen = false;
+}
+
 } // namespace
 
 const Extension& extension_table()
 {
     static const Extension table { extension_version, sizeof(Extension), frame_size, capture_display, capture_radiance,
-        accumulated_frames, pass_times, module_info, measure_irradiance, trace_rays };
+        accumulated_frames, pass_times, module_info, measure_irradiance, trace_rays, thaw_scene };
     return table;
 }
 

@@ -9,7 +9,7 @@
 
 namespace vkpt {
 
-inline constexpr uint32_t extension_version = 1;
+inline constexpr uint32_t extension_version = 2;
 
 struct ImageSize {
     int32_t width = 0, height = 0;
@@ -85,6 +85,8 @@ struct Extension {
     // Traces rays through the scene of the last frame by the trace backend in use. Returns the seconds that one round
     // took on the device; negative: no map.
     double (*trace_rays)(const TracedRay* rays, size_t count, const TraceRequest* request, TracedHit* hits);
+    // With pt_accumulate 1: the next view's things count instead of the frozen ones, and the average starts anew.
+    void (*thaw_scene)();
 };
 
 // Signature of the exported symbol "vkpt_extension". Returns nullptr if `version` is not served.

@@ -38,6 +38,9 @@ public:
     const Extension& extension() const { return *extension_; }
     const std::filesystem::path& module_path() const { return module_path_; }
     CvarStore& cvars() { return cvars_; }
+    // Of the picture.
+    int width() const { return options_.width; }
+    int height() const { return options_.height; }
 
     // One frame without 2D. Runs console text that the module left first.
     void draw_frame(const engine::RefDef& refdef);

@@ -118,6 +118,9 @@ Scene::Scene(FileSystem& files, const SceneName& name)
 
 void Scene::register_with(Host& host)
 {
+    models_.clear();
+    shown_.clear();
+    notes_.clear();
     register_map(host);
     place_brush_models();
 }

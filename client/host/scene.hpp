@@ -37,7 +37,7 @@ public:
     Scene(FileSystem& files, const SceneName& name);
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
-    // Registers the map with the module and places its brush models. Once.
+    // Registers the map with the module and places its brush models. Once for every host.
     void register_with(Host& host);
 
     const Camera& camera() const { return camera_; }

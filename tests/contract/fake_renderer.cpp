@@ -104,7 +104,8 @@ const Extension& extension_table()
             *count = 0;
             return nullptr;
         },
-        info, [](const IrradianceProbe*, size_t, uint32_t, float*) { return false; } };
+        info, [](const IrradianceProbe*, size_t, uint32_t, float*) { return false; },
+        [](const TracedRay*, size_t, const TraceRequest*, TracedHit*) { return -1.0; }, [] {} };
     return table;
 }
 
