@@ -87,8 +87,6 @@ protected:
 
 TEST_P(LightEstimate, IsUnbiased)
 {
-    if (sampler().is_biased())
-        GTEST_SKIP() << "see BiasedSamplersFailTheTest";
     const bool is_long = GetParam().light_count > 100;
     const int samples = is_long && GetParam().subset_length > 1 ? 3000 : 8000;
     for (const Material& material : materials) {
@@ -112,10 +110,13 @@ TEST_P(LightEstimate, IsUnbiased)
 std::vector<EstimateSetup> all_setups()
 {
     std::vector<EstimateSetup> setups;
-    for (size_t sampler = 0; sampler < all_samplers().size(); sampler++)
+    for (size_t sampler = 0; sampler < all_samplers().size(); sampler++) {
+        if (all_samplers()[sampler].is_biased())
+            continue; // see BiasedSamplersFailTheTest
         for (const size_t count : { 1, 7, 8, 9, 64, 1000 })
             for (const uint32_t subset_length : { 1, 8, 64 })
                 setups.push_back({ sampler, count, subset_length });
+    }
     return setups;
 }
 
