@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// vkpt_light_sampler_bench: what the light samplers cost, as ratio to `subset` with a subset of 8, and how that depends
+// on the number of lights. Everything takes turns frame by frame, so that a busy machine slows all of it. Prints tables
+// in Markdown, for docs/light-sampling.md.
+#include "client/host/errors.hpp"
+#include "client/host/scene.hpp"
+#include "tests/module/game_folder.hpp"
+#include "tests/module/map_builder.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <memory>
+
+using namespace vkpt;
+
+namespace {
+
+struct Options {
+    std::string base_folder, scene = "maps/vkpt1.bsp";
+    int width = 640, height = 360, rounds = 9;
+    std::vector<int> light_counts { 100, 10000 };
+};
+
+struct Case {
+    std::string sampler;
+    int subset;
+    auto operator<=>(const Case&) const = default;
+};
+const Case base { "subset", 8 };
+const std::vector<Case> all_cases { base, { "subset", 16 }, { "subset", 32 }, { "subset", 64 },
+    { "subset_onesweep", 8 }, { "subset_strides", 8 }, { "subset_mis", 8 }, { "subset_mis_biased", 8 },
+    { "subset_mis_blue", 8 }, { "ris", 8 }, { "uniform", 8 }, { "full", 8 } };
+
+double median(std::vector<double> values)
+{
+    std::ranges::sort(values);
+    return values.empty() ? 0 : values[values.size() / 2];
+}
+
+// A map in the module.
+class Run {
+public:
+    Run(const Options& options, const std::string& base_folder, const std::string& scene)
+        : options_(options)
+        , files_(base_folder, "")
+        , scene_(files_, client::parse_scene_name(scene))
+    {
+        client::HostOptions host;
+        host.width = options.width;
+        host.height = options.height;
+        host.cvars = { { "flt_denoiser", "off" }, { "flt_taa", "off" } };
+        host_ = std::make_unique<client::Host>(host, &files_);
+        scene_.register_with(*host_);
+    }
+
+    // Milliseconds of the passes that choose lights.
+    double measure(const Case& wanted)
+    {
+        host_->cvars().set("pt_light_sampler", wanted.sampler);
+        host_->cvars().set("pt_light_subset", std::to_string(wanted.subset));
+        host_->draw_frame(scene_.view(options_.width, options_.height, 0));
+        size_t count = 0;
+        const PassTime* times = host_->extension().pass_times(&count);
+        double sum = 0;
+        for (size_t i = 0; i < count; i++)
+            if (std::string_view(times[i].name).ends_with("direct_light"))
+                sum += times[i].milliseconds;
+        if (sum <= 0)
+            throw client::Failure("the module told no time of its passes");
+        return sum;
+    }
+
+private:
+    const Options& options_;
+    client::FileSystem files_;
+    client::Scene scene_;
+    std::unique_ptr<client::Host> host_;
+};
+
+void print_costs(const Options& options)
+{
+    Run run(options, options.base_folder, options.scene);
+    std::map<Case, std::vector<double>> ratios, times;
+    for (const Case& c : all_cases)
+        run.measure(c); // compiles it
+    for (int round = 0; round < options.rounds; round++)
+        for (const Case& c : all_cases) {
+            const double before = run.measure(base), time = run.measure(c), after = run.measure(base);
+            ratios[c].push_back(2 * time / (before + after));
+            times[c].push_back(time);
+        }
+    fmt::print("{} at {}x{}, medians of {} rounds\n\n| sampler | R | ratio | ms |\n|---|---|---|---|\n", options.scene,
+        options.width, options.height, options.rounds);
+    for (const Case& c : all_cases)
+        fmt::print("| `{}` | {} | {:.2f} | {:.0f} |\n", c.sampler, c.subset, median(ratios[c]), median(times[c]));
+}
+
+// A hall under ten thousand small triangles, of which `lights` shine: geometry is the same for every number.
+formats::Bsp make_hall(int lights)
+{
+    constexpr int side = 100, all = side * side;
+    tests::MapBuilder map;
+    const uint16_t wall = map.add_material("wall"), dark = map.add_material("lamp"),
+                   lamp = map.add_material("lamp", 0, 400);
+    map.add_room({ -512, -512, 0 }, { 512, 512, 200 }, wall);
+    for (int i = 0; i < all; i++) {
+        const glm::vec3 at(float(i % side) * 10 - 495, float(i / side) * 10 - 495, 190);
+        const bool shines = i * lights / all != (i + 1) * lights / all; // evenly spread
+        map.add({ at, at + glm::vec3(0, 4, 0), at + glm::vec3(4, 0, 0) }, shines ? lamp : dark);
+    }
+    return map.finish();
+}
+
+void print_counts(const Options& options)
+{
+    tests::GameFolder folder;
+    folder.add_wall("wall", 170);
+    folder.add_wall("lamp", tests::white_index);
+    for (const int count : options.light_counts)
+        folder.add_map(fmt::format("hall{}", count), make_hall(count));
+    std::map<std::pair<Case, int>, std::vector<double>> times;
+    constexpr int frames = 3;
+    for (int round = 0; round < options.rounds; round++)
+        for (const int count : options.light_counts) {
+            Run run(options, folder.path(), fmt::format("maps/hall{}.bsp@-400,-400,100,10,45", count));
+            for (const Case& c : all_cases) {
+                if (c.sampler == "full" || c.subset != 8)
+                    continue;
+                run.measure(c);
+                std::vector<double> few;
+                for (int i = 0; i < frames; i++)
+                    few.push_back(run.measure(c));
+                times[{ c, count }].push_back(median(few));
+            }
+        }
+    fmt::print("\nMilliseconds by number of lights, and ratio to the first\n\n| sampler |");
+    for (const int count : options.light_counts)
+        fmt::print(" {} |", count);
+    fmt::print("\n|---|");
+    for (size_t i = 0; i < options.light_counts.size(); i++)
+        fmt::print("---|");
+    fmt::print("\n");
+    for (const Case& c : all_cases) {
+        const std::vector<double>& first = times[{ c, options.light_counts.front() }];
+        if (first.empty())
+            continue;
+        fmt::print("| `{}` |", c.sampler);
+        for (const int count : options.light_counts) {
+            std::vector<double> ratios;
+            for (size_t i = 0; i < first.size(); i++)
+                ratios.push_back(times[{ c, count }][i] / first[i]);
+            fmt::print(" {:.0f} ({:.2f}) |", median(times[{ c, count }]), median(ratios));
+        }
+        fmt::print("\n");
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    Options options;
+    CLI::App program("Cost of the light samplers");
+    program.add_option("--basedir", options.base_folder, "Folder that holds baseq2")->required();
+    program.add_option("--scene", options.scene, "maps/NAME.bsp[@x,y,z,pitch,yaw]");
+    program.add_option("--width", options.width)->check(CLI::Range(8, 8192));
+    program.add_option("--height", options.height)->check(CLI::Range(8, 8192));
+    program.add_option("--rounds", options.rounds)->check(CLI::Range(1, 1000));
+    program.add_option("--lights", options.light_counts, "Numbers of lights in a generated hall; at most 10000")
+        ->check(CLI::Range(1, 10000));
+    CLI11_PARSE(program, argc, argv);
+    try {
+        print_costs(options);
+        std::fflush(stdout);
+        print_counts(options);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "vkpt_light_sampler_bench: {}\n", error.what());
+        return 1;
+    }
+}
