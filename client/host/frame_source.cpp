@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/host/frame_source.hpp"
 
+#include "client/host/errors.hpp"
+#include "client/host/trace_frames.hpp"
+
+#include <charconv>
+#include <fmt/format.h>
 #include <utility>
 
 namespace vkpt::client {
@@ -36,6 +41,18 @@ private:
     const Camera own_camera_;
 };
 
+int parse_frame(std::string_view text, std::string_view whole)
+{
+    int frame = 0;
+    if (text.empty())
+        return frame;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), frame);
+    if (error != std::errc() || end != text.data() + text.size() || frame < 0)
+        throw WrongUse(fmt::format(
+            "\"{}\": \"{}\" is no frame's number; write FILE.rtrace@0 for the first", whole, text.substr(1)));
+    return frame;
+}
+
 } // namespace
 
 void FrameSource::draw(Host& host, int frame)
@@ -47,7 +64,14 @@ void FrameSource::draw(Host& host, int frame)
 
 std::unique_ptr<FrameSource> open_frame_source(FileSystem& files, std::string_view scene)
 {
-    return std::make_unique<MapFrames>(files, scene);
+    const std::string_view file = scene.substr(0, scene.rfind('@'));
+    if (file.ends_with(".rtrace"))
+        return std::make_unique<TraceFrames>(files, file, parse_frame(scene.substr(file.size()), scene));
+    if (file.ends_with(".bsp"))
+        return std::make_unique<MapFrames>(files, scene);
+    throw WrongUse(fmt::format(
+        "\"{}\" is no scene: write maps/NAME.bsp, maps/NAME.bsp@x,y,z,pitch,yaw, FILE.rtrace or FILE.rtrace@FRAME",
+        scene));
 }
 
 } // namespace vkpt::client

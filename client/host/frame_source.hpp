@@ -46,7 +46,8 @@ private:
     int last_frame_ = 0;
 };
 
-// SCENE = maps/NAME.bsp[@x,y,z[,pitch,yaw]]. `files` must outlive the source. Throws WrongUse, Failure, FormatError.
+// SCENE = maps/NAME.bsp[@x,y,z[,pitch,yaw]] or FILE.rtrace[@frame]. `files` must outlive the source. Throws WrongUse,
+// Failure, FormatError.
 std::unique_ptr<FrameSource> open_frame_source(FileSystem& files, std::string_view scene);
 
 } // namespace vkpt::client

@@ -147,10 +147,15 @@ void Host::check_wanted_cvars()
 
 void Host::draw_frame(const engine::RefDef& refdef)
 {
-    run_text(std::exchange(pending_text_, {}));
+    run_left_text();
     exports_.begin_frame(0);
     exports_.render_frame(&refdef);
     exports_.end_frame();
+}
+
+bool Host::is_chosen(std::string_view cvar) const
+{
+    return std::ranges::any_of(options_.cvars, [&](const auto& chosen) { return chosen.first == cvar; });
 }
 
 void Host::run_text(std::string_view text)

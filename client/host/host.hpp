@@ -44,6 +44,10 @@ public:
 
     // One frame without 2D. Runs console text that the module left first.
     void draw_frame(const engine::RefDef& refdef);
+    // For who draws a frame's parts by module(): first of all.
+    void run_left_text() { run_text(std::exchange(pending_text_, {})); }
+    // The user's own choice (HostOptions::cvars).
+    bool is_chosen(std::string_view cvar) const;
     void run_text(std::string_view text);
 
     // What the module said, oldest first; the last hundred lines.

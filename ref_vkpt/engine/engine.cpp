@@ -38,7 +38,7 @@ void print_line(int level, std::string_view line)
     std::snprintf(buffer, sizeof buffer, "%.*s", int(text.size()), text.data());
     imports.error(level, "%s", buffer);
     // The engine's function never returns; if it does, there is nothing sane left to do.
-    std::fprintf(stderr, "ref_vkpt: %s\n", buffer);
+    std::fprintf(stderr, "%s\n", buffer);
     std::abort();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The module's two doors: GetRefAPI for the engine, vkpt_extension for hosts of our own. No exception passes them, and
+// The module's door for the engine, GetRefAPI. No exception passes it, and
 // nothing with a destructor is alive on this side of a call that makes the engine jump (engine.hpp, "errors").
 #include "ref_vkpt/engine/exports.hpp"
 
@@ -11,6 +11,11 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+
+// In front of every message.
+#ifndef VKPT_MODULE_NAME
+#define VKPT_MODULE_NAME "ref_vkpt"
+#endif
 
 namespace vkpt {
 
@@ -31,18 +36,18 @@ Failure note_failure(const char* entry)
     try {
         throw;
     } catch (const formats::FormatError& error) {
-        return note(Failure::level, "ref_vkpt: %s%s", error.what(), "");
+        return note(Failure::level, VKPT_MODULE_NAME ": %s%s", error.what(), "");
     } catch (const LevelError& error) {
-        return note(Failure::level, "ref_vkpt: %s%s", error.what(), "");
+        return note(Failure::level, VKPT_MODULE_NAME ": %s%s", error.what(), "");
     } catch (const FatalError& error) {
-        return note(Failure::fatal, "ref_vkpt: %s%s", error.what(), "");
+        return note(Failure::fatal, VKPT_MODULE_NAME ": %s%s", error.what(), "");
     } catch (const std::bad_alloc&) {
-        return note(Failure::level, "ref_vkpt: out of memory in %s%s", entry,
+        return note(Failure::level, VKPT_MODULE_NAME ": out of memory in %s%s", entry,
             ": close other programs, or lower r_mode or pt_view_scale");
     } catch (const std::exception& error) {
-        return note(Failure::fatal, "ref_vkpt: internal error in %s: %s", entry, error.what());
+        return note(Failure::fatal, VKPT_MODULE_NAME ": internal error in %s: %s", entry, error.what());
     } catch (...) {
-        return note(Failure::fatal, "ref_vkpt: internal error in %s%s", entry, "");
+        return note(Failure::fatal, VKPT_MODULE_NAME ": internal error in %s%s", entry, "");
     }
 }
 
@@ -300,7 +305,7 @@ int detect_api()
     const int api = find_api(text);
     if (api == 0)
         engine::print(
-            "ref_vkpt: the engine's version \"{}\" is not one of Yamagi Quake II 8.00 to 8.70; if the variable "
+            VKPT_MODULE_NAME ": the engine's version \"{}\" is not one of Yamagi Quake II 8.00 to 8.70; if the variable "
             "\"version\" was set by hand, leave it alone",
             text);
     return api;
@@ -344,9 +349,4 @@ void run_command(void (*function)()) { guard("a console command", function); }
 extern "C" [[gnu::visibility("default")]] vkpt::ReturnedTable GetRefAPI(vkpt::engine::Imports imports)
 {
     return vkpt::ReturnedTable(imports);
-}
-
-extern "C" [[gnu::visibility("default")]] const vkpt::Extension* vkpt_extension(uint32_t version)
-{
-    return version == vkpt::extension_version ? &vkpt::extension_table() : nullptr;
 }

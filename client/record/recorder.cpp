@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "client/record/recorder.hpp"
+
+#include "formats/bsp.hpp"
+#include "formats/model.hpp"
+#include "ref_vkpt/engine/engine.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+
+namespace vkpt {
+
+using trace::Call;
+using trace::CallKind;
+
+namespace {
+
+// Variables of the engine's that change how the module shows a view.
+constexpr const char* watched_settings[][2] = { { "hand", "0" }, { "r_gunfov", "80" }, { "vid_gamma", "1.2" } };
+// Variables that tell how the frames came about.
+constexpr const char* fact_variables[] = { "version", "timedemo", "fixedtime", "cl_predict", "game", "record_demo" };
+
+// Handles are places in it: pointers that ascend, as the engine sorts by them. A model's and a picture's may be the
+// same.
+constexpr size_t max_handles = 1 << 16;
+char handle_places[max_handles];
+
+Call make_call(CallKind kind, std::string_view name, std::string_view text = "")
+{
+    Call call;
+    call.kind = kind;
+    call.name = name;
+    call.text = text;
+    return call;
+}
+
+} // namespace
+
+Recorder::Recorder(const std::string& trace_path)
+    : writer_(trace_path)
+    , pictures_([this](const std::string& path) { return load_file(path); },
+          [](std::string_view line) { engine::print("ref_record: {}", line); })
+    , retexturing_(engine::get_cvar("r_retexturing", "1", engine::CVAR_ARCHIVE)->number != 0)
+{
+}
+
+void Recorder::note_start(int width, int height)
+{
+    for (const char* name : fact_variables)
+        if (const std::string text = engine::get_cvar(name, "", engine::CVAR_NONE)->text; !text.empty())
+            write(make_call(CallKind::fact, name, text));
+    Call screen;
+    screen.kind = CallKind::screen;
+    screen.numbers = { width, height };
+    write(screen);
+    if (const std::string demo = engine::get_cvar("record_demo", "", engine::CVAR_NONE)->text; !demo.empty())
+        load_file("demos/" + demo);
+    pictures_.load_palette();
+}
+
+void Recorder::note_settings()
+{
+    for (const auto& [name, initial] : watched_settings) {
+        const std::string text = engine::get_cvar(name, initial, engine::CVAR_NONE)->text;
+        const auto [known, is_new] = settings_.try_emplace(name, text);
+        if (!is_new && known->second == text)
+            continue;
+        known->second = text;
+        write(make_call(CallKind::setting, name, text));
+    }
+}
+
+// Before the first view, the engine shows its console with the time of day: left out, so that recording a demo again
+// makes the same file.
+void Recorder::write(Call call)
+{
+    const bool is_drawing = call.kind >= CallKind::draw_picture && call.kind <= CallKind::draw_raw;
+    if (!is_drawing || totals().views > 0)
+        writer_.write(std::move(call));
+}
+
+void Recorder::write_view(const engine::RefDef& from)
+{
+    trace::View view;
+    view.refdef = from;
+    const auto count = [](int32_t wanted, int limit) { return size_t(std::clamp(wanted, 0, limit)); };
+    for (size_t i = 0; i < count(from.entity_count, engine::max_entities); i++) {
+        const engine::Entity& entity = from.entities[i];
+        view.entities.push_back({ entity, to_number(entity.model), to_number(entity.skin) });
+    }
+    view.dlights.assign(from.dlights, from.dlights + count(from.dlight_count, engine::max_dlights));
+    view.particles.assign(from.particles, from.particles + count(from.particle_count, engine::max_particles));
+    view.has_lightstyles = from.lightstyles != nullptr;
+    if (from.lightstyles)
+        std::copy_n(from.lightstyles, engine::max_lightstyles, view.lightstyles.begin());
+    view.has_area_bits = from.area_bits != nullptr;
+    if (from.area_bits)
+        std::copy_n(from.area_bits, trace::max_area_bytes, view.area_bits.begin());
+    writer_.write(view);
+}
+
+void Recorder::finish() { writer_.finish(); }
+
+// Every file that is read leaves its name, size and hash in the trace, once.
+std::optional<std::vector<std::byte>> Recorder::load_file(const std::string& path)
+{
+    const std::optional<engine::FileData> file = engine::load_file(path);
+    if (!file)
+        return std::nullopt;
+    const formats::Bytes bytes = file->bytes();
+    if (noted_files_.insert(path).second) {
+        Call call = make_call(CallKind::file, path);
+        const uint64_t size = bytes.size(), hash = trace::content_hash(bytes);
+        call.numbers = { int32_t(size), int32_t(size >> 32), int32_t(hash), int32_t(hash >> 32) };
+        write(std::move(call));
+    }
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+}
+
+void Recorder::begin_registration(std::string_view map)
+{
+    map_ = "maps/" + std::string(map) + ".bsp";
+    brush_models_ = 0;
+    noted_files_.erase(map_); // another map of the same name may have come
+    const auto file = load_file(map_);
+    if (!file)
+        throw LevelError(map_ + " is not there: is the map's package installed?");
+    const formats::Bsp bsp = formats::read_bsp(*file, map_);
+    brush_models_ = bsp.models.size();
+    for (const formats::BspTexinfo& info : bsp.texinfos)
+        number_picture(info.texture, TextureUse::wall);
+}
+
+bool Recorder::is_usable_model(const std::string& name)
+{
+    if (name.starts_with('*')) {
+        size_t index = 0;
+        const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), index);
+        return error == std::errc() && index < brush_models_;
+    }
+    if (name.ends_with(".bsp"))
+        return brush_models_ > 0;
+    const auto file = load_file(name);
+    if (!file)
+        return false;
+    if (name.ends_with(".sp2")) {
+        for (const formats::Sp2Sprite::Frame& frame : formats::read_sp2(*file, name).frames)
+            number_picture(frame.picture, TextureUse::sprite);
+    } else {
+        for (const std::string& skin : formats::read_md2(*file, name).skins)
+            number_picture(skin, TextureUse::skin);
+    }
+    return true;
+}
+
+void* Recorder::register_model(std::string_view name)
+{
+    uint32_t number = 0;
+    try {
+        if (!name.empty() && is_usable_model(std::string(name))) {
+            const auto [known, is_new] = models_.try_emplace(std::string(name), model_count_ + 1);
+            model_count_ += is_new;
+            number = known->second;
+        }
+    } catch (const formats::FormatError& error) {
+        engine::print("ref_record: {}", error.what());
+    }
+    Call call = make_call(CallKind::register_model, name);
+    call.numbers[0] = int32_t(number);
+    write(std::move(call));
+    return to_handle(number);
+}
+
+void* Recorder::register_skin(std::string_view name)
+{
+    const uint32_t number = number_picture(name, TextureUse::skin);
+    Call call = make_call(CallKind::register_skin, name);
+    call.numbers[0] = int32_t(number);
+    write(std::move(call));
+    return to_handle(number);
+}
+
+void Recorder::find_sky(std::string_view name)
+{
+    for (const char* side : { "rt", "bk", "lf", "ft", "up", "dn" })
+        number_picture(std::string(name) + side, TextureUse::sky);
+}
+
+Recorder::PictureSize Recorder::find_picture(std::string_view name)
+{
+    number_picture(name, TextureUse::picture);
+    return known_pictures_[{ TextureUse::picture, std::string(name) }].second;
+}
+
+void* Recorder::picture_handle(const PictureSize& size) { return size.width < 0 ? nullptr : to_handle(1); }
+
+uint32_t Recorder::number_picture(std::string_view name, TextureUse use)
+{
+    const auto [known, is_new] = known_pictures_.try_emplace({ use, std::string(name) });
+    auto& [number, size] = known->second;
+    if (is_new)
+        if (const auto picture = pictures_.load(name, use, retexturing_)) {
+            number = ++picture_count_;
+            size = { picture->width, picture->height };
+        }
+    return number;
+}
+
+void* Recorder::to_handle(uint32_t number)
+{
+    if (number >= max_handles)
+        throw LevelError("more than 65535 models or pictures are in use: record fewer maps in one trace");
+    return number ? &handle_places[number] : nullptr;
+}
+
+uint32_t Recorder::to_number(const void* handle)
+{
+    return handle ? uint32_t(static_cast<const char*>(handle) - handle_places) : 0;
+}
+
+} // namespace vkpt

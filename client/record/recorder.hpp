@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the recording module knows: the trace, the handles that the engine got, and which files that took.
+#pragma once
+
+#include "client/trace/trace_writer.hpp"
+#include "ref_vkpt/scene/picture_files.hpp"
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vkpt {
+
+// Answers the engine as ref_vkpt would with the same files, so that the engine goes on in the same way.
+class Recorder {
+public:
+    explicit Recorder(const std::string& trace_path);
+
+    void note_start(int width, int height);
+    // A frame begins: settings may have changed.
+    void note_settings();
+    void write(trace::Call call);
+    void write_view(const engine::RefDef& refdef);
+    void finish();
+    const trace::TraceTotals& totals() const { return writer_.totals(); }
+
+    void begin_registration(std::string_view map);
+    void* register_model(std::string_view name);
+    void* register_skin(std::string_view name);
+    void find_sky(std::string_view name);
+    struct PictureSize {
+        int width = -1, height = -1; // -1: there is none
+    };
+    PictureSize find_picture(std::string_view name);
+    // What the engine gets for a picture: a handle that only differs from nullptr.
+    static void* picture_handle(const PictureSize& size);
+
+private:
+    std::optional<std::vector<std::byte>> load_file(const std::string& path);
+    bool is_usable_model(const std::string& name);
+    uint32_t number_picture(std::string_view name, TextureUse use);
+    static void* to_handle(uint32_t number);
+    static uint32_t to_number(const void* handle);
+
+    trace::TraceWriter writer_;
+    PictureFiles pictures_;
+    bool retexturing_;
+    std::set<std::string> noted_files_;
+    std::map<std::string, std::string, std::less<>> settings_; // as last written
+    std::string map_; // "maps/NAME.bsp"
+    size_t brush_models_ = 0; // of the map
+    std::map<std::string, uint32_t, std::less<>> models_;
+    uint32_t model_count_ = 0, picture_count_ = 0;
+    std::map<std::pair<TextureUse, std::string>, std::pair<uint32_t, PictureSize>> known_pictures_;
+};
+
+} // namespace vkpt
