@@ -2,6 +2,7 @@
 // vkpt info: what the module found on this machine.
 #include "client/cvar_table.hpp"
 #include "client/options.hpp"
+#include "client/trace_info.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@ constexpr int info_schema = 1;
 
 struct InfoOptions {
     ModuleOptions module;
+    std::string trace;
     bool json = false, cvars = false;
 };
 
@@ -100,6 +102,14 @@ void run_info(const InfoOptions& options)
         fmt::print("{}", make_cvar_page());
         return;
     }
+    if (!options.trace.empty()) {
+        const Json info = make_trace_info(options.trace);
+        if (options.json)
+            fmt::print("{}\n", info.dump(2, ' ', false, Json::error_handler_t::replace));
+        else
+            print_trace_info(info);
+        return;
+    }
     const Host host(make_host_options(options.module), nullptr);
     Json info = make_info(host);
     if (options.cvars)
@@ -115,11 +125,14 @@ void run_info(const InfoOptions& options)
 void add_info_command(CLI::App& program)
 {
     const auto options = std::make_shared<InfoOptions>();
-    CLI::App* command = program.add_subcommand("info", "Show device, driver, ray backends, light samplers and limits");
+    CLI::App* command = program.add_subcommand(
+        "info", "Show device, driver, ray backends, light samplers and limits; or what a trace holds");
+    command->add_option("TRACE", options->trace, "A FILE.rtrace");
     command->add_flag("--json", options->json, "Machine readable, with a schema number");
     command->add_flag(
         "--cvars", options->cvars, "List the console variables (Markdown; with --json added to the rest)");
     add_module_options(*command, options->module);
+    add_examples(*command, { "vkpt info", "vkpt info --json --cvars", "vkpt info game.rtrace" });
     command->callback([options] { run_info(*options); });
 }
 

@@ -21,11 +21,13 @@ int report(ExitStatus status, const char* text)
 int main(int argc, char** argv)
 {
     CLI::App program(
-        "Path tracing for Quake II, without the engine: facts about the renderer, and pictures of maps.", "vkpt");
+        "Path tracing for Quake II, without the engine: pictures and figures of maps and recorded games.", "vkpt");
     program.footer("Exit status: 0 done, 1 failed, 2 wrong use.");
     program.require_subcommand(1);
     vkpt::client::add_info_command(program);
+    vkpt::client::add_record_command(program);
     vkpt::client::add_render_command(program);
+    vkpt::client::add_bench_command(program);
     try {
         program.parse(argc, argv);
         return done;

@@ -25,16 +25,41 @@ void add_module_options(CLI::App& command, ModuleOptions& options)
 void add_scene_options(CLI::App& command, SceneOptions& options)
 {
     command
-        .add_option("SCENE", options.scene, "maps/NAME.bsp[@x,y,z,pitch,yaw]; without a camera: the first player start")
+        .add_option("SCENE", options.scene,
+            "maps/NAME.bsp[@x,y,z,pitch,yaw], without a camera: the first player start; or FILE.rtrace[@frame]")
         ->required();
     command.add_option("--size", options.size, "Picture size in pixels")->type_name("WxH")->capture_default_str();
     command.add_option("--seed", options.seed, "Seed of the random numbers; 0: a new one each frame")
         ->type_name("N")
         ->check(CLI::Range(0, 16777215));
-    command
-        .add_option("--basedir", options.base_folder, "The folder that holds \"baseq2\" (default: the usual places)")
+    add_data_options(command, options.base_folder, options.game);
+}
+
+void add_data_options(CLI::App& command, std::string& base_folder, std::string& game)
+{
+    command.add_option("--basedir", base_folder, "The folder that holds \"baseq2\" (default: the usual places)")
         ->type_name("DIR");
-    command.add_option("--game", options.game, "A game's folder beside baseq2, searched before it")->type_name("NAME");
+    command.add_option("--game", game, "A game's folder beside baseq2, searched before it")->type_name("NAME");
+}
+
+void add_examples(CLI::App& command, std::initializer_list<const char*> lines)
+{
+    std::string text = "Examples:";
+    for (const char* line : lines)
+        text += fmt::format("\n  {}", line);
+    command.footer(text);
+}
+
+std::vector<std::pair<std::string, std::string>> split_settings(const std::vector<std::string>& settings)
+{
+    std::vector<std::pair<std::string, std::string>> pairs;
+    for (const std::string& setting : settings) {
+        const size_t equals = setting.find('=');
+        if (equals == 0 || equals == std::string::npos)
+            throw WrongUse(fmt::format("--set {}: write --set NAME=VALUE", setting));
+        pairs.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+    }
+    return pairs;
 }
 
 HostOptions make_host_options(const ModuleOptions& options)
@@ -42,12 +67,7 @@ HostOptions make_host_options(const ModuleOptions& options)
     HostOptions host;
     host.module = options.module;
     host.verbose = options.verbose;
-    for (const std::string& setting : options.settings) {
-        const size_t equals = setting.find('=');
-        if (equals == 0 || equals == std::string::npos)
-            throw WrongUse(fmt::format("--set {}: write --set NAME=VALUE", setting));
-        host.cvars.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
-    }
+    host.cvars = split_settings(options.settings);
     return host;
 }
 

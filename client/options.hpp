@@ -25,7 +25,13 @@ struct SceneOptions {
 };
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
-// Both throw WrongUse.
+void add_data_options(CLI::App& command, std::string& base_folder, std::string& game);
+
+// Command lines for the end of --help.
+void add_examples(CLI::App& command, std::initializer_list<const char*> lines);
+
+// NAME=VALUE each. These throw WrongUse.
+std::vector<std::pair<std::string, std::string>> split_settings(const std::vector<std::string>& settings);
 HostOptions make_host_options(const ModuleOptions& options);
 struct Size {
     int width = 0, height = 0;
@@ -34,6 +40,8 @@ Size parse_size(const std::string& text);
 
 // Each subcommand is one file: it adds itself to the program and runs as its callback.
 void add_info_command(CLI::App& program);
+void add_record_command(CLI::App& program);
 void add_render_command(CLI::App& program);
+void add_bench_command(CLI::App& program);
 
 } // namespace vkpt::client

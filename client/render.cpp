@@ -5,13 +5,13 @@
 #include "client/host/frame_source.hpp"
 #include "client/host/output_file.hpp"
 #include "client/options.hpp"
+#include "client/progress.hpp"
 #include "formats/image.hpp"
 
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
-#include <unistd.h>
 
 namespace vkpt::client {
 
@@ -36,17 +36,6 @@ PictureKind picture_kind(const std::string& path)
         return PictureKind::exr;
     throw WrongUse(
         fmt::format("-o {}: the ending says the format: .png (as shown), .pfm or .exr (linear radiance)", path));
-}
-
-// On a terminal only.
-void show_progress(int done, int total)
-{
-    if (!isatty(STDERR_FILENO))
-        return;
-    constexpr int width = 40;
-    const int filled = width * done / total;
-    std::fprintf(stderr, "\r[%s%s] %d/%d%s", std::string(size_t(filled), '#').c_str(),
-        std::string(size_t(width - filled), ' ').c_str(), done, total, done == total ? "\n" : "");
 }
 
 void write_display(const Extension& extension, OutputFile& output)
@@ -103,9 +92,13 @@ void run_render(const RenderOptions& options)
     for (const std::string& note : source->notes())
         std::fprintf(stderr, "vkpt: %s\n", note.c_str());
     const int first = source->chosen_frame(), frames = options.frames ? options.frames : options.samples;
+    if (const auto count = source->frame_count(); count && options.frames > *count - first)
+        throw WrongUse(fmt::format(
+            "--frames {}: from frame {} on, {} has {}", options.frames, first, options.scene.scene, *count - first));
+    ProgressBar progress("rendering", frames);
     for (int i = 0; i < frames; i++) {
         source->draw(host, options.frames ? first + i : first);
-        show_progress(i + 1, frames);
+        progress.show(i + 1);
     }
     if (kind == PictureKind::png)
         write_display(host.extension(), output);
@@ -119,8 +112,8 @@ void run_render(const RenderOptions& options)
 void add_render_command(CLI::App& program)
 {
     const auto options = std::make_shared<RenderOptions>();
-    CLI::App* command
-        = program.add_subcommand("render", "Write one picture of a map: PNG (as shown), PFM or EXR (linear radiance)");
+    CLI::App* command = program.add_subcommand(
+        "render", "Write one picture of a map or a trace: PNG (as shown), PFM or EXR (linear radiance)");
     add_scene_options(*command, options->scene);
     CLI::Option* samples
         = command
@@ -138,6 +131,10 @@ void add_render_command(CLI::App& program)
         ->required()
         ->type_name("FILE");
     add_module_options(*command, options->module);
+    add_examples(*command,
+        { "vkpt render maps/vkpt1.bsp -o start.png", "vkpt render maps/vkpt1.bsp@0,-384,46,0,90 --spp 1024 -o view.exr",
+            "vkpt render game.rtrace@700 --size 1920x1080 --set pt_light_sampler=ris -o frame.png",
+            "vkpt render game.rtrace@690 --frames 11 -o live.png" });
     command->callback([options] { run_render(*options); });
 }
 

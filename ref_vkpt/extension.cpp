@@ -111,7 +111,7 @@ ModuleInfo module_info()
     info.max_entities = engine::max_entities;
     info.max_dlights = engine::max_dlights;
     info.max_particles = engine::max_particles;
-    const Module* m = module();
+    Module* m = module();
     if (!m)
         return info;
     const Device& device = m->graphics.device;
@@ -122,6 +122,12 @@ ModuleInfo module_info()
     info.max_image_size = int32_t(device.properties.limits.maxImageDimension2D);
     fill_trace(info, *m);
     fill_world_counts(info, *m);
+    if (cvars::values().pt_count_rays != 0 && !m->graphics.is_recording()) {
+        m->graphics.finish();
+        const shared::RayCounts rays = m->frame.read_ray_counts();
+        info.nearest_rays = rays.nearest;
+        info.visibility_rays = rays.visible;
+    }
     info.textures = m->textures.count();
     const MemoryAllocator& memory = m->graphics.memory;
     info.texture_bytes = memory.bytes_in_use(MemoryKind::textures);
@@ -151,6 +157,28 @@ double trace_rays(const TracedRay* rays, size_t count, const TraceRequest* reque
     return m->frame.trace_rays({ rays, count }, *request, *m->snapshot, m->gpu_world, hits);
 }
 
+const PassSamples* collected_times(size_t* count)
+{
+    static std::vector<PassSamples> samples;
+    samples.clear();
+    if (Module* m = module(); m && !m->graphics.is_recording()) {
+        m->graphics.finish();
+        m->graphics.timer.read_back_all(m->graphics.slot());
+        for (const PassStatistics::Pass& pass : m->pass_statistics.passes())
+            samples.push_back({ pass.name.c_str(), pass.milliseconds.data(), pass.milliseconds.size() });
+    }
+    *count = samples.size();
+    return samples.data();
+}
+
+void forget_times()
+{
+    size_t count = 0;
+    collected_times(&count); // what is still under way counts as before
+    if (Module* m = module())
+        m->pass_statistics.clear();
+}
+
 void thaw_scene()
 {
     if (Module* m = module())
@@ -162,7 +190,7 @@ void thaw_scene()
 const Extension& extension_table()
 {
     static const Extension table { extension_version, sizeof(Extension), frame_size, capture_display, capture_radiance,
-        accumulated_frames, pass_times, module_info, measure_irradiance, trace_rays, thaw_scene };
+        accumulated_frames, pass_times, module_info, measure_irradiance, trace_rays, thaw_scene, collected_times, forget_times };
     return table;
 }
 
@@ -183,6 +211,8 @@ void print_info()
     engine::print("memory (MiB)   geometry {:.1f}, acceleration {:.1f}, lights {:.1f}, images {:.1f}, staging {:.1f}",
         mib(info.geometry_bytes), mib(info.acceleration_bytes), mib(info.light_bytes), mib(info.image_bytes),
         mib(info.staging_bytes));
+    if (info.nearest_rays + info.visibility_rays > 0)
+        engine::print("rays           {} for the nearest hit, {} for visibility", info.nearest_rays, info.visibility_rays);
     size_t count = 0;
     const PassTime* times = pass_times(&count);
     for (size_t i = 0; i < count; i++)

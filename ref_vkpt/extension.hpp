@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What ref_vkpt.so offers beyond the engine's refresh API: pictures, timings, and facts about itself.
-// A host gets it with dlsym(module, "vkpt_extension"). Everything is valid between Init and Shutdown, on the engine's thread.
-// The host replaces the engine: it hands GetRefAPI its own imports and calls InitContext(nullptr) for "no window".
+// A host gets it with dlsym(module, "vkpt_extension"). Everything is valid between Init and Shutdown, on the engine's
+// thread. The host replaces the engine: it hands GetRefAPI its own imports and calls InitContext(nullptr) for "no
+// window".
 #pragma once
 
 #include <cstddef>
@@ -36,6 +37,15 @@ struct ModuleInfo {
     // bytes by kind
     uint64_t texture_bytes, geometry_bytes, acceleration_bytes, light_bytes, image_bytes, staging_bytes;
     double structure_bytes_per_triangle; // of the map, in the trace backend in use
+    // Rays of the last frame with pt_count_rays 1: for the nearest hit, for visibility.
+    uint64_t nearest_rays, visibility_rays;
+};
+
+// Times of one pass, or of one of the CPU's tasks ("cpu scene"), over many frames.
+struct PassSamples {
+    const char* name;
+    const float* milliseconds; // one a frame, oldest first
+    uint64_t count;
 };
 
 // A surface point to be lit: Quake world units, unit normal.
@@ -69,7 +79,8 @@ struct Extension {
     uint32_t struct_size;
     // The size of the last frame's picture.
     ImageSize (*frame_size)();
-    // The last finished frame as shown (sRGB-encoded RGBA8, 4 * width * height bytes, top row first). False: no frame yet.
+    // The last finished frame as shown (sRGB-encoded RGBA8, 4 * width * height bytes, top row first). False: no frame
+    // yet.
     bool (*capture_display)(uint8_t* rgba);
     // The last 3D view as linear radiance before exposure (RGB float32, 3 * width * height, top row first). With
     // pt_accumulate 1: the average of all frames since the last change.
@@ -87,6 +98,10 @@ struct Extension {
     double (*trace_rays)(const TracedRay* rays, size_t count, const TraceRequest* request, TracedHit* hits);
     // With pt_accumulate 1: the next view's things count instead of the frozen ones, and the average starts anew.
     void (*thaw_scene)();
+    // With pt_times 1: all times since the start or the last forget_times, in order of their first appearance. Waits
+    // for the device, so that the last frame is among them. The arrays live until the next frame begins.
+    const PassSamples* (*collected_times)(size_t* count);
+    void (*forget_times)();
 };
 
 // Signature of the exported symbol "vkpt_extension". Returns nullptr if `version` is not served.

@@ -10,6 +10,7 @@
 #include "ref_vkpt/trace/trace_choice.hpp"
 #include "ref_vkpt/workers.hpp"
 
+#include <chrono>
 #include <optional>
 
 namespace vkpt {
@@ -31,6 +32,9 @@ struct Module {
     bool frame_has_view = false; // the frame that is being recorded
     FrameCapture capture;
     PassStatistics pass_statistics; // with pt_times 1
+    const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    double first_frame_seconds = 0; // from the start to the end of the first view; 0: there was none
+    std::optional<std::chrono::steady_clock::time_point> last_begin; // of a frame
 };
 
 // nullptr outside of InitContext .. ShutdownContext.

@@ -2,8 +2,11 @@
 #include "ref_vkpt/renderer.hpp"
 
 #include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/cvars_rows.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/exports.hpp"
+#include "ref_vkpt/frame/bench_report.hpp"
+#include "ref_vkpt/frame/game_file.hpp"
 #include "ref_vkpt/frame/trace_measurement.hpp"
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/scene/camera.hpp"
@@ -103,23 +106,63 @@ PassStatistics* wanted_statistics()
     return running && cvars::values().pt_times != 0 ? &running->pass_statistics : nullptr;
 }
 
+// Those of the module's own that are not at their default.
+std::vector<std::pair<std::string, std::string>> changed_settings()
+{
+    std::vector<std::pair<std::string, std::string>> settings;
+    for (const CvarRow& row : cvar_rows)
+        if (const engine::Cvar* cvar = engine::get_cvar(row.name, row.initial, engine::CVAR_NONE);
+            row.owner == CvarOwner::module && cvar && cvar->text && std::string_view(cvar->text) != row.initial)
+            settings.emplace_back(row.name, cvar->text);
+    return settings;
+}
+
+void write_bench_report(const Module& m)
+{
+    const std::string& name = cvars::values().pt_bench_json;
+    if (name.empty() || m.pass_statistics.empty())
+        return;
+    if (!stays_in_game_directory(name)) {
+        engine::print("ref_vkpt: pt_bench_json \"{}\" must be a file below the game's folder, without \"..\" and "
+                      "backslashes",
+            name);
+        return;
+    }
+    BenchFacts facts;
+    facts.scene = m.scene.map_path();
+    facts.width = int(m.graphics.size().width);
+    facts.height = int(m.graphics.size().height);
+    facts.first_frame_seconds = m.first_frame_seconds;
+    facts.settings = changed_settings();
+    const std::string report = make_bench_report(m.pass_statistics, extension_table().info(), facts);
+    const std::string path = engine::game_directory() + "/" + name;
+    const std::string reason = write_game_file(path, std::as_bytes(std::span(report)));
+    engine::print("ref_vkpt: {} {}", reason.empty() ? "wrote" : "cannot write", reason.empty() ? path : path + ": " + reason);
+}
+
 void print_pass_statistics(Module& m)
 {
     if (!m.graphics.is_recording()) {
         m.graphics.finish();
-        for (uint32_t i = 0; i < frames_in_flight; i++) // the oldest first
-            m.graphics.timer.read_back((m.graphics.slot() + i) % frames_in_flight);
+        m.graphics.timer.read_back_all(m.graphics.slot());
     }
     if (m.pass_statistics.empty())
         engine::print("ref_vkpt: no times were collected: set pt_times 1");
     m.pass_statistics.print();
+    write_bench_report(m);
 }
 
 void close_module()
 {
-    const std::unique_ptr<Module> closing = std::move(running);
-    if (closing && !closing->pass_statistics.empty())
-        print_pass_statistics(*closing);
+    struct Closing {
+        ~Closing()
+        {
+            CpuTimer::collect_into(nullptr);
+            running = nullptr;
+        }
+    } const closing;
+    if (running && !running->pass_statistics.empty())
+        print_pass_statistics(*running);
 }
 
 // In the last view; the device is between frames.
@@ -285,7 +328,13 @@ void begin_frame(float)
     if (m.trace_choice.wants_measurement() && m.snapshot && !m.graphics.is_recording())
         measure_trace_backends(m);
     m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
-    m.graphics.timer.collect_into(wanted_statistics());
+    PassStatistics* const statistics = wanted_statistics();
+    m.graphics.timer.collect_into(statistics);
+    CpuTimer::collect_into(statistics);
+    const auto now = std::chrono::steady_clock::now();
+    if (statistics && m.last_begin)
+        statistics->add(whole_frame, std::chrono::duration<double, std::milli>(now - *m.last_begin).count());
+    m.last_begin = now;
     m.frame_has_view = false;
     if (m.graphics.begin_frame())
         m.draw2d.set_output(m.graphics.screen.output());
@@ -295,14 +344,14 @@ void begin_frame(float)
 
 static SceneSnapshot take_snapshot(const engine::RefDef& refdef)
 {
-    const CpuTimer timer(wanted_statistics(), "cpu scene");
+    const CpuTimer timer("cpu scene");
     return running->scene.take_snapshot(refdef);
 }
 
 static void record_view(const engine::RefDef& refdef, SceneSnapshot& snapshot, const GpuWorld* gpu_world, bool average)
 {
     Module& m = *running;
-    const CpuTimer timer(wanted_statistics(), "cpu record");
+    const CpuTimer timer("cpu record");
     m.textures.flush_if_needed();
     m.draw2d.record(m.graphics.commands());
     m.frame.record_view(make_view(refdef, m.graphics.size()), snapshot, gpu_world, average);
@@ -350,8 +399,13 @@ void end_frame()
     constexpr float server_scale = 150 * 0.5f;
     if (m.scene.world())
         engine::set_cvar("r_lightlevel", server_scale * m.frame.light_level());
-    if (m.frame_has_view)
+    if (m.frame_has_view) {
+        if (m.first_frame_seconds == 0 && wanted_statistics()) {
+            m.graphics.finish();
+            m.first_frame_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - m.start).count();
+        }
         m.capture.end_view(read_picture);
+    }
 }
 
 bool end_world_renderpass() { return true; }

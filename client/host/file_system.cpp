@@ -96,10 +96,10 @@ FileSystem::FileSystem(const fs::path& base, const std::string& game)
         throw Failure(fmt::format("cannot start PhysicsFS: {}", last_error()));
     try {
         PHYSFS_permitSymbolicLinks(1);
-        const fs::path root = base.empty() ? find_base() : base;
+        base_folder_ = base.empty() ? find_base() : base;
         if (!game.empty() && game != "baseq2")
-            mount(root / game);
-        mount(root / "baseq2");
+            mount(base_folder_ / game);
+        mount(base_folder_ / "baseq2");
         index_files();
     } catch (...) {
         PHYSFS_deinit();

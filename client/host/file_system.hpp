@@ -30,6 +30,7 @@ public:
     // Files in `folder` with this ending, sorted.
     std::vector<std::string> list(std::string_view folder, std::string_view ending) const;
 
+    const std::filesystem::path& base_folder() const { return base_folder_; }
     // What is searched, first one first: for messages.
     const std::vector<std::string>& search_path() const { return search_path_; }
 
@@ -37,6 +38,7 @@ private:
     void mount(const std::filesystem::path& folder);
     void index_files();
 
+    std::filesystem::path base_folder_;
     std::vector<std::string> search_path_;
     std::map<std::string, std::string, std::less<>> index_; // lower case -> as written
     std::map<std::string, std::filesystem::path, std::less<>> added_; // lower case -> on the disk

@@ -42,6 +42,14 @@ void OutputFile::write(formats::Bytes bytes)
         fail(errno);
 }
 
+void OutputFile::take(const fs::path& file)
+{
+    std::error_code error;
+    fs::copy_file(file, working_path_, fs::copy_options::overwrite_existing, error);
+    if (error)
+        fail(error.value());
+}
+
 void OutputFile::commit()
 {
     std::error_code error;

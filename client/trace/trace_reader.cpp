@@ -192,6 +192,19 @@ void TraceReader::check_totals(const Chunk& chunk)
         fail(chunk.offset, "calls are missing; record it anew");
 }
 
+uint32_t count_views(const std::filesystem::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    file.seekg(sizeof(FileHeader));
+    uint32_t views = 0;
+    ChunkHeader header;
+    while (file.read(reinterpret_cast<char*>(&header), sizeof header) && header.crc == header_crc(header)) {
+        views += header.views;
+        file.seekg(header.packed_bytes, std::ios::cur);
+    }
+    return views;
+}
+
 const Frame& TraceReader::frame(size_t number)
 {
     const auto after = std::ranges::upper_bound(chunks_, number, {}, &Chunk::first_frame);

@@ -75,4 +75,7 @@ private:
     std::vector<Frame> decoded_;
 };
 
+// Views in the whole chunks so far of a file that is being written.
+uint32_t count_views(const std::filesystem::path& path);
+
 } // namespace vkpt::trace

@@ -3,49 +3,11 @@
 
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/frame/game_file.hpp"
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
-#include <system_error>
 
 namespace vkpt {
-
-namespace {
-
-// Servers can set cvars: nothing may be written outside of the game's folder.
-bool stays_in_game_directory(const std::string& directory)
-{
-    return !directory.empty() && directory.front() != '/' && directory.find("..") == std::string::npos
-        && directory.find('\\') == std::string::npos;
-}
-
-std::string describe_errno() { return std::error_code(errno, std::generic_category()).message(); }
-
-// Under its final name there is either all of it or nothing. Returns the reason of a failure, "": none.
-std::string write_file(const std::filesystem::path& path, const std::vector<std::byte>& bytes)
-{
-    std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error);
-    if (error)
-        return error.message();
-    const std::filesystem::path partial = path.string() + ".new";
-    errno = 0;
-    std::ofstream file(partial, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    file.close(); // a full disk may show only here
-    std::string reason = file ? std::string() : describe_errno();
-    if (file) {
-        std::filesystem::rename(partial, path, error);
-        if (error)
-            reason = error.message();
-    }
-    if (!reason.empty())
-        std::filesystem::remove(partial, error);
-    return reason;
-}
-
-} // namespace
 
 void FrameCapture::give_up(const std::string& reason)
 {
@@ -80,7 +42,7 @@ void FrameCapture::end_view(const std::function<formats::Image()>& read_picture)
         return;
     const std::filesystem::path path
         = std::filesystem::path(engine::game_directory()) / directory_ / fmt::format("frame{:06}.png", frame_number_);
-    const std::string reason = write_file(path, formats::write_png(read_picture()));
+    const std::string reason = write_game_file(path, formats::write_png(read_picture()));
     if (!reason.empty())
         give_up(fmt::format("{}: {}", path.string(), reason));
 }

@@ -78,6 +78,11 @@ Frame::Frame(Graphics& graphics, Workers& workers)
     readback_ = Buffer(
         graphics.gpu, light_level_bytes * frames_in_flight, BufferHome::readback, MemoryKind::staging, "light level");
     std::memset(readback_.mapped(), 0, readback_.size());
+    ray_counts_ = Buffer(
+        graphics.gpu, sizeof(shared::RayCounts), BufferHome::device, MemoryKind::staging, "ray counts");
+    read_ray_counts_ = Buffer(
+        graphics.gpu, sizeof(shared::RayCounts), BufferHome::readback, MemoryKind::staging, "ray counts readback");
+    std::memset(read_ray_counts_.mapped(), 0, read_ray_counts_.size());
     graphics.bindings.bind_uniforms(uniforms_, sizeof(shared::FrameUniforms));
     graphics.uploader.flush();
 }
@@ -126,6 +131,7 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.exposure = exposure_.address();
     uniforms.ltc = ltc_.address();
     uniforms.blue_noise = blue_noise_.address();
+    uniforms.ray_counts = ray_counts_.address();
     uniforms.light_level = readback_.address() + graphics_.slot() * light_level_bytes;
     uniforms.size = size;
     uniforms.output_origin = glm::uvec2(view.origin);
@@ -143,6 +149,7 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
 
 void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world, Motion motion)
 {
+    const CpuTimer timer("cpu upload");
     static const std::vector<shared::Triangle> no_triangles;
     static const std::vector<shared::Emitter> no_emitters;
     const uint32_t slot = graphics_.slot();
@@ -201,6 +208,7 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
 // What moves, right into the memory that the device reads.
 shared::BvhView Frame::write_moving(const MovingGeometry& moving, MovingTarget target)
 {
+    const CpuTimer timer("cpu bvh");
     const Upload nodes = uploads_.reserve(moving.node_count() * shared::BVH_NODE_BYTES);
     // One record even where there is none: its address must be one.
     const Upload records
@@ -214,6 +222,7 @@ shared::BvhView Frame::write_moving(const MovingGeometry& moving, MovingTarget t
 void Frame::fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world,
     const MovingTarget& target)
 {
+    const CpuTimer timer("cpu bvh");
     // Only Mesa's CPU driver depends on the order, and sorting costs time every frame.
     const bool sorts = graphics_.device.is_cpu;
     const bool has_world = scene.world && gpu_world;
@@ -350,16 +359,46 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
     uniforms.time = scene.time;
     uniforms.flags |= (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0) | (scene.world ? 0 : shared::FRAME_NO_WORLD)
         | (average ? shared::FRAME_JITTER : 0);
+    const bool counts_rays = cvars::values().pt_count_rays != 0;
+    uniforms.flags |= counts_rays ? shared::FRAME_COUNT_RAYS : 0;
     bind(write_uniforms(uniforms));
     const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
     // The picture may just have been cleared or drawn on, and the last frame may still be read.
     record_memory_barrier(
         commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT, shaders, shader_access);
     graphics_.timer.mark(commands_, "2d");
+    if (counts_rays)
+        record_clear_ray_counts();
     record_passes(uniforms, Surfaces::camera, scene.world != nullptr);
+    if (counts_rays)
+        record_read_ray_counts();
     record_memory_barrier(
         commands_, shaders, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     accumulated_frames_++;
+}
+
+void Frame::record_clear_ray_counts() const
+{
+    vkCmdFillBuffer(commands_, ray_counts_.handle(), 0, sizeof(shared::RayCounts), 0);
+    record_memory_barrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+        graphics_.device.shader_stages(), shader_access);
+}
+
+void Frame::record_read_ray_counts() const
+{
+    record_memory_barrier(commands_, graphics_.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT,
+        VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    const VkBufferCopy region { 0, 0, sizeof(shared::RayCounts) };
+    vkCmdCopyBuffer(commands_, ray_counts_.handle(), read_ray_counts_.handle(), 1, &region);
+    record_memory_barrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+        VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+}
+
+shared::RayCounts Frame::read_ray_counts() const
+{
+    shared::RayCounts counts;
+    std::memcpy(&counts, read_ray_counts_.mapped(), sizeof counts);
+    return counts;
 }
 
 bool Frame::read_radiance(float* rgb)

@@ -50,6 +50,9 @@ public:
     void restart_accumulation() { accumulated_frames_ = 0; }
     uint32_t accumulated_frames() const { return accumulated_frames_; }
 
+    // Of the last frame's last view, where pt_count_rays was 1. The device must be idle.
+    shared::RayCounts read_ray_counts() const;
+
     // Light at the player in the newest finished frame, as radiance of a white floor.
     float light_level() const { return light_level_; }
 
@@ -81,6 +84,8 @@ private:
     void fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target);
     uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
     void bind(uint32_t uniform_offset) const;
+    void record_clear_ray_counts() const;
+    void record_read_ray_counts() const;
     void record_passes(const shared::FrameUniforms& uniforms, Surfaces surfaces, bool world);
     void record_pass(const char* name, uint32_t groups);
     void begin_filters(shared::FrameUniforms& uniforms, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average);
@@ -104,7 +109,7 @@ private:
     MovingWriter moving_writer_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;
-    Buffer uniforms_, exposure_, ltc_, blue_noise_, readback_;
+    Buffer uniforms_, exposure_, ltc_, blue_noise_, readback_, ray_counts_, read_ray_counts_;
     VkDeviceSize uniform_stride_;
     uint32_t views_this_frame_ = 0;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;

@@ -26,6 +26,12 @@ public:
     const std::vector<PassTime>& times() const { return times_; }
     // Reads the slot's times now; the device must have finished it.
     void read_back(uint32_t frame_slot);
+    // The same for all slots, the oldest first: `next_slot` is the one that the next frame will use.
+    void read_back_all(uint32_t next_slot)
+    {
+        for (uint32_t i = 0; i < frames_in_flight; i++)
+            read_back((next_slot + i) % frames_in_flight);
+    }
     // Every frame that is read back from now on is added to these, too; nullptr: to none.
     void collect_into(PassStatistics* statistics) { statistics_ = statistics; }
 

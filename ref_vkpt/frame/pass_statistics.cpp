@@ -8,9 +8,6 @@
 
 namespace vkpt {
 
-namespace {
-
-// Nearest rank: the smallest value that at least `fraction` of all values do not exceed.
 float find_quantile(std::vector<float> values, double fraction)
 {
     const size_t rank = size_t(std::ceil(fraction * double(values.size()))) - 1;
@@ -18,7 +15,15 @@ float find_quantile(std::vector<float> values, double fraction)
     return values[rank];
 }
 
-} // namespace
+CpuTimer::~CpuTimer()
+{
+    innermost_ = outer_;
+    const Clock::duration whole = Clock::now() - start_;
+    if (outer_)
+        outer_->inside_ += whole;
+    if (statistics_)
+        statistics_->add(name_, std::chrono::duration<double, std::milli>(whole - inside_).count());
+}
 
 void PassStatistics::add(std::string_view name, double milliseconds)
 {

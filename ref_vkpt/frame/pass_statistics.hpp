@@ -15,37 +15,46 @@ public:
     // One console line a pass, in the order in which they came first.
     void print() const;
     bool empty() const { return passes_.empty(); }
+    void clear() { passes_.clear(); }
 
-private:
     struct Pass {
         std::string name;
-        std::vector<float> milliseconds;
+        std::vector<float> milliseconds; // one a frame, oldest first
     };
+    const std::vector<Pass>& passes() const { return passes_; }
+
+private:
     std::vector<Pass> passes_;
 };
 
-// Adds the time from its making to its end of life under `name`; nullptr: nobody wants to know.
+// Nearest rank: the smallest value that at least `fraction` of all values do not exceed. `values` is not empty.
+float find_quantile(std::vector<float> values, double fraction);
+
+// Adds the time from its making to its end of life under `name`, less what timers inside took. On the engine's thread.
 class CpuTimer {
 public:
-    CpuTimer(PassStatistics* statistics, const char* name)
-        : statistics_(statistics)
-        , name_(name)
-        , start_(std::chrono::steady_clock::now())
+    explicit CpuTimer(const char* name)
+        : name_(name)
+        , outer_(innermost_)
     {
+        innermost_ = this;
     }
     CpuTimer(const CpuTimer&) = delete;
     CpuTimer& operator=(const CpuTimer&) = delete;
-    ~CpuTimer()
-    {
-        if (statistics_)
-            statistics_->add(
-                name_, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count());
-    }
+    ~CpuTimer();
+
+    // Where the times go from now on; nullptr: nobody wants to know.
+    static void collect_into(PassStatistics* statistics) { statistics_ = statistics; }
 
 private:
-    PassStatistics* statistics_;
+    using Clock = std::chrono::steady_clock;
+
+    static inline PassStatistics* statistics_ = nullptr;
+    static inline CpuTimer* innermost_ = nullptr;
     const char* name_;
-    std::chrono::steady_clock::time_point start_;
+    CpuTimer* outer_;
+    Clock::time_point start_ = Clock::now();
+    Clock::duration inside_ {};
 };
 
 } // namespace vkpt

@@ -3,6 +3,7 @@
 
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/frame/pass_statistics.hpp"
 #include "ref_vkpt/scene/entities.hpp"
 
 #include <algorithm>
@@ -26,6 +27,7 @@ bool ends_with(std::string_view name, std::string_view ending)
 // Emitters in an order that lasts over the frames, and the lists of those that can light each cluster.
 void list_lights(SceneSnapshot& snapshot, World& world)
 {
+    const CpuTimer timer("cpu lights");
     snapshot.moving.move_emitters(int(world.models[0].emitters.size()), world.dynamic_lights.arrange(snapshot.emitters));
     world.light_lists.update(snapshot.emitters);
 }
@@ -50,6 +52,7 @@ void Scene::begin_registration(std::string_view map)
         if (std::holds_alternative<Model::Brush>(model.shape))
             model = {};
     const std::string path = "maps/" + std::string(map) + ".bsp";
+    map_path_ = path;
     const std::optional<engine::FileData> file = engine::load_file(path);
     if (!file)
         throw LevelError(path + " is not there: is the map's package installed?");

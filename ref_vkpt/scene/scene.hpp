@@ -48,6 +48,7 @@ public:
     void end_registration();
 
     // nullptr before the first map.
+    const std::string& map_path() const { return map_path_; } // "maps/NAME.bsp"
     World* world() { return world_.get(); }
     const World* world() const { return world_.get(); }
 
@@ -71,6 +72,7 @@ private:
     shared::Sky make_sky(float time) const;
 
     TextureStore& textures_;
+    std::string map_path_;
     std::unique_ptr<World> world_;
     // The engine sorts entities by model pointer: handing out ascending addresses makes runs alike.
     std::vector<Model> models_; // never reallocated

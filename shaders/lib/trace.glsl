@@ -20,11 +20,32 @@
 // A pass that does not trace is compiled without a backend.
 #if defined(VKPT_TRACE_SOFTWARE) || defined(VKPT_TRACE_QUERY) || defined(VKPT_TRACE_PIPELINE)
 
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayCountsBuffer { RayCounts v; };
+
+void count_ray(bool visibility)
+{
+    if ((frame.flags & FRAME_COUNT_RAYS) == 0u)
+        return;
+    RayCountsBuffer counts = RayCountsBuffer(frame.ray_counts);
+    if (visibility)
+        atomicAdd(counts.v.visible, 1u);
+    else
+        atomicAdd(counts.v.nearest, 1u);
+}
+
 // hit.triangle is TRACE_MISS where nothing was met.
-RawHit trace_nearest(Ray ray, uint mask) { return search_ray(ray, mask, false); }
+RawHit trace_nearest(Ray ray, uint mask)
+{
+    count_ray(false);
+    return search_ray(ray, mask, false);
+}
 
 // Whether nothing of the masked triangles lies on the ray between t_min and t_max.
-bool trace_visible(Ray ray, uint mask) { return search_ray(ray, mask, true).triangle == TRACE_MISS; }
+bool trace_visible(Ray ray, uint mask)
+{
+    count_ray(true);
+    return search_ray(ray, mask, true).triangle == TRACE_MISS;
+}
 
 #endif
 

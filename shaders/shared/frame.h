@@ -32,6 +32,13 @@ VKPT_CONST uint FRAME_REPROJECTED = 512u; // primary_visibility tells where thin
 VKPT_CONST uint FRAME_DENOISED = 128u;  // the picture is made from the filtered light
 VKPT_CONST uint FRAME_ANTIALIASED = 1024u; // the picture is averaged over views
 VKPT_CONST uint FRAME_REPLAYED = 256u;  // random numbers follow the buffer random_seed: some pixels repeat an older sample
+VKPT_CONST uint FRAME_COUNT_RAYS = 2048u; // every ray is counted in `ray_counts`
+
+// Rays of a view, by what they were asked.
+struct RayCounts {
+    uint nearest;
+    uint visible;
+};
 
 VKPT_CONST uint LIGHT_LEVEL_LANES = 64u; // = PIXEL_GROUP_SIZE
 
@@ -106,6 +113,7 @@ struct FrameUniforms {
     uint64_t probe_hits; // written by probe_rays.comp
     uint probe_mask; // of the rays
     uint64_t light_level; // LIGHT_LEVEL_LANES floats, written by light_level.comp
+    uint64_t ray_counts; // RayCounts where FRAME_COUNT_RAYS
     uint probe_count;
     uvec2 size;          // pixels rendered
     uvec2 output_origin; // where the view lies in the picture
