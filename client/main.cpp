@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // vkpt: hosts the refresh module without the engine. One file per subcommand.
 #include "client/host/errors.hpp"
+#include "client/manual.hpp"
 #include "client/options.hpp"
 
 #include <cstdio>
@@ -28,6 +29,7 @@ int main(int argc, char** argv)
     vkpt::client::add_record_command(program);
     vkpt::client::add_render_command(program);
     vkpt::client::add_bench_command(program);
+    vkpt::client::add_manual_options(program);
     try {
         program.parse(argc, argv);
         return done;

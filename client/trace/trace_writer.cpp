@@ -31,7 +31,8 @@ TraceWriter::TraceWriter(const std::filesystem::path& path)
     FileHeader header;
     header.crc = header_crc(header);
     write_bytes(std::as_bytes(std::span(&header, 1)));
-    std::fflush(file_.get());
+    if (std::fflush(file_.get()) != 0)
+        fail(path_);
 }
 
 TraceWriter::~TraceWriter() = default;

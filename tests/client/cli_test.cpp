@@ -71,6 +71,17 @@ TEST_F(Cli, WrongUseExitsWithTwo)
         { "render", "maps/sample.bsp", "--set", "pt_bounces", "-o", "a.png" },
         { "render", "maps/sample.bsp", "--set", "pt_bouncess=2", "-o", "a.png" },
         { "info", "--yaml" },
+        { "bench" },
+        { "bench", "maps/sample.bsp", "--ab", "pt_bounces" },
+        { "bench", "maps/sample.bsp", "--ab", "pt_bounces=1" },
+        { "bench", "maps/sample.bsp", "--ab", "pt_bounces=1,2,3" },
+        { "bench", "maps/sample.bsp", "--ab", "pt_bounces=1,99" },
+        { "bench", "maps/sample.bsp", "--ab", "pt_nothing=1,2" },
+        { "bench", "maps/sample.bsp", "--frames", "0" },
+        { "record" },
+        { "record", "x.dm2" },
+        { "record", "x.dm2", "-o", "x.trace" },
+        { "record", "x.dm2", "--rate", "5", "-o", "x.rtrace" },
     };
     for (const std::vector<std::string>& arguments : cases) {
         std::string line;
@@ -87,7 +98,8 @@ TEST_F(Cli, WrongUseExitsWithTwo)
 TEST_F(Cli, HelpIsNoError)
 {
     for (const std::vector<std::string>& arguments :
-        std::vector<std::vector<std::string>> { { "--help" }, { "render", "--help" } }) {
+        std::vector<std::vector<std::string>> { { "--help" }, { "render", "--help" }, { "bench", "--help" },
+            { "record", "--help" }, { "info", "--help" }, { "--man-page" }, { "--completion" } }) {
         const ProgramResult result = run(arguments);
         EXPECT_EQ(result.status, 0);
         EXPECT_GT(result.output.size(), 200u);
@@ -266,6 +278,66 @@ TEST_F(Cli, InfoHasItsSchema)
     const nlohmann::json with_cvars = nlohmann::json::parse(run({ "info", "--json", "--cvars" }).output);
     EXPECT_EQ(with_cvars.at("cvars").at(0).at("name"), "pt_bounces");
     expect_in(run({ "info" }).output, "a device of paper");
+}
+
+TEST_F(Cli, BenchHasItsKeys)
+{
+    const ProgramResult result = run({ "bench", "maps/sample.bsp", "--size", "4x2", "--frames", "40", "--warmup", "3",
+        "--ab", "pt_bounces=0,2", "--json", "b.json" });
+    ASSERT_EQ(result.status, 0) << result.errors;
+    expect_in(result.output, "a device of paper");
+    const nlohmann::json json = nlohmann::json::parse(folder.read("b.json"));
+    EXPECT_EQ(json.at("schema"), 1);
+    EXPECT_EQ(json.at("scene"), "maps/sample.bsp");
+    EXPECT_EQ(json.at("size"), (std::vector<int> { 4, 2 }));
+    EXPECT_EQ(json.at("frames"), 40);
+    EXPECT_EQ(json.at("settings").at("pt_bounces"), "0");
+    EXPECT_EQ(json.at("device"), "a device of paper");
+    for (const char* key : { "median", "p5", "p95" })
+        EXPECT_GT(json.at("frame_ms").at(key), 0) << key;
+    EXPECT_LE(json.at("frame_ms").at("p5"), json.at("frame_ms").at("p95"));
+    EXPECT_EQ(json.at("passes").at(0).at("name"), "rays");
+    EXPECT_EQ(json.at("passes").at(0).at("median_ms"), 2);
+    EXPECT_EQ(json.at("passes").at(0).at("p95_ms"), 2);
+    EXPECT_EQ(json.at("passes").at(0).at("samples_ms").size(), 40u)
+        << "warm-up does not count, the other value neither";
+    EXPECT_EQ(json.at("cpu").at(0).at("name"), "scene");
+    EXPECT_EQ(json.at("cpu").at(0).at("median_ms"), 0.25);
+    EXPECT_EQ(json.at("rays_per_frame"), 8);
+    EXPECT_GT(json.at("mrays_per_s"), 0);
+    EXPECT_GT(json.at("peak_rss_mib"), 1);
+    EXPECT_TRUE(json.at("gpu_mib").is_number());
+    EXPECT_GT(json.at("start").at("first_frame_s"), 0);
+    EXPECT_EQ(json.at("ab").at("values"), (std::vector<std::string> { "0", "2" }));
+    EXPECT_EQ(json.at("ab").at("second").at("settings").at("pt_bounces"), "2");
+    const nlohmann::json ratio = json.at("ab").at("ratios").at(1);
+    EXPECT_EQ(ratio.at("name"), "rays");
+    EXPECT_EQ(ratio.at("ratio"), 1);
+    EXPECT_EQ(ratio.at("low"), 1);
+}
+
+TEST_F(Cli, BenchComparesWithAnEarlierRun)
+{
+    const std::vector<std::string> bench { "bench", "maps/sample.bsp", "--size", "4x2", "--frames", "20" };
+    const auto run_with = [&](std::initializer_list<std::string> more) {
+        std::vector<std::string> arguments = bench;
+        arguments.insert(arguments.end(), more);
+        return run(arguments);
+    };
+    ASSERT_EQ(run_with({ "--json", "b.json" }).status, 0);
+    const ProgramResult again = run_with({ "--against", "b.json" });
+    EXPECT_EQ(again.status, 0) << again.errors;
+    expect_in(again.output, "95 % interval");
+    const ProgramResult other = run_with({ "--size", "8x2", "--against", "b.json" });
+    EXPECT_EQ(other.status, 1);
+    expect_in(other.errors, "4 x 2");
+    EXPECT_EQ(run_with({ "--against", "none.json" }).status, 1);
+    folder.write("text.json", "no json");
+    EXPECT_EQ(run_with({ "--against", "text.json" }).status, 1);
+    folder.write("new.json", R"({ "schema": 2 })");
+    const ProgramResult newer = run_with({ "--against", "new.json" });
+    EXPECT_EQ(newer.status, 1);
+    expect_in(newer.errors, "newer vkpt");
 }
 
 #ifdef REAL_MODULE

@@ -31,7 +31,8 @@ void expect_same(const View& a, const View& b)
     for (size_t i = 0; i < a.entities.size(); i++) {
         const engine::Entity &x = a.entities[i].entity, &y = b.entities[i].entity;
         EXPECT_EQ(
-            std::memcmp(x.angles, y.angles, offsetof(engine::Entity, skin) - offsetof(engine::Entity, angles)), 0);
+            std::memcmp(x.angles, y.angles, offsetof(engine::Entity, alpha) - offsetof(engine::Entity, angles)), 0);
+        EXPECT_EQ(std::memcmp(&x.alpha, &y.alpha, sizeof x.alpha), 0);
         EXPECT_EQ(x.flags, y.flags);
         EXPECT_EQ(a.entities[i].model, b.entities[i].model);
         EXPECT_EQ(a.entities[i].skin, b.entities[i].skin);

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Recording by the real engine, and the replay against what the engine itself shows.
+#include "client/trace/trace_reader.hpp"
+#include "tests/client/run_program.hpp"
+#include "tests/engine/engine_run.hpp"
+#include "tests/engine/picture_statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace vkpt::tests {
+
+namespace {
+
+constexpr int width = 160, height = 90;
+constexpr int capture_every = 31;
+constexpr const char* game_data = VKPT_TEST_BUILD_DIR "/game";
+
+std::string read_file(const std::filesystem::path& path)
+{
+    std::ifstream stream(path, std::ios::binary);
+    return { std::istreambuf_iterator<char>(stream), {} };
+}
+
+class Recording : public testing::Test {
+protected:
+    ProgramResult run(const std::vector<std::string>& arguments) const
+    {
+        return run_program(VKPT_PROGRAM, arguments, folder.path(),
+            { "XDG_CACHE_HOME=" + (folder.path() / "cache").string(),
+                "VKPT_CACHE_DIR=" VKPT_TEST_BUILD_DIR "/tests/engine/cache" });
+    }
+    ProgramResult record(const std::string& output, const std::vector<std::string>& more = {}) const
+    {
+        std::vector<std::string> arguments { "record", own_demo, "--basedir", game_data, "-o", output };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+    void expect_nothing_left() const { EXPECT_EQ(folder.names(), std::vector<std::string> {}); }
+
+    ScratchFolder folder;
+};
+
+} // namespace
+
+TEST_F(Recording, TwiceTheSameAndSmall)
+{
+    ASSERT_EQ(record("a.rtrace").status, 0);
+    const ProgramResult again = record("b.rtrace");
+    ASSERT_EQ(again.status, 0) << again.errors;
+    EXPECT_EQ(folder.read("a.rtrace"), folder.read("b.rtrace"));
+    const trace::TraceReader reader(folder.path() / "a.rtrace");
+    EXPECT_EQ(reader.cut_at(), 0u);
+    const double seconds = double(reader.time(reader.frame_count() - 1)) - double(reader.time(0));
+    EXPECT_GT(seconds, 15);
+    EXPECT_NEAR(double(reader.frame_count()) / seconds, 60, 3);
+    EXPECT_LT(double(reader.file_bytes()) / seconds, 60e3);
+}
+
+TEST_F(Recording, FailuresLeaveNoFile)
+{
+    const ProgramResult no_demo = record("a.rtrace", { "--game", "nothere" });
+    EXPECT_EQ(no_demo.status, 1);
+    const ProgramResult no_engine = record("a.rtrace", { "--engine", "/nonexistent/quake2" });
+    EXPECT_EQ(no_engine.status, 1);
+    EXPECT_NE(no_engine.errors.find("/nonexistent/quake2"), std::string::npos) << no_engine.errors;
+    EXPECT_EQ(record("a.png").status, 2);
+    expect_nothing_left();
+    // Engines that die half-way, one way or the other.
+    for (const char* end : { "exit 3", "kill -SEGV $$", "exit 0" }) {
+        SCOPED_TRACE(end);
+        folder.write("engine", std::string("#!/bin/sh\necho these are its last words\n") + end + "\n");
+        std::filesystem::permissions(folder.path() / "engine", std::filesystem::perms(0755));
+        const ProgramResult result = record("a.rtrace", { "--engine", "engine" });
+        EXPECT_EQ(result.status, 1) << result.errors;
+        EXPECT_EQ(folder.names(), std::vector<std::string> { "engine" });
+        EXPECT_FALSE(result.errors.empty());
+        std::filesystem::remove(folder.path() / "engine");
+    }
+    folder.write("no.dm2", "this is no demo, however long it may be");
+    EXPECT_EQ(run({ "record", "no.dm2", "--basedir", game_data, "-o", "a.rtrace" }).status, 1);
+}
+
+// The same demo, once through the engine and once through a trace, each in its own process: the same bits.
+TEST_F(Recording, ReplayShowsWhatTheEngineShows)
+{
+    const std::string size = std::to_string(width) + "x" + std::to_string(height),
+                      every = std::to_string(capture_every);
+    EngineOptions options;
+    options.width = width;
+    options.height = height;
+    options.validation = false;
+    options.arguments
+        = { "+set", "pt_capture_dir", "capture", "+set", "pt_capture_every", every, "+set", "timedemo", "1", "+set",
+              "fixedtime", "100000", "+set", "cl_predict", "0", "+set", "nextdemo", "quit", "+demomap", own_demo };
+    options.limit = std::chrono::seconds(240);
+    const EngineRun engine(options);
+    engine.expect_clean();
+    const auto shown = list_pictures(engine.result().game_folder / "capture");
+    ASSERT_GE(shown.size(), 8u) << engine.result().console;
+
+    const ProgramResult recorded = record("a.rtrace", { "--timedemo", "--size", size });
+    ASSERT_EQ(recorded.status, 0) << recorded.errors;
+    const size_t frames = trace::TraceReader(folder.path() / "a.rtrace").frame_count();
+    const ProgramResult replayed = run({ "render", "a.rtrace", "--basedir", game_data, "--size", size, "--seed", "1",
+        "--frames", std::to_string(frames), "--set", "pt_capture_dir=capture", "--set", "pt_capture_every=" + every,
+        "-o", "last.png" });
+    ASSERT_EQ(replayed.status, 0) << replayed.errors;
+    for (const auto& picture : shown) {
+        const auto other = folder.path() / "cache/vkpt/capture" / picture.filename();
+        EXPECT_TRUE(read_file(picture) == read_file(other)) << other;
+    }
+}
+
+} // namespace vkpt::tests
