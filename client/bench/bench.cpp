@@ -142,15 +142,15 @@ private:
                 "--ab {}: the module uses {} instead of {}; `vkpt info --cvars` lists the values", name, used, value));
     }
 
-    // A frame's time is that from the last one's to its own return: with frames in flight, the device's pace. The last
-    // frame of a turn waits for the device, so that the sum is that of the turn.
+    // A frame's time is that from the last one's to its own return: with frames in flight, the device's pace. The last one
+    // waits for the device. In turns, every frame does: else short turns would measure how fast frames are asked for.
     void measure(BenchResult& result, int begin, int end)
     {
         host_.extension().forget_times();
         for (int frame = begin; frame < end; frame++) {
             const Clock::time_point start = Clock::now();
             source_->draw(host_, first_ + frame);
-            if (frame + 1 == end)
+            if (frame + 1 == end || end - begin < frames_)
                 wait();
             result.frame_ms.push_back(float(milliseconds_since(start)));
         }

@@ -138,7 +138,7 @@ std::string make_settings(const EngineRunOptions& options)
     set("s_sdldriver", "dummy");
     set("vid_fullscreen", "0");
     set("cl_predict", "0"); // its smoothing of steps follows the clock on the wall
-    set("cl_maxfps", "1000");
+    set("con_notifytime", "-1"); // so do console lines over the picture
     set("nextdemo", "quit");
     set("record_demo", options.demo);
     for (const auto& [name, value] : options.settings)

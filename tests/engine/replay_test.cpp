@@ -92,9 +92,9 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
     options.width = width;
     options.height = height;
     options.validation = false;
-    options.arguments
-        = { "+set", "pt_capture_dir", "capture", "+set", "pt_capture_every", every, "+set", "timedemo", "1", "+set",
-              "fixedtime", "100000", "+set", "cl_predict", "0", "+set", "nextdemo", "quit", "+demomap", own_demo };
+    options.arguments = { "+set", "pt_capture_dir", "capture", "+set", "pt_capture_every", every, "+set", "timedemo",
+        "1", "+set", "fixedtime", "100000", "+set", "cl_predict", "0", "+set", "con_notifytime", "-1", "+set",
+        "nextdemo", "quit", "+demomap", own_demo };
     options.limit = std::chrono::seconds(240);
     const EngineRun engine(options);
     engine.expect_clean();
