@@ -306,6 +306,8 @@ void EngineRun::watch(int process, const EngineRunOptions& options) const
             fail(is_interrupted ? "interrupted" : error.empty() ? "it has recorded nothing for a minute" : error);
         }
     }
+    if (is_interrupted) // a signal from the terminal reaches the engine, too, and lets it end in order
+        fail("interrupted");
     if (const std::string error = find_error(read_text(console)); !error.empty())
         fail(error);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)

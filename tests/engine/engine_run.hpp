@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ inline constexpr const char* own_demo = "vkpt1.dm2";
 struct EngineOptions {
     std::vector<std::string> arguments; // the engine's, in order
     std::string script; // console commands, one a line; run with "+exec test.cfg"
+    std::map<std::string, std::string> files; // contents by path in the writable game folder
     std::vector<std::string> environment; // NAME=VALUE
     std::vector<std::string> display_commands; // one for each `display_mark`; run by a shell on the engine's display
     int width = 320, height = 180;

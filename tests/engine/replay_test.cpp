@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 #include <iterator>
 
@@ -14,14 +15,26 @@ namespace vkpt::tests {
 
 namespace {
 
-constexpr int width = 160, height = 90;
-constexpr int capture_every = 31;
+constexpr int width = 96, height = 64;
+constexpr int capture_every = 11;
+constexpr int played_messages = 110; // of the demo
 constexpr const char* game_data = VKPT_TEST_BUILD_DIR "/game";
 
 std::string read_file(const std::filesystem::path& path)
 {
     std::ifstream stream(path, std::ios::binary);
     return { std::istreambuf_iterator<char>(stream), {} };
+}
+
+// The demo's beginning. A demo is a chain of messages, each led by its length; -1 ends it.
+std::string cut_demo(const std::string& demo, int messages)
+{
+    size_t at = 0;
+    for (int32_t length = 0; messages > 0 && at + sizeof length <= demo.size(); messages--) {
+        std::memcpy(&length, demo.data() + at, sizeof length);
+        at += sizeof length + size_t(length);
+    }
+    return demo.substr(0, at) + std::string(4, '\xff');
 }
 
 class Recording : public testing::Test {
@@ -88,20 +101,24 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
 {
     const std::string size = std::to_string(width) + "x" + std::to_string(height),
                       every = std::to_string(capture_every);
+    const std::string demo = cut_demo(read_file(std::string(game_data) + "/baseq2/demos/" + own_demo), played_messages);
+    folder.write("start.dm2", demo);
     EngineOptions options;
+    options.files["demos/start.dm2"] = demo;
     options.width = width;
     options.height = height;
     options.validation = false;
     options.arguments = { "+set", "pt_capture_dir", "capture", "+set", "pt_capture_every", every, "+set", "timedemo",
         "1", "+set", "fixedtime", "100000", "+set", "cl_predict", "0", "+set", "con_notifytime", "-1", "+set",
-        "nextdemo", "quit", "+demomap", own_demo };
+        "nextdemo", "quit", "+demomap", "start.dm2" };
     options.limit = std::chrono::seconds(240);
     const EngineRun engine(options);
     engine.expect_clean();
     const auto shown = list_pictures(engine.result().game_folder / "capture");
     ASSERT_GE(shown.size(), 8u) << engine.result().console;
 
-    const ProgramResult recorded = record("a.rtrace", { "--timedemo", "--size", size });
+    const ProgramResult recorded
+        = run({ "record", "start.dm2", "--basedir", game_data, "--timedemo", "--size", size, "-o", "a.rtrace" });
     ASSERT_EQ(recorded.status, 0) << recorded.errors;
     const size_t frames = trace::TraceReader(folder.path() / "a.rtrace").frame_count();
     const ProgramResult replayed = run({ "render", "a.rtrace", "--basedir", game_data, "--size", size, "--seed", "1",
