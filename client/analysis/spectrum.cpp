@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spectrum.hpp"
+#include "client/analysis/spectrum.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
 
-namespace vkpt::test {
+namespace vkpt::analysis {
 
 namespace {
 
@@ -62,6 +63,21 @@ std::vector<double> power_of(const std::vector<double>& picture, size_t side)
     return power;
 }
 
+// To mean 0 and variance 1. False: it is constant.
+bool normalise(std::vector<double>& values)
+{
+    const double n = double(values.size()), mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    double squares = 0;
+    for (double& value : values) {
+        value -= mean;
+        squares += value * value;
+    }
+    const double deviation = std::sqrt(squares / n);
+    for (double& value : values)
+        value /= deviation > 0 ? deviation : 1;
+    return deviation > 0;
+}
+
 } // namespace
 
 Spectrum measure_spectrum(const std::vector<double>& picture, size_t side)
@@ -97,4 +113,23 @@ Spectrum measure_spectrum(const std::vector<std::vector<double>>& pictures, size
     return spectrum;
 }
 
-} // namespace vkpt::test
+Spectrum measure_tiled_spectrum(const std::vector<std::vector<double>>& pictures, size_t width, size_t height)
+{
+    constexpr size_t side = spectrum_tile;
+    std::vector<std::vector<double>> tiles;
+    for (const std::vector<double>& picture : pictures) {
+        if (picture.size() != width * height)
+            throw std::invalid_argument("measure_tiled_spectrum: a picture is of another size");
+        for (size_t top = 0; top + side <= height; top += side)
+            for (size_t left = 0; left + side <= width; left += side) {
+                std::vector<double> tile(side * side);
+                for (size_t y = 0; y < side; y++)
+                    std::copy_n(&picture[(top + y) * width + left], side, &tile[y * side]);
+                if (normalise(tile))
+                    tiles.push_back(std::move(tile));
+            }
+    }
+    return tiles.empty() ? Spectrum() : measure_spectrum(tiles, side);
+}
+
+} // namespace vkpt::analysis
