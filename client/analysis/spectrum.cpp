@@ -132,4 +132,23 @@ Spectrum measure_tiled_spectrum(const std::vector<std::vector<double>>& pictures
     return tiles.empty() ? Spectrum() : measure_spectrum(tiles, side);
 }
 
+Spectrum average_spectra(const std::vector<Spectrum>& spectra)
+{
+    Spectrum mean;
+    double count = 0;
+    for (const Spectrum& spectrum : spectra) {
+        mean.power.resize(std::max(mean.power.size(), spectrum.power.size()), 0);
+        for (size_t i = 0; i < spectrum.power.size(); i++)
+            mean.power[i] += spectrum.power[i];
+        mean.low += spectrum.low;
+        mean.high += spectrum.high;
+        count += spectrum.power.empty() ? 0 : 1;
+    }
+    for (double& power : mean.power)
+        power /= count;
+    mean.low /= std::max(count, 1.0);
+    mean.high /= std::max(count, 1.0);
+    return mean;
+}
+
 } // namespace vkpt::analysis

@@ -26,5 +26,7 @@ Spectrum measure_spectrum(const std::vector<std::vector<double>>& pictures, size
 // tiles without any error, do not count; without any tile `power` is empty.
 inline constexpr size_t spectrum_tile = 32;
 Spectrum measure_tiled_spectrum(const std::vector<std::vector<double>>& pictures, size_t width, size_t height);
+// The mean of spectra that have `power`.
+Spectrum average_spectra(const std::vector<Spectrum>& spectra);
 
 } // namespace vkpt::analysis
