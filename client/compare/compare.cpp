@@ -3,8 +3,8 @@
 #include "client/compare/report.hpp"
 #include "client/compare/sheet.hpp"
 #include "client/host/errors.hpp"
-#include "client/host/output_file.hpp"
 #include "client/options.hpp"
+#include "client/output_folder.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -27,55 +27,6 @@ struct CompareOptions {
     VariantLists lists;
     MeasureOptions measure;
     bool has_all_samplers = false, makes_chapter_figures = false, ignores_cache = false;
-};
-
-// The folder and its four files: found out before the work that they can be written, and named only when whole.
-class OutputFolder {
-public:
-    explicit OutputFolder(const fs::path& path)
-        : path_(path)
-    {
-        std::error_code error;
-        is_new_ = fs::create_directories(path, error);
-        if (error || !fs::is_directory(path, error))
-            throw Failure(fmt::format("-o {}: cannot make this folder: {}; name one that may be written to",
-                path.string(), error ? error.message() : "a file has that name"));
-        try {
-            for (const char* name : { "index.html", "figures.json", "figures.csv", "sheet.png" })
-                files_.push_back(std::make_unique<OutputFile>(path / name));
-        } catch (...) {
-            clear();
-            throw;
-        }
-    }
-    ~OutputFolder() { clear(); }
-    OutputFolder(const OutputFolder&) = delete;
-    OutputFolder& operator=(const OutputFolder&) = delete;
-
-    void write(const Report& report)
-    {
-        const std::string page = make_page(report), json = make_json(report), csv = make_csv(report);
-        files_[0]->write(std::as_bytes(std::span(page)));
-        files_[1]->write(std::as_bytes(std::span(json)));
-        files_[2]->write(std::as_bytes(std::span(csv)));
-        files_[3]->write(formats::write_png(make_sheet(report.scenes[0])));
-        for (const auto& file : files_)
-            file->commit();
-        is_new_ = false;
-    }
-
-private:
-    void clear()
-    {
-        files_.clear();
-        std::error_code ignored;
-        if (is_new_)
-            fs::remove(path_, ignored); // if it is empty
-    }
-
-    fs::path path_;
-    bool is_new_ = false;
-    std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
 // With the time that is left, on a terminal; else a line now and then.
@@ -199,9 +150,13 @@ void run_compare(CompareOptions options)
     report.options = options.measure;
     report.settings = options.module.settings;
     report.command = make_command(options);
-    OutputFolder output(options.output);
+    OutputFolder output(options.output, { "index.html", "figures.json", "figures.csv", "sheet.png" });
     measure_all(options, report);
-    output.write(report);
+    output.write(0, make_page(report));
+    output.write(1, make_json(report));
+    output.write(2, make_csv(report));
+    output.write(3, formats::write_png(make_sheet(report.scenes[0])));
+    output.commit();
     print_table(report);
     fmt::print("\nOpen {} in a browser.\n", (fs::path(options.output) / "index.html").string());
 }

@@ -48,9 +48,10 @@ public:
         , runs_(variants.size())
     {
         if (!stage.is_still() && stage.frame() + 1 < options.warmup + options.frames)
-            throw Failure(fmt::format("frame {} has too few frames before it: filters look back at {} (--warmup), "
-                                      "flicker takes {} (--frames)",
-                stage.frame(), options.warmup, options.frames));
+            throw Failure(fmt::format(
+                "frame {} has too few frames before it: filters look back at {} (--warmup) and flicker takes {} "
+                "(--frames); choose FILE.rtrace@{} or later",
+                stage.frame(), options.warmup, options.frames, options.warmup + options.frames - 1));
         count_frames();
     }
 

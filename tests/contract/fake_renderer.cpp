@@ -70,7 +70,7 @@ bool capture_radiance(float* rgb)
 
 constexpr const char* backends[] = { "software", nullptr };
 constexpr const char* samplers[] = { "subset", "uniform", nullptr };
-constexpr const char* denoisers[] = { nullptr };
+constexpr const char* denoisers[] = { "off", "asvgf", nullptr };
 
 ModuleInfo info()
 {
@@ -105,7 +105,7 @@ const Extension& extension_table()
             return nullptr;
         },
         info, [](const IrradianceProbe*, size_t, uint32_t, float*) { return false; },
-        [](const TracedRay*, size_t, const TraceRequest*, TracedHit*) { return -1.0; }, [] {} };
+        [](const TracedRay*, size_t, const TraceRequest*, TracedHit*) { return -1.0; }, [] {}, [](SceneContents*) { return false; } };
     return table;
 }
 
