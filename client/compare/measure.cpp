@@ -59,12 +59,8 @@ public:
     {
         result_.scene = scene;
         result_.frame = stage_.frame();
-        result_.reference = make_reference(stage_, stage_.frame(), options_.reference, [&] { advance(); });
-        if (result_.reference.was_cached)
-            done_ += std::max(options_.reference.samples, 1);
+        make_references();
         result_.exposure = analysis::choose_exposure(result_.reference.image);
-        shown_reference_ = map_to_display(result_.reference.image, result_.exposure);
-        make_flicker_references();
         result_.variants.resize(variants_.size());
         for (size_t i = 0; i < variants_.size(); i++) {
             stage_.begin_averaged(variants_[i], 1); // its shaders are made at first use
@@ -88,9 +84,9 @@ private:
 
     void count_frames()
     {
-        total_ = std::max(options_.reference.samples, 1) + int(variants_.size());
+        total_ = options_.reference.samples * (has_filtered() ? 2 : 1) + int(variants_.size());
         if (!stage_.is_still())
-            total_ += (options_.frames - 1) * flicker_reference_samples();
+            total_ += options_.frames * flicker_reference_samples();
         for (const Variant& variant : variants_)
             for (int run = 0; run < options_.runs; run++)
                 if (variant.is_filtered())
@@ -113,19 +109,32 @@ private:
         return time;
     }
 
-    // Those of the frames before the chosen one are for differences of whole pictures: an eighth of the samples will
-    // do.
-    int flicker_reference_samples() const { return std::max(options_.reference.samples / 8, 1); }
-    void make_flicker_references()
+    Reference make_one_reference(int frame, PixelPart part, int samples)
     {
-        if (!stage_.is_still())
-            for (int frame = stage_.frame() - options_.frames + 1; frame < stage_.frame(); frame++) {
-                ReferenceOptions options = options_.reference;
-                options.samples = flicker_reference_samples();
-                flicker_references_.push_back(make_reference(stage_, frame, options, [&] { advance(); }).image);
-            }
-        flicker_references_.push_back(result_.reference.image);
+        ReferenceOptions options = options_.reference;
+        options.samples = samples;
+        const int before = done_;
+        Reference reference = make_reference(stage_, frame, part, options, [&] { advance(); });
+        done_ = before + samples; // a cached one drew none
+        return reference;
     }
+    void make_references()
+    {
+        result_.reference = make_one_reference(stage_.frame(), PixelPart::whole, options_.reference.samples);
+        if (has_filtered())
+            result_.centre_reference
+                = make_one_reference(stage_.frame(), PixelPart::centre, options_.reference.samples);
+        if (stage_.is_still()) { // whatever it is, it does not change
+            flicker_references_.push_back(result_.reference.image);
+            return;
+        }
+        for (int frame = stage_.frame() - options_.frames + 1; frame <= stage_.frame(); frame++)
+            flicker_references_.push_back(
+                make_one_reference(frame, PixelPart::centre, flicker_reference_samples()).image);
+    }
+    bool has_filtered() const { return std::ranges::any_of(variants_, &Variant::is_filtered); }
+    // For changes from frame to frame an eighth of the samples will do.
+    int flicker_reference_samples() const { return std::max(options_.reference.samples / 8, 1); }
 
     // One picture of every variant: whatever slows the machine meanwhile slows all of them.
     void run_all(int run)
@@ -188,14 +197,15 @@ private:
     void judge(size_t index, int run, const LinearImage& picture)
     {
         Runs& runs = runs_[index];
-        const LinearImage& reference = result_.reference.image;
+        const LinearImage& reference = reference_of(result_, variants_[index]).image;
         runs.errors.push_back(measure_error(reference, picture));
         runs.mean_differences.push_back(runs.errors.back().mean_difference);
         runs.blocks.push_back(block_differences(reference, picture, block_side));
         runs.spectra.push_back(measure_tiled_spectrum(
             { relative_errors(reference, picture) }, size_t(picture.width), size_t(picture.height)));
         if (measures_costly(run))
-            runs.flips.push_back(mean_flip(measure_flip(shown_reference_, map_to_display(picture, result_.exposure))));
+            runs.flips.push_back(mean_flip(
+                measure_flip(map_to_display(reference, result_.exposure), map_to_display(picture, result_.exposure))));
         if (run == 0)
             result_.variants[index].picture = picture;
     }
@@ -203,14 +213,15 @@ private:
     void summarise(size_t index)
     {
         const Runs& runs = runs_[index];
+        const Reference& reference = reference_of(result_, variants_[index]);
         VariantResult& result = result_.variants[index];
         result.variant = variants_[index];
         result.samples = result.variant.is_filtered() ? 1 : options_.samples;
         result.error = average_errors(runs.errors);
         result.flip = analysis::estimate_mean(runs.flips).mean;
         result.flicker = analysis::estimate_mean(runs.flickers).mean;
-        result.bias = estimate_bias(runs.mean_differences, result_.reference.mean_interval);
-        result.local_bias = estimate_local_bias(runs.blocks, result_.reference.block_variances);
+        result.bias = estimate_bias(runs.mean_differences, reference.mean_interval);
+        result.local_bias = estimate_local_bias(runs.blocks, reference.block_variances);
         result.spectrum = average_spectra(runs.spectra);
         result.ms = median(runs.ms);
         result.light_ms = median(runs.light_ms);
@@ -238,7 +249,6 @@ private:
     const Progress& progress_;
     std::vector<Runs> runs_; // per variant
     SceneResult result_;
-    LinearImage shown_reference_;
     std::vector<LinearImage> flicker_references_; // one, or one a frame
     int done_ = 0, total_ = 0;
 };

@@ -49,12 +49,18 @@ struct VariantResult {
 struct SceneResult {
     std::string scene;
     int frame = 0;
-    Reference reference;
+    Reference reference; // of unfiltered pictures
+    std::optional<Reference> centre_reference; // of filtered ones, where there are some
     float exposure = 1; // for the screen, of all pictures of the scene
     std::vector<VariantResult> variants;
     std::vector<std::string> notes;
     std::string device, driver, trace_backend;
 };
+
+inline const Reference& reference_of(const SceneResult& scene, const Variant& variant)
+{
+    return variant.is_filtered() ? *scene.centre_reference : scene.reference;
+}
 
 using Progress = std::function<void(int done, int total)>;
 

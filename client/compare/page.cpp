@@ -261,14 +261,14 @@ std::string make_plots(const SceneResult& scene)
         }
         const size_t bands = result.spectrum.power.size();
         for (size_t band = 0; band < bands; band++)
-            if (result.spectrum.power[band] > 0) // the lowest bands hold no frequency of a tile
+            if (result.spectrum.power[band] > 0 && !result.variant.is_filtered()) // the lowest bands hold no frequency of a tile
                 power.points.push_back({ (double(band) + 0.5) / double(2 * bands), result.spectrum.power[band] });
         samples.lines.push_back(std::move(by_samples));
         time.lines.push_back(std::move(by_time));
-        if (!result.variant.is_filtered())
-            spectrum.lines.push_back(std::move(power));
+        spectrum.lines.push_back(std::move(power));
+        cost.lines.push_back({ name, {} });
         if (result.ms > 0)
-            cost.lines.push_back({ name, { { result.ms, result.flip } } });
+            cost.lines.back().points.push_back({ result.ms, result.flip });
     }
     return fmt::format("<h3>{}</h3>\n<div class=\"plots\">{}{}{}{}</div>\n", escape_markup(scene.scene),
         draw_plot(samples), draw_plot(time), draw_plot(spectrum), draw_plot(cost));
@@ -285,6 +285,10 @@ std::string make_references(const Report& report)
             escape_markup(scene.scene), scene.frame, reference.samples, escape_markup(reference.sampler),
             reference.rmse, 100 * reference.mean_interval, escape_markup(scene.device), escape_markup(scene.driver),
             escape_markup(scene.trace_backend));
+        if (scene.centre_reference)
+            text += fmt::format("<p>Filtered pictures are compared with one of the pixels' centres, which filters see: "
+                                "{} samples, its own RMSE {:.4f}.</p>\n",
+                scene.centre_reference->samples, scene.centre_reference->rmse);
         for (const std::string& note : scene.notes)
             text += "<p class=\"hint\">" + escape_markup(note) + "</p>\n";
     }

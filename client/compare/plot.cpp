@@ -73,8 +73,9 @@ public:
     {
         x_.is_logarithmic = plot.x_is_logarithmic;
         y_.is_logarithmic = plot.y_is_logarithmic;
-        for (const PlotLine& line : plot.lines) {
-            PlotLine kept { line.name, {} };
+        for (size_t number = 0; number < plot.lines.size(); number++) {
+            const PlotLine& line = plot.lines[number];
+            Line kept { { line.name, {} }, colour_of(number) };
             for (const PlotPoint& point : line.points)
                 if (x_.takes(point.x) && y_.takes(point.y)) {
                     x_.include(point.x);
@@ -108,6 +109,9 @@ public:
     }
 
 private:
+    struct Line : PlotLine {
+        std::string colour;
+    };
     double x_of(double value) const { return left + (width - left - right) * x_.share(value); }
     double y_of(double value) const { return height - bottom - (height - top - bottom) * y_.share(value); }
 
@@ -137,10 +141,9 @@ private:
 
     void draw_line(size_t index)
     {
-        const PlotLine& line = lines_[index];
-        const std::string colour = colour_of(index);
+        const Line& line = lines_[index];
         svg_ += fmt::format(
-            R"(<g class="series" style="--colour:{}"><title>{}</title>)", colour, escape_markup(line.name));
+            R"(<g class="series" style="--colour:{}"><title>{}</title>)", line.colour, escape_markup(line.name));
         std::string path;
         for (const PlotPoint& point : line.points)
             path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x_of(point.x), y_of(point.y));
@@ -158,7 +161,7 @@ private:
 
     const Plot& plot_;
     Axis x_, y_;
-    std::vector<PlotLine> lines_;
+    std::vector<Line> lines_;
     std::string svg_;
 };
 

@@ -21,6 +21,7 @@ struct Plot {
     bool starts_at_zero = false; // the y axis
 };
 
+// A line's colour follows its place in the list, also where others have no points: the same in several plots.
 // Points that are not finite, or not positive on a logarithmic axis, are left out. Empty: nothing is left.
 std::string draw_plot(const Plot& plot);
 

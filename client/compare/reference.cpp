@@ -48,17 +48,32 @@ std::string choose_sampler(const std::string& wanted, const ModuleInfo& module)
     return first;
 }
 
-Converged draw_converged(
-    Stage& stage, int frame, int samples, const Variant& variant, const std::function<void()>& on_sample)
+// One part: the average of `samples` samples.
+LinearImage draw_batch(Stage& stage, int frame, PixelPart part, int samples, const std::function<void()>& on_sample)
+{
+    LinearImage sum;
+    for (int sample = 0; sample < samples; sample++) {
+        stage.draw(frame);
+        if (part == PixelPart::centre)
+            add_image(sum, stage.capture());
+        on_sample();
+    }
+    if (part == PixelPart::whole)
+        return stage.capture(); // the module averages
+    scale_image(sum, 1.0f / float(samples));
+    return sum;
+}
+
+Converged draw_converged(Stage& stage, int frame, PixelPart part, int samples, const Variant& variant,
+    const std::function<void()>& on_sample)
 {
     Converged result;
     for (int batch = 0; batch < batch_count; batch++) {
-        stage.begin_averaged(variant, first_seed + batch);
-        for (int sample = 0; sample < samples / batch_count; sample++) {
-            stage.draw(frame);
-            on_sample();
-        }
-        const LinearImage average = stage.capture();
+        if (part == PixelPart::whole)
+            stage.begin_averaged(variant, first_seed + batch);
+        else
+            stage.begin_live(variant);
+        const LinearImage average = draw_batch(stage, frame, part, samples / batch_count, on_sample);
         add_image(result.halves[size_t(batch % 2)], average);
         result.batch_means.push_back(mean_luminance(average));
         const LinearImage black = analysis::make_image(average.width, average.height);
@@ -178,7 +193,7 @@ fs::path default_reference_folder()
 }
 
 Reference make_reference(
-    Stage& stage, int frame, const ReferenceOptions& options, const std::function<void()>& on_sample)
+    Stage& stage, int frame, PixelPart part, const ReferenceOptions& options, const std::function<void()>& on_sample)
 {
     const std::string sampler = choose_sampler(options.sampler, stage.info());
     const int samples = std::max(options.samples / batch_count, 1) * batch_count;
@@ -187,13 +202,13 @@ Reference make_reference(
     stage.begin_averaged(variant, 1);
     stage.draw(frame);
     const LinearImage first = stage.capture();
-    const std::string key
-        = fmt::format("{:016x} {} {} {} {}", stage.content_hash(), frame, sampler, samples, batch_count);
+    const std::string key = fmt::format("{:016x} {} {} {} {} {}", stage.content_hash(), frame,
+        part == PixelPart::whole ? "whole" : "centre", sampler, samples, batch_count);
     const fs::path path = options.cache_folder / fmt::format("{:016x}.reference", hash_text(key));
     std::optional<Converged> converged = options.use_cache ? read_cache(path, first.width, first.height) : std::nullopt;
     const bool was_cached = converged.has_value();
     if (!converged) {
-        converged = draw_converged(stage, frame, samples, variant, on_sample);
+        converged = draw_converged(stage, frame, part, samples, variant, on_sample);
         if (options.use_cache)
             write_cache(path, *converged);
     }

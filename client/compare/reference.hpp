@@ -11,6 +11,10 @@
 
 namespace vkpt::client {
 
+// Which part of a pixel it shows. Averaged pictures spread their rays over it, which smooths edges; live ones look
+// through its centre, and so do those that filters get.
+enum class PixelPart { whole, centre };
+
 struct Reference {
     analysis::LinearImage image;
     int samples = 0;
@@ -37,6 +41,6 @@ std::filesystem::path default_reference_folder();
 
 // Of the stage's scene at `frame`. on_sample is called after each sample that was drawn; a cached one draws none.
 Reference make_reference(
-    Stage& stage, int frame, const ReferenceOptions& options, const std::function<void()>& on_sample);
+    Stage& stage, int frame, PixelPart part, const ReferenceOptions& options, const std::function<void()>& on_sample);
 
 } // namespace vkpt::client

@@ -37,15 +37,24 @@ Json make_details(const VariantResult& result)
         { "light_ratio", number(result.light_ratio) }, { "curve", curve }, { "spectrum", result.spectrum.power } };
 }
 
+Json make_reference_data(const Reference& reference)
+{
+    return { { "spp", reference.samples }, { "sampler", reference.sampler }, { "rmse", number(reference.rmse) },
+        { "mean_ci95", number(reference.mean_interval) }, { "cached", reference.was_cached } };
+}
+
 Json make_scene(const SceneResult& scene)
 {
-    return { { "scene", scene.scene }, { "frame", scene.frame },
-        { "reference",
-            { { "spp", scene.reference.samples }, { "sampler", scene.reference.sampler },
-                { "rmse", number(scene.reference.rmse) }, { "mean_ci95", number(scene.reference.mean_interval) },
-                { "cached", scene.reference.was_cached } } },
-        { "exposure", number(double(scene.exposure)) }, { "device", scene.device }, { "driver", scene.driver },
-        { "trace_backend", scene.trace_backend }, { "notes", scene.notes } };
+    Json json { { "scene", scene.scene }, { "frame", scene.frame },
+        { "reference", make_reference_data(scene.reference) } };
+    if (scene.centre_reference)
+        json["centre_reference"] = make_reference_data(*scene.centre_reference);
+    json["exposure"] = number(double(scene.exposure));
+    json["device"] = scene.device;
+    json["driver"] = scene.driver;
+    json["trace_backend"] = scene.trace_backend;
+    json["notes"] = scene.notes;
+    return json;
 }
 
 // RFC 4180.

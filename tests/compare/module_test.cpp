@@ -182,12 +182,15 @@ TEST(MeasureScene, TellsVariantsApart)
     EXPECT_FALSE(filtered.equal_time_rmse);
 
     // A damaged file is no reference.
-    ASSERT_EQ(references.names().size(), 1u);
-    std::string text = references.read(references.names()[0]);
-    text[text.size() / 2] ^= 1;
-    references.write(references.names()[0], text);
+    const std::vector<std::string> names = references.names();
+    ASSERT_EQ(names.size(), 2u); // of whole pixels, and of their centres
+    for (const std::string& name : names) {
+        std::string text = references.read(name);
+        text[text.size() / 2] ^= 1;
+        references.write(name, text);
+    }
     Stage stage(stage_options, "maps/scene.bsp");
-    EXPECT_FALSE(make_reference(stage, 0, options.reference, [] {}).was_cached);
+    EXPECT_FALSE(make_reference(stage, 0, PixelPart::whole, options.reference, [] {}).was_cached);
 }
 
 } // namespace

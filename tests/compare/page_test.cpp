@@ -32,7 +32,7 @@ TEST(Page, NeedsNothingFromOutside)
     const size_t data = page.find("<script type=\"application/json\"");
     ASSERT_NE(data, std::string::npos);
     const size_t end = page.find("</script>", data);
-    EXPECT_EQ(page.substr(end, 20), "</script>\n<script>\"u");
+    EXPECT_EQ(page.substr(end, 20), "</script>\n<script>//");
 }
 
 TEST(Page, WorksForAReader)

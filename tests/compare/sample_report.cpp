@@ -48,6 +48,7 @@ SceneResult make_scene(const char* name, int frame)
     scene.reference.samples = 1024;
     scene.reference.sampler = "subset_mis";
     scene.reference.rmse = 0.03;
+    scene.centre_reference = scene.reference;
     scene.device = "a device <of> paper";
     scene.variants = { make_result(make_variant("subset", 8), 1.5), make_result(make_variant("subset", 64), 0.5),
         make_result(make_variant("uniform", 8), 4), make_result(make_variant("subset", 8, "asvgf"), 0.25) };
