@@ -13,8 +13,8 @@ constexpr size_t plain_columns = 3;
 
 // Places on our map for what the figures show.
 constexpr const char* many_lights = "maps/vkpt1.bsp";
-constexpr const char* glossy_floor = "maps/vkpt1.bsp@0,-384,54,0,90";
-constexpr const char* beside_lamps = "maps/vkpt1.bsp@-592,-64,54,0,180";
+constexpr const char* glossy_floor = "maps/vkpt1.bsp@0,-300,40,20,90";
+constexpr const char* beside_lamps = "maps/vkpt1.bsp@440,-128,60,5,0"; // the lava, too, shines on the walls
 
 class Plan {
 public:
