@@ -30,6 +30,9 @@ int main(int argc, char** argv)
     vkpt::client::add_render_command(program);
     vkpt::client::add_bench_command(program);
     vkpt::client::add_manual_options(program);
+    vkpt::client::add_compare_command(program);
+    vkpt::client::add_diff_command(program);
+    vkpt::client::add_export_command(program);
     try {
         program.parse(argc, argv);
         return done;

@@ -39,6 +39,9 @@ struct Size {
 Size parse_size(const std::string& text);
 
 // Each subcommand is one file: it adds itself to the program and runs as its callback.
+void add_compare_command(CLI::App& program);
+void add_diff_command(CLI::App& program);
+void add_export_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_record_command(CLI::App& program);
 void add_render_command(CLI::App& program);

@@ -4,6 +4,7 @@
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/exports.hpp"
 #include "ref_vkpt/module.hpp"
+#include "ref_vkpt/scene_contents.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -72,6 +73,9 @@ void fill_world_counts(ModuleInfo& info, const Module& m)
     info.dynamic_triangles = m.snapshot ? m.snapshot->moving.triangle_count() : 0;
     info.clusters = world->light_lists.lists().size() - 1;
     info.emitters = world->models[0].emitters.size() + (m.snapshot ? m.snapshot->emitters.size() : 0);
+    const glm::dvec3 power = m.snapshot ? emitted_power(*m.snapshot) : glm::dvec3(0);
+    for (int i = 0; i < 3; i++)
+        info.emitted_power[i] = power[i];
     info.light_list_entries = world->light_lists.static_indices().size() + world->light_lists.dynamic_indices().size();
 }
 
@@ -185,12 +189,22 @@ void thaw_scene()
         m->snapshot_is_frozen = false;
 }
 
+bool read_scene(SceneContents* contents)
+{
+    Module* m = module();
+    if (!m || !m->snapshot || !m->snapshot->world || m->graphics.is_recording())
+        return false;
+    *contents = read_scene_contents(*m);
+    return true;
+}
+
 } // namespace
 
 const Extension& extension_table()
 {
     static const Extension table { extension_version, sizeof(Extension), frame_size, capture_display, capture_radiance,
-        accumulated_frames, pass_times, module_info, measure_irradiance, trace_rays, thaw_scene, collected_times, forget_times };
+        accumulated_frames, pass_times, module_info, measure_irradiance, trace_rays, thaw_scene, collected_times,
+        forget_times, read_scene };
     return table;
 }
 
@@ -205,7 +219,8 @@ void print_info()
     engine::print("triangles      {} ({} moving), {:.0f} bytes each of the map's in the acceleration structure",
         info.triangles + info.dynamic_triangles, info.dynamic_triangles, info.structure_bytes_per_triangle);
     engine::print("clusters       {}", info.clusters);
-    engine::print("emitters       {}", info.emitters);
+    engine::print("emitters       {}, power {:.6g} {:.6g} {:.6g} (radiance x units^2 x sr)", info.emitters,
+        info.emitted_power[0], info.emitted_power[1], info.emitted_power[2]);
     engine::print("light lists    {} entries", info.light_list_entries);
     engine::print("textures       {}, {:.1f} MiB", info.textures, mib(info.texture_bytes));
     engine::print("memory (MiB)   geometry {:.1f}, acceleration {:.1f}, lights {:.1f}, images {:.1f}, staging {:.1f}",

@@ -39,6 +39,7 @@ struct ModuleInfo {
     double structure_bytes_per_triangle; // of the map, in the trace backend in use
     // Rays of the last frame with pt_count_rays 1: for the nearest hit, for visibility.
     uint64_t nearest_rays, visibility_rays;
+    double emitted_power[3]; // of all emitters of the last view: radiance * units^2 * sr, RGB
 };
 
 // Times of one pass, or of one of the CPU's tasks ("cpu scene"), over many frames.
@@ -74,6 +75,48 @@ struct TraceRequest {
     uint32_t rounds = 1; // how often, for timing; the first of several is preceded by one more that does not count
 };
 
+// The scene of the last view: Quake world units, z up; linear RGB.
+struct SceneTriangle {
+    float positions[3][3]; // cross(p1 - p0, p2 - p0) points to the front
+    float uvs[3][2]; // picture coordinates, 1 = one picture width; v grows downwards
+    uint32_t material; // index into SceneContents::materials
+    int32_t emitter; // index into SceneContents::emitters, -1: none
+    uint32_t ray_mask; // MASK_* of shaders/shared/scene.h
+};
+
+struct SceneMaterial {
+    const char* picture; // the file it was read from; empty: none
+    float base_colour[3]; // the picture's average, tinted
+    float opacity; // 1 opaque
+    float emission[3]; // average radiance of the front, at this moment
+    float roughness; // GGX alpha = roughness^2
+    float metallic;
+    uint32_t flags; // MATERIAL_* of shaders/shared/scene.h
+};
+
+struct SceneEmitter {
+    uint32_t type; // EMITTER_* of shaders/shared/scene.h
+    float positions[3][3]; // of triangles
+    float centre[3], radius; // of spheres
+    float radiance[3]; // average, at this moment; triangles: of the front
+    float area;
+    float reach; // no light farther than this from its place; 0: no limit
+};
+
+struct SceneCamera {
+    float eye[3], forward[3], right[3], up[3]; // right, up: scaled by the tangent of half the angle of sight
+};
+
+struct SceneContents {
+    const SceneTriangle* triangles;
+    size_t triangle_count;
+    const SceneMaterial* materials;
+    size_t material_count;
+    const SceneEmitter* emitters; // dark ones, too: the place of a dynamic light that has gone is kept
+    size_t emitter_count;
+    SceneCamera camera;
+};
+
 struct Extension {
     uint32_t version;
     uint32_t struct_size;
@@ -102,6 +145,8 @@ struct Extension {
     // for the device, so that the last frame is among them. The arrays live until the next frame begins.
     const PassSamples* (*collected_times)(size_t* count);
     void (*forget_times)();
+    // What the last view was made of. Valid until the next frame or call. False: no map.
+    bool (*read_scene)(SceneContents* contents);
 };
 
 // Signature of the exported symbol "vkpt_extension". Returns nullptr if `version` is not served.

@@ -2,6 +2,7 @@
 #include "client/host/file_system.hpp"
 
 #include "client/host/errors.hpp"
+#include "client/host/hash.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -161,7 +162,23 @@ bool FileSystem::exists(std::string_view game_path) const
 
 std::optional<std::vector<std::byte>> FileSystem::read(std::string_view game_path) const
 {
-    const std::string key = index_key(game_path);
+    std::string key = index_key(game_path);
+    auto bytes = read_bytes(key, game_path);
+    const uint64_t hash = bytes ? hash_bytes(*bytes, hash_bytes(std::as_bytes(std::span(key)))) : 0;
+    read_.insert_or_assign(std::move(key), hash);
+    return bytes;
+}
+
+uint64_t FileSystem::content_hash() const
+{
+    uint64_t hash = hash_start;
+    for (const auto& [key, file] : read_)
+        hash = hash_bytes(std::as_bytes(std::span(&file, 1)), hash);
+    return hash;
+}
+
+std::optional<std::vector<std::byte>> FileSystem::read_bytes(const std::string& key, std::string_view game_path) const
+{
     if (const auto added = added_.find(key); added != added_.end()) {
         std::ifstream stream(added->second, std::ios::binary);
         if (!stream)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -31,17 +32,22 @@ public:
     std::vector<std::string> list(std::string_view folder, std::string_view ending) const;
 
     const std::filesystem::path& base_folder() const { return base_folder_; }
+    // Of names and bytes of everything that has been read so far, in whatever order: what a picture of it depends on.
+    uint64_t content_hash() const;
+
     // What is searched, first one first: for messages.
     const std::vector<std::string>& search_path() const { return search_path_; }
 
 private:
     void mount(const std::filesystem::path& folder);
     void index_files();
+    std::optional<std::vector<std::byte>> read_bytes(const std::string& key, std::string_view game_path) const;
 
     std::filesystem::path base_folder_;
     std::vector<std::string> search_path_;
     std::map<std::string, std::string, std::less<>> index_; // lower case -> as written
     std::map<std::string, std::filesystem::path, std::less<>> added_; // lower case -> on the disk
+    mutable std::map<std::string, uint64_t, std::less<>> read_; // lower case -> hash
 };
 
 } // namespace vkpt::client

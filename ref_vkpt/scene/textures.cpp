@@ -215,6 +215,15 @@ void TextureStore::flush_if_needed()
     upload_pending_ = false;
 }
 
+std::map<uint32_t, const Texture*> TextureStore::by_slot() const
+{
+    std::map<uint32_t, const Texture*> slots;
+    for (size_t i = 0; i < capacity_; i++)
+        if (entries_[i].registration != 0)
+            slots.emplace(entries_[i].slot, &entries_[i]); // the first, where several share one
+    return slots;
+}
+
 size_t TextureStore::count() const
 {
     return size_t(std::count_if(entries_.get(), entries_.get() + capacity_,

@@ -60,6 +60,8 @@ public:
     // Before a frame is submitted that may show newly found pictures.
     void flush_if_needed();
 
+    // What is in each slot that is taken.
+    std::map<uint32_t, const Texture*> by_slot() const;
     // How many are loaded.
     size_t count() const;
     // For the console command `imagelist`.

@@ -82,6 +82,8 @@ TEST_F(Cli, WrongUseExitsWithTwo)
         { "record", "x.dm2" },
         { "record", "x.dm2", "-o", "x.trace" },
         { "record", "x.dm2", "--rate", "5", "-o", "x.rtrace" },
+        { "diff" },
+        { "export", "maps/sample.bsp" },
     };
     for (const std::vector<std::string>& arguments : cases) {
         std::string line;
@@ -339,6 +341,111 @@ TEST_F(Cli, BenchComparesWithAnEarlierRun)
     expect_in(newer.errors, "newer vkpt");
 }
 
+TEST_F(Cli, DiffMeasuresAndDraws)
+{
+    ASSERT_EQ(render({ "-o", "a.pfm" }).status, 0);
+    ASSERT_EQ(render({ "-o", "a.exr" }).status, 0);
+    const ProgramResult same = run({ "diff", "a.pfm", "a.exr", "--json" });
+    ASSERT_EQ(same.status, 0) << same.errors;
+    const nlohmann::json json = nlohmann::json::parse(same.output);
+    EXPECT_EQ(json.at("schema"), 1);
+    const nlohmann::json& picture = json.at("pictures").at(0);
+    for (const char* name : { "rmse", "rel_mse", "mean_difference", "flip" })
+        EXPECT_EQ(picture.at(name), 0) << name;
+    EXPECT_EQ(picture.at("file"), "a.exr");
+    const ProgramResult heat = run({ "diff", "a.pfm", "a.exr", "-o", "heat.png" });
+    EXPECT_EQ(heat.status, 0) << heat.errors;
+    expect_in(heat.output, "flip");
+    const std::string file = folder.read("heat.png");
+    const formats::Image map
+        = formats::read_common_image({ reinterpret_cast<const std::byte*>(file.data()), file.size() }, "heat.png");
+    EXPECT_EQ(map.width, 4);
+    EXPECT_EQ(map.at(0, 0), (formats::Rgba8 { 0, 0, 0, 255 }));
+}
+
+TEST_F(Cli, DiffRefusesWhatCannotBeCompared)
+{
+    ASSERT_EQ(render({ "-o", "a.pfm" }).status, 0);
+    ASSERT_EQ(render({ "-o", "a.png" }).status, 0);
+    ASSERT_EQ(run({ "render", "maps/sample.bsp", "--size", "2x2", "--spp", "1", "-o", "small.pfm" }).status, 0);
+    folder.write("cut.pfm", folder.read("a.pfm").substr(0, 30));
+    const struct {
+        std::vector<std::string> arguments;
+        int status;
+        const char* part;
+    } cases[] = {
+        { { "diff", "a.pfm", "small.pfm" }, 1, "4 x 2" },
+        { { "diff", "a.pfm", "a.png" }, 1, "linear" },
+        { { "diff", "a.pfm", "cut.pfm" }, 1, "cut.pfm" },
+        { { "diff", "a.pfm", "nowhere.exr" }, 1, "nowhere.exr" },
+        { { "diff", "a.pfm", "a.pfm", "-o", "nofolder/heat.png" }, 1, "nofolder" },
+        { { "diff", "a.pfm", "a.pfm", "-o", "heat.gif" }, 2, "heat.gif" },
+        { { "diff", "a.pfm", "a.pfm", "a.pfm", "-o", "heat.png" }, 2, "-o" },
+        { { "diff", "a.pfm" }, 2, "PICTURE" },
+    };
+    for (const auto& [arguments, status, part] : cases) {
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.status, status) << arguments.back();
+        expect_in(result.errors, part);
+        for (const std::string& name : folder.names())
+            EXPECT_FALSE(name.starts_with("heat") || name.starts_with(".")) << name;
+    }
+}
+
+TEST_F(Cli, CompareWritesAllOfItsFiles)
+{
+    const std::vector<std::string> command { "compare", "maps/sample.bsp", "--samplers", "all", "--subsets", "1,8",
+        "--noise", "blue,white", "--denoisers", "off,asvgf", "--size", "40x36", "--runs", "2", "--frames", "2",
+        "--warmup", "1", "--reference-spp", "32", "-o", "compared" };
+    const ProgramResult result = run(command);
+    ASSERT_EQ(result.status, 0) << result.errors;
+    expect_in(result.output, "compared/index.html");
+    expect_in(result.output, "| `subset R8 white asvgf` |");
+    const ScratchFolder& files = folder;
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "compared"))
+        names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    EXPECT_EQ(names, (std::vector<std::string> { "figures.csv", "figures.json", "index.html", "sheet.png" }));
+    const nlohmann::json json = nlohmann::json::parse(files.read("compared/figures.json"));
+    EXPECT_EQ(json.at("rows").size(), 12u); // subset: 2 * 2 * 2, uniform: 2 * 2
+    for (const nlohmann::json& row : json.at("rows")) {
+        EXPECT_EQ(row.at("rmse"), 0) << "the module of paper always draws the same";
+        EXPECT_EQ(row.at("flicker"), 0);
+    }
+    EXPECT_EQ(json.at("scenes").at(0).at("reference").at("cached"), false);
+    ASSERT_EQ(run(command).status, 0);
+    EXPECT_EQ(
+        nlohmann::json::parse(files.read("compared/figures.json")).at("scenes").at(0).at("reference").at("cached"),
+        true);
+}
+
+TEST_F(Cli, CompareRefusesWhatThereIsNot)
+{
+    const struct {
+        std::vector<std::string> arguments;
+        int status;
+        const char* part;
+    } cases[] = {
+        { { "compare", "-o", "compared" }, 2, "--figures" },
+        { { "compare", "maps/sample.bsp", "--figures", "-o", "compared" }, 2, "SCENE" },
+        { { "compare", "--figures", "-o", "compared" }, 2, "uniform" },
+        { { "compare", "maps/sample.bsp", "--samplers", "best", "-o", "compared" }, 2, "subset, uniform" },
+        { { "compare", "maps/sample.bsp", "--reference-sampler", "best", "--samplers", "subset", "-o", "compared" }, 2,
+            "best" },
+        { { "compare", "maps/sample.bsp", "--runs", "1", "-o", "compared" }, 2, "--runs" },
+        { { "compare", "maps/nowhere.bsp", "-o", "compared" }, 1, "maps/nowhere.bsp" },
+        { { "compare", "maps/sample.bsp", "-o", "baseq2/maps/sample.bsp" }, 1, "baseq2/maps/sample.bsp" },
+        { { "export", "maps/sample.bsp", "-o", "exported" }, 1, "no map to give out" },
+    };
+    for (const auto& [arguments, status, part] : cases) {
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.status, status) << part << "\n" << result.errors;
+        expect_in(result.errors, part);
+        expect_no_output_left();
+    }
+}
+
 #ifdef REAL_MODULE
 TEST_F(Cli, InfoOfTheRealModuleHasItsSchema) { expect_info_schema(run({ "info", "--json", "--module", REAL_MODULE })); }
 
@@ -354,6 +461,22 @@ TEST_F(Cli, RealModuleRendersTheSampleMap)
     const ProgramResult result = render({ "--module", REAL_MODULE, "-o", "a.png" });
     EXPECT_EQ(result.status, 0) << result.errors;
     EXPECT_FALSE(folder.read("a.png").empty());
+}
+
+TEST_F(Cli, ExportAgreesWithTheModule)
+{
+    const ProgramResult result
+        = run({ "export", "maps/sample.bsp", "--module", REAL_MODULE, "--size", "16x8", "-o", "scene" });
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const nlohmann::json json = nlohmann::json::parse(folder.read("scene/scene.json"));
+    EXPECT_EQ(json.at("emitters").size(), json.at("emitter_count"));
+    EXPECT_EQ(json.at("camera").at("width"), 16);
+    const std::string obj = folder.read("scene/scene.obj");
+    size_t faces = 0;
+    for (size_t at = 0; (at = obj.find("\nf ", at)) != std::string::npos; at++)
+        faces++;
+    EXPECT_EQ(faces, json.at("triangles").get<size_t>());
+    EXPECT_FALSE(folder.read("scene/scene.mtl").empty());
 }
 #endif
 

@@ -71,7 +71,7 @@ bool capture_radiance(float* rgb)
 
 constexpr const char* backends[] = { "software", nullptr };
 constexpr const char* samplers[] = { "subset", "uniform", nullptr };
-constexpr const char* denoisers[] = { nullptr };
+constexpr const char* denoisers[] = { "off", "asvgf", nullptr };
 
 ModuleInfo info()
 {
@@ -122,7 +122,7 @@ const Extension& extension_table()
         },
         info, [](const IrradianceProbe*, size_t, uint32_t, float*) { return false; },
         [](const TracedRay*, size_t, const TraceRequest*, TracedHit*) { return -1.0; }, [] {}, fake_times,
-        [] { forgotten_frames = frames_done; } };
+        [] { forgotten_frames = frames_done; }, [](SceneContents*) { return false; } };
     return table;
 }
 

@@ -78,7 +78,7 @@ SpectrumScene::Error SpectrumScene::measure(
                 error.bias += relative / double(side * side) / frames;
                 error.variance += relative * relative / double(side * side) / frames;
             }
-    error.spectrum = measure_spectrum(pictures, side);
+    error.spectrum = analysis::measure_spectrum(pictures, side);
     return error;
 }
 

@@ -3,8 +3,8 @@
 // its error.
 #pragma once
 
+#include "client/analysis/spectrum.hpp"
 #include "sampler_case.hpp"
-#include "spectrum.hpp"
 
 namespace vkpt::test {
 
@@ -16,7 +16,7 @@ public:
 
     // Spectrum and variance of the relative error, over the pictures of several frames; the mean for bias.
     struct Error {
-        Spectrum spectrum;
+        analysis::Spectrum spectrum;
         double variance = 0, bias = 0;
     };
     Error measure(const Sampler& sampler, const SamplerOptions& options, const uint32_t* masks, int frames) const;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <random>
 
 namespace vkpt::test {
 namespace {
@@ -41,25 +40,6 @@ protected:
         return error;
     }
 };
-
-TEST(Spectrum, TellsWhiteFromSmoothAndRough)
-{
-    std::mt19937 rng(1);
-    std::normal_distribution<double> gauss;
-    constexpr size_t side = 128;
-    std::vector<double> white(side * side), smooth(side * side), rough_picture(side * side);
-    for (double& value : white)
-        value = 3 * gauss(rng);
-    for (size_t i = 0; i < white.size(); i++) {
-        smooth[i] = std::sin(double(i % side) * 0.1);
-        rough_picture[i] = (i % side + i / side) % 2 ? 1 : -1;
-    }
-    const Spectrum spectrum = measure_spectrum(white, side);
-    EXPECT_NEAR(spectrum.low_to_high(), 1, 0.15);
-    EXPECT_NEAR(spectrum.high, 9, 0.5);
-    EXPECT_GT(measure_spectrum(smooth, side).low_to_high(), 20);
-    EXPECT_LT(measure_spectrum(rough_picture, side).low_to_high(), 0.01);
-}
 
 TEST_F(SpectrumOfError, IsWhiteUnderWhiteNoise)
 {

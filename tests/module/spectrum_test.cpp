@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How the module's error at one sample per pixel is spread over frequencies, low by high, where white noise is 1: blue
 // noise must survive the light sampler. The scene hides nothing, so that only the choice of lights makes noise.
-#include "tests/lights/spectrum.hpp"
+#include "client/analysis/spectrum.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
@@ -63,7 +63,7 @@ protected:
             for (size_t i = 0; i < picture.pixels.size(); i++)
                 error.push_back(double(luminance(picture.pixels[i]) / luminance(truth_.pixels[i])) - 1);
         }
-        const double ratio = test::measure_spectrum(errors, side).low_to_high();
+        const double ratio = analysis::measure_spectrum(errors, side).low_to_high();
         testing::Test::RecordProperty(std::string(sampler) + "_" + weight, std::to_string(ratio));
         return ratio;
     }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "spectrum.hpp"
+#include "client/analysis/spectrum.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
 
-namespace vkpt::test {
+namespace vkpt::analysis {
 
 namespace {
 
@@ -62,6 +63,21 @@ std::vector<double> power_of(const std::vector<double>& picture, size_t side)
     return power;
 }
 
+// To mean 0 and variance 1. False: it is constant.
+bool normalise(std::vector<double>& values)
+{
+    const double n = double(values.size()), mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    double squares = 0;
+    for (double& value : values) {
+        value -= mean;
+        squares += value * value;
+    }
+    const double deviation = std::sqrt(squares / n);
+    for (double& value : values)
+        value /= deviation > 0 ? deviation : 1;
+    return deviation > 0;
+}
+
 } // namespace
 
 Spectrum measure_spectrum(const std::vector<double>& picture, size_t side)
@@ -97,4 +113,42 @@ Spectrum measure_spectrum(const std::vector<std::vector<double>>& pictures, size
     return spectrum;
 }
 
-} // namespace vkpt::test
+Spectrum measure_tiled_spectrum(const std::vector<std::vector<double>>& pictures, size_t width, size_t height)
+{
+    constexpr size_t side = spectrum_tile;
+    std::vector<std::vector<double>> tiles;
+    for (const std::vector<double>& picture : pictures) {
+        if (picture.size() != width * height)
+            throw std::invalid_argument("measure_tiled_spectrum: a picture is of another size");
+        for (size_t top = 0; top + side <= height; top += side)
+            for (size_t left = 0; left + side <= width; left += side) {
+                std::vector<double> tile(side * side);
+                for (size_t y = 0; y < side; y++)
+                    std::copy_n(&picture[(top + y) * width + left], side, &tile[y * side]);
+                if (normalise(tile))
+                    tiles.push_back(std::move(tile));
+            }
+    }
+    return tiles.empty() ? Spectrum() : measure_spectrum(tiles, side);
+}
+
+Spectrum average_spectra(const std::vector<Spectrum>& spectra)
+{
+    Spectrum mean;
+    double count = 0;
+    for (const Spectrum& spectrum : spectra) {
+        mean.power.resize(std::max(mean.power.size(), spectrum.power.size()), 0);
+        for (size_t i = 0; i < spectrum.power.size(); i++)
+            mean.power[i] += spectrum.power[i];
+        mean.low += spectrum.low;
+        mean.high += spectrum.high;
+        count += spectrum.power.empty() ? 0 : 1;
+    }
+    for (double& power : mean.power)
+        power /= count;
+    mean.low /= std::max(count, 1.0);
+    mean.high /= std::max(count, 1.0);
+    return mean;
+}
+
+} // namespace vkpt::analysis

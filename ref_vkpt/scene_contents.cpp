@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/scene_contents.hpp"
+
+#include <glm/common.hpp>
+#include <glm/gtc/constants.hpp>
+#include <map>
+
+namespace vkpt {
+
+namespace {
+
+void copy_vector(float (&to)[3], glm::vec3 from)
+{
+    for (int i = 0; i < 3; i++)
+        to[i] = from[i];
+}
+
+// All of the map's, then all of the view's: emitter indices count through both.
+template <class Visit> void visit_emitters(const SceneSnapshot& snapshot, const Visit& visit)
+{
+    for (const shared::Emitter& emitter : snapshot.world->models[0].emitters)
+        visit(emitter, snapshot.lightstyles[emitter.lightstyle]);
+    for (const shared::Emitter& emitter : snapshot.emitters)
+        visit(emitter, snapshot.lightstyles[emitter.lightstyle]);
+}
+
+SceneTriangle make_triangle(const shared::Triangle& from, uint32_t mask)
+{
+    SceneTriangle to {};
+    for (int corner = 0; corner < 3; corner++) {
+        copy_vector(to.positions[corner], from.positions[corner]);
+        to.uvs[corner][0] = from.uvs[corner].x;
+        to.uvs[corner][1] = from.uvs[corner].y;
+    }
+    to.material = from.material;
+    to.emitter = from.emitter;
+    to.ray_mask = mask;
+    return to;
+}
+
+void add_triangles(std::vector<SceneTriangle>& out, Module& m)
+{
+    const SceneSnapshot& snapshot = *m.snapshot;
+    const MapGeometry& world = snapshot.world->models[0];
+    for (size_t i = 0; i < world.triangles.size(); i++)
+        out.push_back(make_triangle(world.triangles[i], world.masks[i]));
+    std::vector<shared::Triangle> moving(snapshot.moving.triangle_count());
+    std::vector<uint32_t> masks(moving.size());
+    if (moving.empty())
+        return;
+    MovingTarget target;
+    target.triangles = moving.data();
+    target.masks = masks.data();
+    MovingWriter(m.workers).write(snapshot.moving, target);
+    for (size_t i = 0; i < moving.size(); i++)
+        out.push_back(make_triangle(moving[i], masks[i]));
+}
+
+SceneMaterial make_material(const shared::Material& from, const Texture* picture, float lightstyle)
+{
+    SceneMaterial to {};
+    to.picture = picture ? picture->file.c_str() : "";
+    const glm::vec3 average = picture ? picture->average : glm::vec3(1);
+    copy_vector(to.base_colour, glm::clamp(average * from.tint, 0.0f, 1.0f));
+    to.opacity = from.opacity;
+    copy_vector(to.emission, from.emission * average * lightstyle);
+    to.roughness = from.roughness;
+    to.metallic = from.metallic;
+    to.flags = from.flags;
+    return to;
+}
+
+SceneEmitter make_emitter(const shared::Emitter& from, float lightstyle)
+{
+    SceneEmitter to {};
+    to.type = from.type;
+    if (from.type == shared::EMITTER_SPHERE) {
+        copy_vector(to.centre, from.p0);
+        to.radius = from.p1.x;
+    } else {
+        const glm::vec3 corners[] = { from.p0, from.p1, from.p2 };
+        for (int corner = 0; corner < 3; corner++)
+            copy_vector(to.positions[corner], corners[corner]);
+    }
+    copy_vector(to.radiance, from.radiance * lightstyle);
+    to.area = from.area;
+    to.reach = from.reach;
+    return to;
+}
+
+} // namespace
+
+SceneContents read_scene_contents(Module& m)
+{
+    static std::vector<SceneTriangle> triangles;
+    static std::vector<SceneMaterial> materials;
+    static std::vector<SceneEmitter> emitters;
+    triangles.clear();
+    materials.clear();
+    emitters.clear();
+    const SceneSnapshot& snapshot = *m.snapshot;
+    add_triangles(triangles, m);
+    const std::map<uint32_t, const Texture*> pictures = m.textures.by_slot();
+    for (const shared::Material& material : snapshot.materials) {
+        const auto picture = pictures.find(material.texture);
+        materials.push_back(make_material(material, picture == pictures.end() ? nullptr : picture->second,
+            snapshot.lightstyles[material.lightstyle]));
+    }
+    visit_emitters(snapshot, [&](const shared::Emitter& emitter, float lightstyle) {
+        emitters.push_back(make_emitter(emitter, lightstyle));
+    });
+    SceneContents contents { triangles.data(), triangles.size(), materials.data(), materials.size(), emitters.data(),
+        emitters.size(), {} };
+    const shared::Camera& camera = m.frame.last_view().camera;
+    copy_vector(contents.camera.eye, camera.eye);
+    copy_vector(contents.camera.forward, camera.forward);
+    copy_vector(contents.camera.right, camera.right);
+    copy_vector(contents.camera.up, camera.up);
+    return contents;
+}
+
+glm::dvec3 emitted_power(const SceneSnapshot& snapshot)
+{
+    glm::dvec3 power(0);
+    visit_emitters(snapshot, [&](const shared::Emitter& emitter, float lightstyle) {
+        power += glm::pi<double>() * double(emitter.area) * double(lightstyle) * glm::dvec3(emitter.radiance);
+    });
+    return power;
+}
+
+} // namespace vkpt
