@@ -20,11 +20,30 @@
 // A pass that does not trace is compiled without a backend.
 #if defined(VKPT_TRACE_SOFTWARE) || defined(VKPT_TRACE_QUERY) || defined(VKPT_TRACE_PIPELINE)
 
+// Of this invocation since it was last asked.
+uint traced_rays = 0u;
+
 // hit.triangle is TRACE_MISS where nothing was met.
-RawHit trace_nearest(Ray ray, uint mask) { return search_ray(ray, mask, false); }
+RawHit trace_nearest(Ray ray, uint mask)
+{
+    traced_rays += 1u;
+    return search_ray(ray, mask, false);
+}
 
 // Whether nothing of the masked triangles lies on the ray between t_min and t_max.
-bool trace_visible(Ray ray, uint mask) { return search_ray(ray, mask, true).triangle == TRACE_MISS; }
+bool trace_visible(Ray ray, uint mask)
+{
+    traced_rays += 1u;
+    return search_ray(ray, mask, true).triangle == TRACE_MISS;
+}
+
+// Adds what this invocation has traced for a pixel to `before`, and begins to count anew.
+void count_rays(uint index, uint before)
+{
+    if (frame.cvars.pt_debug_view == DEBUG_VIEW_RAYS)
+        store_ray_count(index, before + traced_rays);
+    traced_rays = 0u;
+}
 
 #endif
 
