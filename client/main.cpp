@@ -26,6 +26,7 @@ int main(int argc, char** argv)
     program.require_subcommand(1);
     vkpt::client::add_info_command(program);
     vkpt::client::add_render_command(program);
+    vkpt::client::add_view_command(program);
     try {
         program.parse(argc, argv);
         return done;

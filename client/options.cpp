@@ -37,17 +37,25 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
     command.add_option("--game", options.game, "A game's folder beside baseq2, searched before it")->type_name("NAME");
 }
 
+std::vector<std::pair<std::string, std::string>> parse_settings(
+    const std::vector<std::string>& texts, std::string_view option)
+{
+    std::vector<std::pair<std::string, std::string>> settings;
+    for (const std::string& text : texts) {
+        const size_t equals = text.find('=');
+        if (equals == 0 || equals == std::string::npos)
+            throw WrongUse(fmt::format("{0} {1}: write {0} NAME=VALUE", option, text));
+        settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+    return settings;
+}
+
 HostOptions make_host_options(const ModuleOptions& options)
 {
     HostOptions host;
     host.module = options.module;
     host.verbose = options.verbose;
-    for (const std::string& setting : options.settings) {
-        const size_t equals = setting.find('=');
-        if (equals == 0 || equals == std::string::npos)
-            throw WrongUse(fmt::format("--set {}: write --set NAME=VALUE", setting));
-        host.cvars.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
-    }
+    host.cvars = parse_settings(options.settings, "--set");
     return host;
 }
 

@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vkpt::client {
@@ -25,7 +27,10 @@ struct SceneOptions {
 };
 void add_scene_options(CLI::App& command, SceneOptions& options);
 
-// Both throw WrongUse.
+// All throw WrongUse.
+// "NAME=VALUE" each; `option` is named in the message.
+std::vector<std::pair<std::string, std::string>> parse_settings(
+    const std::vector<std::string>& texts, std::string_view option);
 HostOptions make_host_options(const ModuleOptions& options);
 struct Size {
     int width = 0, height = 0;
@@ -35,5 +40,6 @@ Size parse_size(const std::string& text);
 // Each subcommand is one file: it adds itself to the program and runs as its callback.
 void add_info_command(CLI::App& program);
 void add_render_command(CLI::App& program);
+void add_view_command(CLI::App& program);
 
 } // namespace vkpt::client

@@ -17,8 +17,8 @@ constexpr uint32_t most_groups = 64;
 
 } // namespace
 
-bool Frame::inspect_pixel(glm::uvec2 pixel, SceneSnapshot& scene, const GpuWorld& gpu_world,
-    InspectedSurface& surface, std::span<InspectedLight> lights)
+bool Frame::inspect_pixel(glm::uvec2 pixel, SceneSnapshot& scene, const GpuWorld& gpu_world, InspectedSurface& surface,
+    std::span<InspectedLight> lights)
 {
     static_assert(sizeof(InspectedSurface) == 21 * 4 && sizeof(InspectedLight) == 13 * 4);
     const glm::ivec2 inside = glm::ivec2(pixel) - last_view_.origin;
