@@ -37,8 +37,6 @@ void run_view(const ViewOptions& options)
     // Before the user's own, which win.
     viewer.render.host.cvars.insert(
         viewer.render.host.cvars.begin(), { "pt_seed", std::to_string(options.scene.seed) });
-    viewer.render.base_folder = options.scene.base_folder;
-    viewer.render.game = options.scene.game;
     viewer.render.scene = options.scene.scene;
     const std::vector<view::LiveSetting> live = view::find_live_settings({ "" });
     for (const auto& [name, value] : parse_settings(options.settings_of_b, "--b")) {
@@ -48,9 +46,10 @@ void run_view(const ViewOptions& options)
                 value));
         viewer.b[name] = value;
     }
-    // A scene that is not there is told before a window opens.
     FileSystem files(options.scene.base_folder, options.scene.game);
-    open_frame_source(files, options.scene.scene).reset();
+    const std::unique_ptr<FrameSource> source = open_frame_source(files, options.scene.scene);
+    viewer.render.files = &files;
+    viewer.render.source = source.get();
     view::Viewer(viewer).run();
 }
 

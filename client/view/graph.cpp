@@ -50,6 +50,18 @@ double PassHistory::median(std::string_view name) const
     return *middle;
 }
 
+double PassHistory::scale() const
+{
+    std::vector<double> totals;
+    for (size_t frame = 0; frame < frames_.size(); frame++)
+        totals.push_back(total(frame));
+    if (totals.empty())
+        return 1;
+    std::ranges::sort(totals);
+    constexpr double headroom = 1.8;
+    return round_up(std::min(totals.back(), headroom * totals[totals.size() / 2]));
+}
+
 double round_up(double value)
 {
     if (!(value > 0))

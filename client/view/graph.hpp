@@ -23,6 +23,8 @@ public:
     // Over the kept frames in which the pass ran.
     double median(std::string_view name) const;
     size_t size() const { return frames_.size(); }
+    // Milliseconds that a graph should reach to: round, and not led by a few frames in which shaders were compiled.
+    double scale() const;
 
 private:
     std::deque<std::vector<PassRow>> frames_;

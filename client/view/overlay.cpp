@@ -19,6 +19,8 @@ struct Line {
     ImU32 colour;
 };
 
+float plate_height(size_t lines) { return float(lines) * (ImGui::GetTextLineHeight() + 2) + 2 * padding - 2; }
+
 // Lines on a dark plate. Returns its width. `right`: the corner is the upper right one.
 void draw_plate(ImVec2 corner, std::initializer_list<Line> lines, bool right = false)
 {
@@ -28,8 +30,8 @@ void draw_plate(ImVec2 corner, std::initializer_list<Line> lines, bool right = f
     for (const Line& line : lines)
         width = std::max(width, ImGui::CalcTextSize(line.text.c_str()).x);
     corner = { std::floor(right ? corner.x - width - 2 * padding : corner.x), std::floor(corner.y) };
-    list->AddRectFilled(corner,
-        { corner.x + width + 2 * padding, corner.y + float(lines.size()) * step + 2 * padding - 2 }, colour_plate);
+    list->AddRectFilled(
+        corner, { corner.x + width + 2 * padding, corner.y + plate_height(lines.size()) }, colour_plate);
     float y = corner.y + padding;
     for (const Line& line : lines) {
         list->AddText({ corner.x + padding, y }, line.colour, line.text.c_str());
@@ -52,8 +54,10 @@ void draw_side_label(const State& state, Side which)
 {
     const SideState& side = state.side(which);
     const bool is_b = which == Side::b;
-    const ImVec2 corner
-        = { is_b ? state.shown.x + state.shown.width - margin : state.shown.x + margin, state.shown.y + margin };
+    // Above the picture where there is room, so that nothing of it is hidden.
+    const float above = state.shown.y - plate_height(2) - margin / 2;
+    const ImVec2 corner = { is_b ? state.shown.x + state.shown.width - margin : state.shown.x + margin,
+        above >= 0 ? above : state.shown.y + margin };
     draw_plate(corner,
         { { fmt::format("{}  {}", is_b ? "B" : "A", describe_side(state, which)), is_b ? colour_b : colour_a },
             { describe_speed(side), colour_text } },
@@ -188,8 +192,12 @@ void draw_help(State& state, glm::vec2 window)
 void draw_loading(const State& state, glm::vec2 window)
 {
     const std::string last = state.console.empty() ? std::string("starting the renderer") : state.console.back();
+    const bool is_loaded = !state.live.empty();
     draw_plate({ margin * 2, window.y / 2 - 30 },
-        { { fmt::format("Loading {} ...", state.scene), colour_text }, { last, colour_dim } });
+        { { is_loaded ? std::string("Drawing the first picture: the driver compiles its shaders ...")
+                      : fmt::format("Loading {} ...", state.scene),
+              colour_text },
+            { last, colour_dim } });
 }
 
 } // namespace vkpt::client::view

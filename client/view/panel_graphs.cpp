@@ -38,17 +38,14 @@ void draw_stack(const PassHistory& history, const std::vector<std::string>& name
 {
     const GraphArea area = begin_graph();
     ImDrawList* list = ImGui::GetWindowDrawList();
-    double most = 0;
-    for (size_t frame = 0; frame < history.size(); frame++)
-        most = std::max(most, history.total(frame));
-    const double top = round_up(most);
+    const double top = history.scale();
     const float column = std::floor(area.size.x / float(kept_frames));
     const float first = area.corner.x + area.size.x - column * float(history.size());
     for (size_t frame = 0; frame < history.size(); frame++) {
         const float x = first + column * float(frame);
         double below = 0;
         for (size_t n = 0; n < names.size(); n++) {
-            const double above = below + history.milliseconds(frame, names[n]);
+            const double above = std::min(below + history.milliseconds(frame, names[n]), top);
             const float y0 = area.corner.y + area.size.y * float(1 - above / top),
                         y1 = area.corner.y + area.size.y * float(1 - below / top);
             if (std::lround(y1) > std::lround(y0))

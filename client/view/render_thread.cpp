@@ -181,18 +181,16 @@ void RenderThread::publish(const std::function<void()>& change)
 void RenderThread::run(const RenderThreadOptions& options)
 {
     try {
-        FileSystem files(options.base_folder, options.game);
-        const std::unique_ptr<FrameSource> source = open_frame_source(files, options.scene);
         HostOptions host_options = options.host;
         host_options.on_line = [this](const std::string& line) { publish([&] { lines_.push_back(line); }); };
-        Host host(host_options, &files);
-        source->register_with(host);
-        SceneFacts facts = find_facts(host, *source);
+        Host host(host_options, options.files);
+        options.source->register_with(host);
+        SceneFacts facts = find_facts(host, *options.source);
         publish([&] {
             facts_ = std::move(facts);
             is_ready_ = true;
         });
-        serve(host, *source);
+        serve(host, *options.source);
     } catch (...) {
         publish([&] { failure_ = std::current_exception(); });
     }

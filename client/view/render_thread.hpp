@@ -71,7 +71,10 @@ struct SceneFacts {
 
 struct RenderThreadOptions {
     HostOptions host;
-    std::string base_folder, game, scene;
+    std::string scene; // as the user wrote it
+    // Used by the render thread alone while that lives.
+    FileSystem* files = nullptr;
+    FrameSource* source = nullptr;
 };
 
 class RenderThread {

@@ -26,7 +26,7 @@ float seconds_since(Clock::time_point time) { return std::chrono::duration<float
 
 glm::ivec2 window_size(const ViewerOptions& options)
 {
-    return { options.render.host.width + int(panel_width), std::max(options.render.host.height, 640) };
+    return { options.render.host.width + int(panel_width), std::max(options.render.host.height, 800) };
 }
 
 bool is_same(const Camera& a, const Camera& b)
@@ -195,14 +195,14 @@ void Viewer::start(SceneFacts facts)
     is_ready_ = true;
 }
 
-// A and B of one moment are shown together.
+// A and B of one moment are shown together, once there is any B.
 void Viewer::take_frame(RenderedFrame frame)
 {
     state_.reference_frames = frame.reference_frames;
     state_.reference_rmse = frame.reference_rmse;
     if (frame.side == Side::reference)
         return;
-    if (frame.side == Side::a && state_.split.is_on) {
+    if (frame.side == Side::a && state_.split.is_on && state_.sides[1].texture) {
         waiting_a_ = std::move(frame);
         return;
     }
