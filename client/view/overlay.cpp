@@ -24,7 +24,7 @@ float plate_height(size_t lines) { return float(lines) * (ImGui::GetTextLineHeig
 // Lines on a dark plate. Returns its width. `right`: the corner is the upper right one.
 void draw_plate(ImVec2 corner, std::initializer_list<Line> lines, bool right = false)
 {
-    ImDrawList* list = ImGui::GetForegroundDrawList();
+    ImDrawList* list = ImGui::GetBackgroundDrawList(); // behind the help
     const float step = ImGui::GetTextLineHeight() + 2;
     float width = 0;
     for (const Line& line : lines)
@@ -166,7 +166,7 @@ void draw_help(State& state, glm::vec2 window)
     const float room = state.shows_panel ? window.x - panel_width : window.x;
     const float width = std::min(room - 2 * margin, 940.0f);
     ImGui::SetNextWindowPos({ std::floor(std::max(room - width, 0.0f) / 2), margin }, ImGuiCond_Always);
-    ImGui::SetNextWindowSize({ width, std::min(window.y - 2 * margin, 560.0f) });
+    ImGui::SetNextWindowSize({ width, std::min(window.y - 2 * margin, 780.0f) });
     constexpr ImGuiWindowFlags fixed
         = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoNav;
     if (ImGui::Begin("Keys and mouse", &state.shows_help, fixed)) {

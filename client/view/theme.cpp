@@ -31,6 +31,7 @@ void apply_theme()
     ImVec4* colours = style.Colors;
     colours[ImGuiCol_WindowBg] = grey(0.09f);
     colours[ImGuiCol_PopupBg] = grey(0.12f);
+    colours[ImGuiCol_TitleBg] = colours[ImGuiCol_TitleBgActive] = grey(0.16f);
     colours[ImGuiCol_Text] = grey(0.93f);
     colours[ImGuiCol_TextDisabled] = grey(0.65f);
     colours[ImGuiCol_FrameBg] = grey(0.19f);

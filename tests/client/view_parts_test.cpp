@@ -7,6 +7,7 @@
 #include "client/view/split.hpp"
 #include "client/view/viewer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

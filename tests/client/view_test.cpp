@@ -7,12 +7,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <functional>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <thread>
+#include <utility>
 #include <unistd.h>
 
 namespace vkpt::tests {
@@ -100,7 +101,7 @@ protected:
         const ssize_t length = read(number[0], text, sizeof text - 1);
         close(number[0]);
         ASSERT_GT(length, 0) << "Xvfb did not start (package xvfb)";
-        display = ":" + std::string(text, size_t(length)).substr(0, std::string(text).find('\n'));
+        display.assign(1, ':').append(text, std::strcspn(text, "\n"));
     }
 
     void start(const std::string& module, std::vector<std::string> arguments, const std::string& cache)
