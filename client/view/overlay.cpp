@@ -84,15 +84,15 @@ void draw_mark(const State& state)
                 y = std::round(shown.y + (float(state.marked->y) + 0.5f) * shown.height / size.y);
     ImDrawList* list = ImGui::GetBackgroundDrawList();
     const auto draw = [&](float thickness, ImU32 colour) {
-        constexpr float inner = 4, outer = 13;
+        constexpr float inner = 5, outer = 17;
         const float t = thickness;
         list->AddRectFilled({ x - outer, y - t }, { x - inner, y + t + 1 }, colour);
         list->AddRectFilled({ x + inner + 1, y - t }, { x + outer + 1, y + t + 1 }, colour);
         list->AddRectFilled({ x - t, y - outer }, { x + t + 1, y - inner }, colour);
         list->AddRectFilled({ x - t, y + inner + 1 }, { x + t + 1, y + outer + 1 }, colour);
     };
-    draw(2, IM_COL32(0, 0, 0, 255));
-    draw(0, IM_COL32_WHITE);
+    draw(3, IM_COL32(0, 0, 0, 255));
+    draw(1, state.inspected_side == Side::a ? colour_a : colour_b);
 }
 
 void draw_notice(const State& state)

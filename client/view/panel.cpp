@@ -9,6 +9,9 @@ namespace vkpt::client::view {
 
 namespace {
 
+constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove
+    | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+
 void draw_heading(const State& state)
 {
     ImGui::TextUnformatted(state.scene.c_str());
@@ -84,12 +87,39 @@ void draw_console(const State& state)
 
 } // namespace
 
+float dock_height(const State& state, glm::vec2 window)
+{
+    constexpr float height = 262, least_window = 700, least_width = 1180;
+    return state.shows_panel && window.y >= least_window && window.x >= least_width ? height : 0;
+}
+
+void draw_dock(State& state, glm::vec2 window)
+{
+    const float height = dock_height(state, window);
+    ImGui::SetNextWindowPos({ 0, window.y - height });
+    ImGui::SetNextWindowSize({ window.x - panel_width, height });
+    if (ImGui::Begin("dock", nullptr, fixed)) {
+        constexpr ImGuiTableFlags flags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_PadOuterX;
+        if (ImGui::BeginTable("columns", 3, flags)) {
+            ImGui::TableSetupColumn("passes", 0, 0.30f);
+            ImGui::TableSetupColumn("error", 0, 0.29f);
+            ImGui::TableSetupColumn("lights", 0, 0.41f);
+            ImGui::TableNextColumn();
+            draw_passes(state);
+            ImGui::TableNextColumn();
+            draw_errors(state);
+            ImGui::TableNextColumn();
+            draw_marked_lights(state);
+            ImGui::EndTable();
+        }
+    }
+    ImGui::End();
+}
+
 void draw_panel(State& state, glm::vec2 window)
 {
     ImGui::SetNextWindowPos({ window.x - panel_width, 0 });
     ImGui::SetNextWindowSize({ panel_width, window.y });
-    constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove
-        | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
     if (ImGui::Begin("panel", nullptr, fixed)) {
         draw_heading(state);
         draw_time(state);
@@ -97,12 +127,16 @@ void draw_panel(State& state, glm::vec2 window)
         draw_buttons(state);
         if (begin_section("Settings", true))
             draw_settings(state);
-        if (begin_section("Passes", true))
+        const bool has_dock = dock_height(state, window) > 0;
+        if (!has_dock && begin_section("Passes", true))
             draw_passes(state);
-        if (begin_section("Error", state.has_reference))
+        if (!has_dock && begin_section("Error", true))
             draw_errors(state);
-        if (begin_section("Marked pixel", true))
-            draw_inspection(state);
+        if (begin_section("Marked pixel", true)) {
+            draw_marked_surface(state);
+            if (!has_dock)
+                draw_marked_lights(state);
+        }
         if (begin_section("Messages", false))
             draw_console(state);
     }

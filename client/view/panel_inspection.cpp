@@ -91,7 +91,7 @@ void draw_lights(const Inspection& inspection, ImU32 colour)
     ImGui::TextDisabled("probabilities add up to %.1f %%", 100 * sum);
     constexpr ImGuiTableFlags flags
         = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp;
-    if (!ImGui::BeginTable("lights", 4, flags, { 0, 260 }))
+    if (!ImGui::BeginTable("lights", 4, flags, { 0, std::max(ImGui::GetContentRegionAvail().y - 4, 180.0f) }))
         return;
     ImGui::TableSetupScrollFreeze(0, 1);
     for (const char* column : { "light", "weight", "probability", "picked" })
@@ -107,26 +107,31 @@ void draw_lights(const Inspection& inspection, ImU32 colour)
 
 } // namespace
 
-void draw_inspection(const State& state)
+void draw_marked_surface(const State& state)
 {
     if (!state.inspection) {
         ImGui::TextDisabled("Click into the picture, or press P.");
         return;
     }
     const Inspection& inspection = *state.inspection;
-    const ImU32 colour = state.inspected_side == Side::a ? colour_a : colour_b;
-    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::PushStyleColor(ImGuiCol_Text, state.inspected_side == Side::a ? colour_a : colour_b);
     ImGui::Text("%s  (%d, %d)", state.inspected_side == Side::a ? "A" : "B", inspection.pixel.x, inspection.pixel.y);
     ImGui::PopStyleColor();
-    if (inspection.surface.depth < 0) {
-        ImGui::SameLine();
-        ImGui::TextUnformatted("sky, or a picture that is not lit");
-        draw_row("emitted", show_vector(inspection.surface.emitted, "{:.3f}"));
+    if (inspection.surface.depth >= 0) {
+        draw_surface(inspection.surface);
         return;
     }
-    draw_surface(inspection.surface);
-    ImGui::Spacing();
-    draw_lights(inspection, colour);
+    ImGui::SameLine();
+    ImGui::TextUnformatted("sky, or a picture that is not lit");
+    draw_row("emitted", show_vector(inspection.surface.emitted, "{:.3f}"));
+}
+
+void draw_marked_lights(const State& state)
+{
+    if (!state.inspection || state.inspection->surface.depth < 0)
+        ImGui::TextDisabled("Lights of a marked pixel");
+    else
+        draw_lights(*state.inspection, state.inspected_side == Side::a ? colour_a : colour_b);
 }
 
 } // namespace vkpt::client::view

@@ -138,7 +138,9 @@ private:
                 uint32_t(pixel.x), uint32_t(pixel.y), &result.surface, result.lights.data(), result.lights.size()))
             return std::nullopt;
         result.lights.resize(std::min<size_t>(result.lights.size(), result.surface.light_count));
-        std::ranges::stable_sort(result.lights, std::greater(), &InspectedLight::probability);
+        std::ranges::stable_sort(result.lights, [](const InspectedLight& a, const InspectedLight& b) {
+            return std::pair(a.probability, a.weight) > std::pair(b.probability, b.weight);
+        });
         if (const auto sampler = settings.find("pt_light_sampler"); sampler != settings.end())
             result.sampler = sampler->second;
         return result;

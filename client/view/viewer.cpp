@@ -26,7 +26,7 @@ float seconds_since(Clock::time_point time) { return std::chrono::duration<float
 
 glm::ivec2 window_size(const ViewerOptions& options)
 {
-    return { options.render.host.width + int(panel_width), std::max(options.render.host.height, 800) };
+    return { options.render.host.width + int(panel_width), std::max(options.render.host.height + 356, 820) };
 }
 
 bool is_same(const Camera& a, const Camera& b)
@@ -286,7 +286,8 @@ void Viewer::draw()
     window_.begin_frame();
     const glm::vec2 size = window_.size();
     const float room = state_.shows_panel && is_ready_ ? std::max(size.x - panel_width, 64.0f) : size.x;
-    state_.shown = fit_picture({ 0, 0, room, size.y }, state_.picture_size());
+    const float dock = is_ready_ ? dock_height(state_, size) : 0;
+    state_.shown = fit_picture({ 0, 0, room, size.y - dock }, state_.picture_size());
     if (has_picture_) {
         const int width = state_.picture_size().x, columns = state_.split.columns_of_a(width);
         const bool has_b = state_.split.is_on && state_.sides[1].texture;
@@ -299,6 +300,8 @@ void Viewer::draw()
     }
     if (is_ready_ && state_.shows_panel)
         draw_panel(state_, size);
+    if (dock > 0)
+        draw_dock(state_, size);
     if (state_.shows_help)
         draw_help(state_, size);
     window_.end_frame();

@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <thread>
-#include <utility>
 #include <unistd.h>
+#include <utility>
 
 namespace vkpt::tests {
 namespace {
