@@ -33,6 +33,7 @@ int main(int argc, char** argv)
     vkpt::client::add_compare_command(program);
     vkpt::client::add_diff_command(program);
     vkpt::client::add_export_command(program);
+    vkpt::client::add_view_command(program);
     try {
         program.parse(argc, argv);
         return done;

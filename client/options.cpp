@@ -50,16 +50,17 @@ void add_examples(CLI::App& command, std::initializer_list<const char*> lines)
     command.footer(text);
 }
 
-std::vector<std::pair<std::string, std::string>> split_settings(const std::vector<std::string>& settings)
+std::vector<std::pair<std::string, std::string>> parse_settings(
+    const std::vector<std::string>& texts, std::string_view option)
 {
-    std::vector<std::pair<std::string, std::string>> pairs;
-    for (const std::string& setting : settings) {
-        const size_t equals = setting.find('=');
+    std::vector<std::pair<std::string, std::string>> settings;
+    for (const std::string& text : texts) {
+        const size_t equals = text.find('=');
         if (equals == 0 || equals == std::string::npos)
-            throw WrongUse(fmt::format("--set {}: write --set NAME=VALUE", setting));
-        pairs.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+            throw WrongUse(fmt::format("{0} {1}: write {0} NAME=VALUE", option, text));
+        settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
     }
-    return pairs;
+    return settings;
 }
 
 HostOptions make_host_options(const ModuleOptions& options)
@@ -67,7 +68,7 @@ HostOptions make_host_options(const ModuleOptions& options)
     HostOptions host;
     host.module = options.module;
     host.verbose = options.verbose;
-    host.cvars = split_settings(options.settings);
+    host.cvars = parse_settings(options.settings, "--set");
     return host;
 }
 

@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vkpt::client {
@@ -30,8 +32,10 @@ void add_data_options(CLI::App& command, std::string& base_folder, std::string& 
 // Command lines for the end of --help.
 void add_examples(CLI::App& command, std::initializer_list<const char*> lines);
 
-// NAME=VALUE each. These throw WrongUse.
-std::vector<std::pair<std::string, std::string>> split_settings(const std::vector<std::string>& settings);
+// All throw WrongUse.
+// "NAME=VALUE" each; `option` is named in the message.
+std::vector<std::pair<std::string, std::string>> parse_settings(
+    const std::vector<std::string>& texts, std::string_view option);
 HostOptions make_host_options(const ModuleOptions& options);
 struct Size {
     int width = 0, height = 0;
@@ -46,5 +50,6 @@ void add_info_command(CLI::App& program);
 void add_record_command(CLI::App& program);
 void add_render_command(CLI::App& program);
 void add_bench_command(CLI::App& program);
+void add_view_command(CLI::App& program);
 
 } // namespace vkpt::client

@@ -27,7 +27,9 @@ static_assert(debug_view("off") == shared::DEBUG_VIEW_OFF && debug_view("albedo"
     && debug_view("emission") == shared::DEBUG_VIEW_EMISSION && debug_view("cluster") == shared::DEBUG_VIEW_CLUSTER
     && debug_view("list_length") == shared::DEBUG_VIEW_LIST_LENGTH
     && debug_view("irradiance") == shared::DEBUG_VIEW_IRRADIANCE
-    && debug_view("roughness") == shared::DEBUG_VIEW_ROUGHNESS);
+    && debug_view("roughness") == shared::DEBUG_VIEW_ROUGHNESS && debug_view("motion") == shared::DEBUG_VIEW_MOTION
+    && debug_view("variance") == shared::DEBUG_VIEW_VARIANCE && debug_view("gradient") == shared::DEBUG_VIEW_GRADIENT
+    && debug_view("alpha") == shared::DEBUG_VIEW_ALPHA && debug_view("rays") == shared::DEBUG_VIEW_RAYS);
 
 struct State {
     std::array<engine::Cvar*, row_count> cvars {}; // the engine's, in the order of the rows

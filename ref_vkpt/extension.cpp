@@ -198,13 +198,29 @@ bool read_scene(SceneContents* contents)
     return true;
 }
 
+bool select_view(uint32_t view)
+{
+    Module* m = module();
+    if (!m || view >= view_count || m->graphics.is_recording())
+        return false;
+    select_view(*m, view);
+    return true;
+}
+
+bool inspect_pixel(uint32_t x, uint32_t y, InspectedSurface* surface, InspectedLight* lights, size_t capacity)
+{
+    Module* m = module();
+    return m && m->snapshot && !m->graphics.is_recording()
+        && m->frame.inspect_pixel({ x, y }, *m->snapshot, m->gpu_world, *surface, { lights, capacity });
+}
+
 } // namespace
 
 const Extension& extension_table()
 {
     static const Extension table { extension_version, sizeof(Extension), frame_size, capture_display, capture_radiance,
         accumulated_frames, pass_times, module_info, measure_irradiance, trace_rays, thaw_scene, collected_times,
-        forget_times, read_scene };
+        forget_times, read_scene, select_view, inspect_pixel };
     return table;
 }
 

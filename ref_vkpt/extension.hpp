@@ -10,7 +10,9 @@
 
 namespace vkpt {
 
-inline constexpr uint32_t extension_version = 2;
+inline constexpr uint32_t extension_version = 3;
+
+inline constexpr uint32_t view_count = 4; // that select_view can tell apart
 
 struct ImageSize {
     int32_t width = 0, height = 0;
@@ -117,6 +119,34 @@ struct SceneContents {
     SceneCamera camera;
 };
 
+// The surface that a pixel of the last view shows. Quake world units, linear colours.
+struct InspectedSurface {
+    float position[3];
+    float depth; // path length from the eye; < 0: sky or an unlit picture, the other fields but `emitted` mean nothing
+    float normal[3];
+    float roughness;
+    float geometric_normal[3];
+    float metallic;
+    float albedo[3];
+    int32_t cluster; // of the PVS, -1: outside of the map
+    float emitted[3]; // radiance to the eye without the surface's reflection
+    uint32_t light_count; // of the cluster's list
+    uint32_t choices; // how often the light sampler was asked to count InspectedLight::picked
+};
+
+// A light of that surface's list, as the light sampler in use sees it.
+struct InspectedLight {
+    uint32_t emitter; // index into the emitter table
+    uint32_t type; // EMITTER_* of shaders/shared/scene.h
+    float centre[3];
+    float area; // square units
+    float radiance[3]; // average, with its lightstyle applied
+    uint32_t lightstyle;
+    float weight; // the predicted contribution that importance samplers choose by, shadows unknown
+    float probability; // light_probability, averaged over random numbers
+    uint32_t picked; // by how many of InspectedSurface::choices
+};
+
 struct Extension {
     uint32_t version;
     uint32_t struct_size;
@@ -147,6 +177,15 @@ struct Extension {
     void (*forget_times)();
     // What the last view was made of. Valid until the next frame or call. False: no map.
     bool (*read_scene)(SceneContents* contents);
+    // Several pictures at once, drawn in turn: each of `view_count` views has its own accumulation, history of the filters,
+    // exposure and frozen time. What is drawn, captured and inspected from here on is of view `view`; 0 at the start.
+    // Between frames. A view's memory lives until the next map is registered. False: no such view.
+    bool (*select_view)(uint32_t view);
+    // The surface in pixel (x, y) of the last frame's picture, and up to `capacity` lights of its list in list order, by the
+    // settings of that frame. Runs the light sampler's shader: milliseconds, with the sampler `full` longer. False: no 3D
+    // view of a map has been drawn, or it does not cover the pixel.
+    bool (*inspect_pixel)(
+        uint32_t x, uint32_t y, InspectedSurface* surface, InspectedLight* lights, size_t capacity);
 };
 
 // Signature of the exported symbol "vkpt_extension". Returns nullptr if `version` is not served.

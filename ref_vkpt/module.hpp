@@ -10,6 +10,7 @@
 #include "ref_vkpt/trace/trace_choice.hpp"
 #include "ref_vkpt/workers.hpp"
 
+#include <array>
 #include <chrono>
 #include <optional>
 
@@ -30,6 +31,14 @@ struct Module {
     std::optional<SceneSnapshot> snapshot;
     bool snapshot_is_frozen = false;
     bool frame_has_view = false; // the frame that is being recorded
+    uint32_t selected_view = 0;
+    // The views of select_view that are not selected.
+    struct ParkedScene {
+        ParkedView view;
+        std::optional<SceneSnapshot> snapshot;
+        bool snapshot_is_frozen = false;
+    };
+    std::array<ParkedScene, view_count> parked_views;
     FrameCapture capture;
     PassStatistics pass_statistics; // with pt_times 1
     const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
@@ -39,6 +48,9 @@ struct Module {
 
 // nullptr outside of InitContext .. ShutdownContext.
 Module* module();
+
+// See Extension: views that are drawn in turn (frame/view_slots.cpp).
+void select_view(Module& module, uint32_t view);
 
 // `pt_info`: what runs where, and what it holds.
 void print_info();

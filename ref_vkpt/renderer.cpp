@@ -284,6 +284,8 @@ void begin_registration(std::string_view map)
     m.graphics.end_frame();
     m.graphics.finish();
     m.snapshot.reset();
+    for (Module::ParkedScene& parked : m.parked_views)
+        parked = {};
     m.gpu_world = {};
     m.frame.forget_world();
     m.frame.restart_accumulation();

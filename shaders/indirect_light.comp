@@ -94,6 +94,7 @@ void light_pixel(uvec2 pixel, uint index)
         if (!goes_on)
             break;
     }
+    store_traced_rays(index, load_ray_count(index));
     store_reflected_distance(index, reflected_distance);
     path.radiance *= limit_radiance(path.radiance);
     store_diffuse_light(index, load_diffuse_light(index) + first.diffuse * path.radiance);

@@ -3,8 +3,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From radiance to what the screen shows, at the window's size; debug views take the picture's place.
 #include "lib/frame.glsl"
-#include "lib/random.glsl"
-#include "lib/surfaces.glsl"
+#include "lib/debug_views.glsl"
 
 layout(set = 0, binding = 1, rgba8) uniform writeonly image2D picture;
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
@@ -25,38 +24,11 @@ vec3 encode_srgb(vec3 linear)
     return mix(1.055 * pow(max(linear, 0.0031308), vec3(1.0 / 2.4)) - 0.055, linear * 12.92, lessThan(linear, vec3(0.0031308)));
 }
 
-// A colour that tells neighbouring numbers apart.
-vec3 colour_of_number(uint number)
-{
-    uvec4 h = hash_pcg4(uvec4(number, 1u, 2u, 3u));
-    return vec3(h.xyz >> 8u) / 16777216.0;
-}
-
-vec3 debug_colour(int view, uint index)
-{
-    PrimarySurface primary = load_primary_surface(index);
-    if (view == DEBUG_VIEW_EMISSION)
-        return load_emitted(index);
-    if (primary.depth < 0.0)
-        return vec3(0.0);
-    Surface s = primary.surface;
-    switch (view) {
-    case DEBUG_VIEW_ALBEDO: return s.albedo;
-    case DEBUG_VIEW_NORMAL: return s.normal * 0.5 + 0.5;
-    case DEBUG_VIEW_DEPTH: return vec3(primary.depth / (primary.depth + 512.0));
-    case DEBUG_VIEW_CLUSTER: return primary.cluster < 0 ? vec3(1.0, 0.0, 1.0) : colour_of_number(uint(primary.cluster));
-    case DEBUG_VIEW_LIST_LENGTH: return vec3(float(light_count(open_light_list(light_tables(), primary.cluster))) / 256.0);
-    case DEBUG_VIEW_IRRADIANCE: return load_diffuse_light(index);
-    case DEBUG_VIEW_ROUGHNESS: return vec3(s.roughness, s.metallic, 0.0);
-    }
-    return vec3(0.0);
-}
-
-// `pixel` of the window, `index` of the rendered pixel there.
-vec3 shown_colour(uvec2 pixel, uint index)
+// `pixel` of the window, `source` and `index` of the rendered pixel there.
+vec3 shown_colour(uvec2 pixel, uvec2 source, uint index)
 {
     if (frame.cvars.pt_debug_view != DEBUG_VIEW_OFF)
-        return encode_srgb(clamp(debug_colour(frame.cvars.pt_debug_view, index), 0.0, 1.0));
+        return encode_srgb(clamp(debug_colour(frame.cvars.pt_debug_view, source, index), 0.0, 1.0));
     vec3 exposed = load_accumulated(index) * ExposureBuffer(frame.exposure).v.exposure;
     vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve(exposed) : clamp(exposed, 0.0, 1.0);
     vec3 colour = mix(encode_srgb(display), frame.blend.rgb, frame.blend.a);
@@ -79,6 +51,6 @@ void main()
         // Views without a world stand before what 2D has drawn.
         if ((frame.flags & FRAME_NO_WORLD) != 0u && load_position(index).w == DEPTH_NOTHING)
             continue;
-        imageStore(picture, ivec2(frame.output_origin + pixel), vec4(shown_colour(pixel, index), 1.0));
+        imageStore(picture, ivec2(frame.output_origin + pixel), vec4(shown_colour(pixel, source, index), 1.0));
     }
 }

@@ -97,7 +97,7 @@ EngineRunOptions make_run(const RecordOptions& options, const FileSystem& files,
     // Microseconds a frame. With timedemo, too: else the clock on the wall decides about a millisecond now and then.
     set("fixedtime",
         options.timedemo ? 1000000 / server_messages_per_second : (1000000 + options.rate / 2) / options.rate);
-    for (const auto& setting : split_settings(options.settings)) {
+    for (const auto& setting : parse_settings(options.settings, "--set")) {
         if ((setting.first + setting.second).find_first_of("\"\n") != std::string::npos)
             throw WrongUse(fmt::format("--set {}: no quotation marks or line ends", setting.first));
         run.settings.push_back(setting);

@@ -69,8 +69,7 @@ Frame::Frame(Graphics& graphics, Workers& workers)
     uniform_stride_ = (sizeof(shared::FrameUniforms) + alignment - 1) / alignment * alignment;
     uniforms_ = Buffer(graphics.gpu, uniform_stride_ * max_views * frames_in_flight, BufferHome::upload,
         MemoryKind::staging, "frame uniforms");
-    exposure_ = graphics.uploader.make_buffer(
-        std::vector<shared::ExposureState>(1), MemoryKind::images, "exposure");
+    exposure_ = make_exposure();
     ltc_ = graphics.uploader.make_buffer(
         std::vector<float>(ltc_table.begin(), ltc_table.end()), MemoryKind::lights, "linearly transformed cosines");
     blue_noise_ = graphics.uploader.make_buffer(
@@ -193,14 +192,16 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
         return;
     }
     const LightLists& lights = scene.world->light_lists;
+    const bool is_latest = scene.kept_lights.lists.empty();
     const Bvh& bvh = scene.world->bvh();
     out.trees[0]
         = { gpu_world->bvh_nodes.address(), gpu_world->bvh_triangles.address(), bvh.grid_origin, bvh.grid_scale };
     out.trees[1] = moving;
     out.tree_count = scene.moving.triangle_count() > 0 ? 2 : 1;
-    out.light_lists = uploads_.push(lights.lists());
+    out.light_lists = uploads_.push(is_latest ? lights.lists() : scene.kept_lights.lists);
     out.static_light_indices = gpu_world->light_indices.address();
-    out.dynamic_light_indices = uploads_.push(lights.dynamic_indices());
+    out.dynamic_light_indices
+        = uploads_.push(is_latest ? lights.dynamic_indices() : scene.kept_lights.dynamic_indices);
     out.bsp_tree = gpu_world->bsp_tree.address();
     out.light_list_count = uint32_t(lights.lists().size());
 }

@@ -26,6 +26,18 @@ struct GpuWorld {
 // Waits for the map's tree. Usable after uploader.flush().
 GpuWorld upload_world(const World& world, Uploader& uploader);
 
+// What a view that is drawn now and then keeps from one of its frames to the next.
+struct ParkedView {
+    Screen::ViewBuffers buffers;
+    Buffer exposure;
+    View last_view;
+    CvarValues last_cvars;
+    glm::uvec2 size { 0 };
+    ViewHistory history;
+    uint32_t offset_index = 0, accumulated_frames = 0, noise_index = 0;
+    std::chrono::steady_clock::time_point last_time;
+};
+
 class Frame {
 public:
     Frame(Graphics& graphics, Workers& workers);
@@ -38,6 +50,9 @@ public:
     // Records one view. `gpu_world` belongs to scene.world. `average`: go on averaging if nothing changed since the last
     // view, else start anew.
     void record_view(const View& view, SceneSnapshot& scene, const GpuWorld* gpu_world, bool average);
+    // Between frames: takes up `parked` and leaves there what the view drawn so far keeps (view_slots.cpp).
+    void exchange_view(ParkedView& parked);
+    void prepare_view();
     // How the next views' rays are traced; the device offers it.
     void set_trace_backend(TraceBackend backend) { backend_ = backend; }
     TraceBackend trace_backend() const { return backend_; }
@@ -68,6 +83,10 @@ public:
     double trace_rays(std::span<const TracedRay> rays, const TraceRequest& request, SceneSnapshot& scene,
         const GpuWorld& gpu_world, TracedHit* hits);
 
+    // See Extension (inspect.cpp). Between frames.
+    bool inspect_pixel(glm::uvec2 pixel, SceneSnapshot& scene, const GpuWorld& gpu_world, InspectedSurface& surface,
+        std::span<InspectedLight> lights);
+
 private:
     enum class Surfaces { camera, probes };
     // How much a pass has to do: workgroups, or launch indices where it is a ray generation shader.
@@ -76,6 +95,7 @@ private:
         glm::uvec2 launch;
     };
     static Work pixel_work(glm::uvec2 size) { return { pixel_groups(size), size }; }
+    Buffer make_exposure();
     shared::FrameUniforms make_uniforms(const View& view, glm::uvec2 size);
     // known: primary_visibility asks where moving things were in the last view.
     enum class Motion { unknown, known };

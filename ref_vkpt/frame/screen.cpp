@@ -66,6 +66,15 @@ void Screen::exchange_history()
 #undef VKPT_SCREEN_BUFFER
 }
 
+void Screen::exchange(ViewBuffers& other)
+{
+    std::swap(pixels_, other.pixels);
+    std::swap(groups_, other.groups);
+    std::swap(buffers_, other.buffers);
+    std::swap(trace_stack_, other.trace_stack);
+    std::swap(addresses_, other.addresses);
+}
+
 const Buffer& Screen::accumulated() const { return buffers_[row_accumulated]; }
 
 } // namespace vkpt

@@ -10,6 +10,13 @@
 namespace vkpt {
 
 class Screen {
+    enum Row {
+#define VKPT_SCREEN_BUFFER(type, name) row_##name,
+#include "shaders/shared/screen_buffers.def"
+#undef VKPT_SCREEN_BUFFER
+        row_count
+    };
+
 public:
     explicit Screen(const Gpu& gpu) : gpu_(gpu) { }
 
@@ -21,18 +28,22 @@ public:
     void exchange_history();
     bool must_grow(glm::uvec2 size) const;
 
+    // The per-pixel buffers of a view that is not being drawn; at first there are none.
+    struct ViewBuffers {
+        size_t pixels = 0;
+        uint32_t groups = 0;
+        std::array<Buffer, row_count> buffers;
+        Buffer trace_stack;
+        shared::ScreenBuffers addresses {};
+    };
+    void exchange(ViewBuffers& other);
+
     const Image& output() const { return output_; }
     const shared::ScreenBuffers& addresses() const { return addresses_; }
     VkDeviceAddress trace_stack() const { return trace_stack_.address(); }
     const Buffer& accumulated() const;
 
 private:
-    enum Row {
-#define VKPT_SCREEN_BUFFER(type, name) row_##name,
-#include "shaders/shared/screen_buffers.def"
-#undef VKPT_SCREEN_BUFFER
-        row_count
-    };
     Gpu gpu_;
     Image output_;
     size_t pixels_ = 0;   // that every buffer has room for

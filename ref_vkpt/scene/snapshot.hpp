@@ -30,6 +30,11 @@ struct SceneSnapshot {
     shared::Sky sky {};
     bool has_alpha_test = false;
     float time = 0; // seconds of the game
+    // The map's light lists as they were at that moment; `lists` empty: they still are. See select_view.
+    struct KeptLights {
+        std::vector<shared::LightList> lists;
+        std::vector<uint32_t> dynamic_indices;
+    } kept_lights;
 };
 
 // The camera and its place in the picture.

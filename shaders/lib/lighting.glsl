@@ -5,10 +5,7 @@
 #ifndef VKPT_LIB_LIGHTING
 #define VKPT_LIB_LIGHTING
 
-#include "surfaces.glsl"
-#include "emitters.glsl"
-#include "random.glsl"
-#include "selected_light_sampler.glsl"
+#include "light_choice.glsl"
 
 const uint mask_shadow = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
 
@@ -17,12 +14,6 @@ struct ReflectedLight {
     vec3 diffuse;
     vec3 specular;
 };
-
-LightOptions light_options()
-{
-    return LightOptions(uint(frame.cvars.pt_light_subset), frame.cvars.pt_light_weight, frame.cvars.pt_light_point,
-        LtcBuffer(frame.ltc));
-}
 
 // How many of a path's surfaces send out a BSDF ray. With MIS the first one always does: without bounces, for emission alone.
 uint bsdf_ray_count()

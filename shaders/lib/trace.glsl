@@ -20,10 +20,14 @@
 // A pass that does not trace is compiled without a backend.
 #if defined(VKPT_TRACE_SOFTWARE) || defined(VKPT_TRACE_QUERY) || defined(VKPT_TRACE_PIPELINE)
 
+// Of this invocation since it was last asked.
+uint traced_rays = 0u;
+
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayCountsBuffer { RayCounts v; };
 
 void count_ray(bool visibility)
 {
+    traced_rays += 1u;
     if ((frame.flags & FRAME_COUNT_RAYS) == 0u)
         return;
     RayCountsBuffer counts = RayCountsBuffer(frame.ray_counts);
@@ -45,6 +49,14 @@ bool trace_visible(Ray ray, uint mask)
 {
     count_ray(true);
     return search_ray(ray, mask, true).triangle == TRACE_MISS;
+}
+
+// Adds what this invocation has traced for a pixel to `before`, and begins to count anew.
+void store_traced_rays(uint index, uint before)
+{
+    if (frame.cvars.pt_debug_view == DEBUG_VIEW_RAYS)
+        store_ray_count(index, before + traced_rays);
+    traced_rays = 0u;
 }
 
 #endif

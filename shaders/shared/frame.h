@@ -63,6 +63,16 @@ struct FilterPush {
     uint level;      // from 0
 };
 
+// What inspect_pixel.comp is told (push constants).
+struct InspectPush {
+    uint64_t surface;
+    uint64_t lights;
+    uint pixel;    // index in the screen buffers
+    uint capacity; // lights that there is room for
+    uint draws;    // that a probability is averaged over
+    uint choices;  // at least, of which picks are counted
+};
+
 struct Camera {
     vec3 eye;
     vec3 forward;

@@ -107,6 +107,15 @@ const PassSamples* fake_times(size_t* count)
     return samples;
 }
 
+bool inspect_pixel(uint32_t x, uint32_t y, InspectedSurface* surface, InspectedLight* lights, size_t capacity)
+{
+    *surface = { { float(x), float(y), 0 }, 1 };
+    surface->light_count = surface->choices = 1;
+    if (capacity > 0)
+        lights[0] = { 7, 0, {}, 1, { 1, 1, 1 }, 0, 2, 1, 1 };
+    return true;
+}
+
 } // namespace
 
 const Extension& extension_table()
@@ -122,7 +131,8 @@ const Extension& extension_table()
         },
         info, [](const IrradianceProbe*, size_t, uint32_t, float*) { return false; },
         [](const TracedRay*, size_t, const TraceRequest*, TracedHit*) { return -1.0; }, [] {}, fake_times,
-        [] { forgotten_frames = frames_done; }, [](SceneContents*) { return false; } };
+        [] { forgotten_frames = frames_done; }, [](SceneContents*) { return false; },
+        [](uint32_t view) { return view < view_count; }, inspect_pixel };
     return table;
 }
 

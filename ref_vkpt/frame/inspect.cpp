@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The light sampler asked about one pixel of the last view.
+#include "ref_vkpt/frame/frame.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+namespace vkpt {
+
+namespace {
+
+// Random numbers that a light's probability is averaged over: samplers whose probability depends on them spread widely.
+constexpr uint32_t probability_draws = 64;
+constexpr uint32_t counted_choices = 16384;
+constexpr uint32_t most_groups = 64;
+
+} // namespace
+
+bool Frame::inspect_pixel(glm::uvec2 pixel, SceneSnapshot& scene, const GpuWorld& gpu_world, InspectedSurface& surface,
+    std::span<InspectedLight> lights)
+{
+    static_assert(sizeof(InspectedSurface) == 21 * 4 && sizeof(InspectedLight) == 13 * 4);
+    const glm::ivec2 inside = glm::ivec2(pixel) - last_view_.origin;
+    if (view_size_.x == 0 || inside.x < 0 || inside.y < 0 || uint32_t(inside.x) >= last_view_.size.x
+        || uint32_t(inside.y) >= last_view_.size.y)
+        return false;
+    const glm::uvec2 rendered = glm::min(glm::uvec2(inside) * view_size_ / last_view_.size, view_size_ - 1u);
+    graphics_.finish();
+    const Buffer surface_buffer(
+        graphics_.gpu, sizeof surface, BufferHome::readback, MemoryKind::staging, "inspected surface");
+    const Buffer light_buffer(
+        graphics_.gpu, lights.size_bytes(), BufferHome::readback, MemoryKind::staging, "inspected lights");
+    std::memset(light_buffer.mapped(), 0, lights.size_bytes());
+    graphics_.run_once([&](VkCommandBuffer commands) {
+        commands_ = commands;
+        begin();
+        shared::FrameUniforms uniforms = make_uniforms(last_view_, view_size_);
+        fill_scene(uniforms.scene, scene, &gpu_world, Motion::unknown);
+        bind(write_uniforms(uniforms));
+        const shared::InspectPush push { surface_buffer.address(), light_buffer.address(),
+            rendered.y * view_size_.x + rendered.x, uint32_t(lights.size()), probability_draws, counted_choices };
+        vkCmdPushConstants(commands, graphics_.bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof push, &push);
+        const std::string shader = "inspect_pixel.comp:" + cvars::values().pt_light_sampler;
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, graphics_.pipelines.compute(shader));
+        const uint32_t groups = (uint32_t(lights.size()) + shared::PIXEL_GROUP_SIZE - 1) / shared::PIXEL_GROUP_SIZE;
+        vkCmdDispatch(commands, std::clamp(groups, 1u, most_groups), 1, 1);
+        record_memory_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+            VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    });
+    std::memcpy(&surface, surface_buffer.mapped(), sizeof surface);
+    std::memcpy(lights.data(), light_buffer.mapped(), lights.size_bytes());
+    return true;
+}
+
+} // namespace vkpt

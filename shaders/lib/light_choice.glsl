@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The light sampler that this pass was built with, and the settings that it is called with.
+#ifndef VKPT_LIB_LIGHT_CHOICE
+#define VKPT_LIB_LIGHT_CHOICE
+
+#include "surfaces.glsl"
+#include "emitters.glsl"
+#include "random.glsl"
+#include "selected_light_sampler.glsl"
+
+LightOptions light_options()
+{
+    return LightOptions(uint(frame.cvars.pt_light_subset), frame.cvars.pt_light_weight, frame.cvars.pt_light_point,
+        LtcBuffer(frame.ltc));
+}
+
+#endif
