@@ -21,10 +21,18 @@ ScreenPoint project(Camera camera, vec3 point)
     return ScreenPoint((screen * 0.5 + 0.5) * vec2(frame.size), depth);
 }
 
-// Shading normal and depth, as filters compare them.
-uvec2 pack_guide(vec3 normal, float depth) { return uvec2(packSnorm4x8(vec4(normal, 0.0)), floatBitsToUint(depth)); }
+// Shading normal, material and depth, as filters compare them. `material`: see material_key.
+uvec2 pack_guide(vec3 normal, float material, float depth)
+{
+    return uvec2(packSnorm4x8(vec4(normal, material)), floatBitsToUint(depth));
+}
 vec3 guide_normal(uvec2 guide) { return unpackSnorm4x8(guide.x).xyz; }
+float guide_material(uvec2 guide) { return unpackSnorm4x8(guide.x).w; }
 float guide_depth(uvec2 guide) { return uintBitsToFloat(guide.y); }
+
+// One number for what tells materials apart: keys of two roughnesses differ by half their difference, those of a metal and another
+// material by 1 at least.
+float material_key(float roughness, float metallic) { return (0.5 + 0.5 * roughness) * (metallic > 0.5 ? -1.0 : 1.0); }
 
 // Relative distance of a tap's depth from the plane through the pixel's surface; 0: on it. 1 / depth is linear on the screen.
 float plane_distance(float depth, vec2 slope, vec2 pixels, float tap_depth)
