@@ -168,8 +168,9 @@ Errors measure(
     const Options& options, const Journey& journey, const std::map<int, Picture>& references, const std::string& mode)
 {
     const size_t plus = mode.find('+');
-    Run run(
-        options, { { "flt_denoiser", mode.substr(0, plus) }, { "flt_taa", plus == std::string::npos ? "off" : "on" } });
+    const std::string antialiasing = plus == std::string::npos ? "off" : mode.substr(plus + 1);
+    Run run(options,
+        { { "flt_denoiser", mode.substr(0, plus) }, { "flt_taa", antialiasing == "taa" ? "on" : antialiasing } });
     Errors errors;
     for (int frame = 0; frame < options.frames; frame++) {
         run.draw(camera_at(journey, frame_time(frame)), frame_time(frame));
@@ -185,8 +186,9 @@ Errors measure(
         std::string name = fmt::format("{}/{}_{}.png", options.pictures, journey.name, mode);
         std::ranges::replace(name, ' ', '_');
         run.save(name);
-        save_error_map(
-            options, run.radiance(), references.rbegin()->second, name.substr(0, name.size() - 4) + "_error.png");
+        if (!references.empty())
+            save_error_map(
+                options, run.radiance(), references.rbegin()->second, name.substr(0, name.size() - 4) + "_error.png");
     }
     return errors;
 }
@@ -247,7 +249,8 @@ int main(int argc, char** argv)
     program.add_option("--frames", options.frames, "Length of each journey");
     program.add_option("--checks", options.checks, "Frames at the end of each journey that are compared, five apart");
     program.add_option("--samples", options.samples, "Frames averaged for the converged pictures");
-    program.add_option("--modes", options.modes, "Values of flt_denoiser; with +taa behind: and flt_taa on");
+    program.add_option(
+        "--modes", options.modes, "Values of flt_denoiser; with +taa or +upscale behind: and flt_taa on or upscale");
     program.add_option("--journey", options.journey, "Part of its name; else all");
     program.add_option("--set", options.settings, "NAME=VALUE");
     program.add_option("--cache", options.cache, "Folder for converged pictures");

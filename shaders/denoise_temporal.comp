@@ -36,11 +36,12 @@ History find_history(uint index, vec3 shown, vec2 at)
     float total = 0.0;
     [[dont_unroll]] for (uint tap = 0u; tap < 4u; tap++) {
         vec2 offset = vec2(tap & 1u, tap >> 1u), place = corner + offset;
-        if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.size))))
+        if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
             continue;
-        uint there = uint(place.y) * frame.size.x + uint(place.x);
+        uint there = uint(place.y) * frame.previous_size.x + uint(place.x);
         uvec2 old = load_previous_guide(there);
-        float distance = plane_distance(shown.z, slope, place + frame.offset_change - shown.xy, guide_depth(old));
+        vec2 pixels = (place + frame.offset_change - shown.xy) / frame.previous_scale;
+        float distance = plane_distance(shown.z, slope, pixels, guide_depth(old));
         vec2 shares = mix(1.0 - part, part, offset);
         float weight = shares.x * shares.y;
         vec4 old_kind = unpackSnorm4x8(old.x);
@@ -96,8 +97,6 @@ vec3 limit_firefly(vec3 light, vec3 known, float frames, float changed)
     return l > limit ? light * (limit / l) : light;
 }
 
-vec3 without_broken(vec3 light) { return any(isnan(light)) || any(isinf(light)) ? vec3(0.0) : light; }
-
 // Averaged, for the specular lobe is sampled now and then only.
 float update_reflected_distance(uint index, float before)
 {
@@ -113,8 +112,8 @@ vec2 place_of_reflection(uvec2 pixel, float distance)
 {
     vec2 screen = (vec2(pixel) + frame.pixel_offset) / vec2(frame.size) * 2.0 - 1.0;
     vec3 direction = normalize(frame.camera.forward + frame.camera.right * screen.x - frame.camera.up * screen.y);
-    ScreenPoint before = project(frame.previous_camera, frame.camera.eye + direction * distance);
-    return before.depth > 0.0 ? before.pixel - frame.pixel_offset : vec2(-1e6);
+    ScreenPoint before = project(frame.previous_camera, frame.camera.eye + direction * distance, frame.previous_size);
+    return place_in_last_view(before, frame.pixel_offset);
 }
 
 // Pixels over which the lobe spreads what it reflects: filters must not reach farther, or reflections blur.
@@ -154,8 +153,11 @@ void accumulate_pixel(uvec2 pixel, uint index)
         store_moments(index, uvec3(0u));
         return;
     }
-    vec3 diffuse = without_broken(load_diffuse_light(index));
-    vec3 specular = without_broken(load_specular_light(index) / specular_tint(primary.surface));
+    vec3 diffuse = load_diffuse_light(index), specular = load_specular_light(index) / specular_tint(primary.surface);
+    if (is_broken(diffuse) || is_broken(specular)) {
+        count_broken_pixel();
+        diffuse = specular = vec3(0.0); // or it would stay in the history
+    }
     vec3 shown = load_motion(index);
     History history = find_history(index, shown, shown.xy);
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);

@@ -162,9 +162,8 @@ void store_reprojection(uint index, Path path, vec3 direction, vec2 offset)
     Camera camera = frame.camera;
     vec3 seen = direction * distance;
     float depth = dot(seen, camera.forward);
-    ScreenPoint before = project(frame.previous_camera, camera.eye + seen - mirrored(path, path.moved));
-    vec2 place = before.depth > 0.0 ? before.pixel - offset : vec2(-1e6);
-    store_motion(index, vec3(place, before.depth));
+    ScreenPoint before = project(frame.previous_camera, camera.eye + seen - mirrored(path, path.moved), frame.previous_size);
+    store_motion(index, vec3(place_in_last_view(before, offset), before.depth));
     Surface s = path.hit.surface;
     store_guide(index,
         path.reached_surface ? pack_guide(mirrored(path, s.normal), material_key(s.roughness, s.metallic), depth) : uvec2(0u));

@@ -68,4 +68,6 @@ void Screen::exchange_history()
 
 const Buffer& Screen::accumulated() const { return buffers_[row_accumulated]; }
 
+const Buffer& Screen::radiance() const { return buffers_[row_radiance]; }
+
 } // namespace vkpt

@@ -11,14 +11,22 @@ struct ScreenPoint {
     float depth; // along the camera's axis; <= 0: behind it
 };
 
-ScreenPoint project(Camera camera, vec3 point)
+// On a screen of `size` pixels.
+ScreenPoint project(Camera camera, vec3 point, uvec2 size)
 {
     vec3 offset = point - camera.eye;
     float depth = dot(offset, camera.forward);
     vec2 screen = vec2(dot(offset, camera.right) / dot(camera.right, camera.right),
                       -dot(offset, camera.up) / dot(camera.up, camera.up))
         / max(depth, 1e-3);
-    return ScreenPoint((screen * 0.5 + 0.5) * vec2(frame.size), depth);
+    return ScreenPoint((screen * 0.5 + 0.5) * vec2(size), depth);
+}
+
+// The pixel of the last view, whole numbers being pixels, whose middle shows what the middle of a pixel of this one does: `before`
+// is where that pixel's ray, which passes `offset` from its corner, ended.
+vec2 place_in_last_view(ScreenPoint before, vec2 offset)
+{
+    return before.depth > 0.0 ? before.pixel - 0.5 - (offset - 0.5) * frame.previous_scale : vec2(-1e6);
 }
 
 // Shading normal, material and depth, as filters compare them. `material`: see material_key.
