@@ -13,6 +13,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
+#include <span>
 
 using namespace vkpt;
 using client::Host;
@@ -133,7 +134,7 @@ Picture make_reference(const Options& options, const Journey& journey, int frame
 }
 
 // Relative squared error of x / (1 + x), so that neither the lamps nor a single bright path decide alone.
-double relative_error(const Picture& picture, const Picture& reference)
+double relative_error(std::span<const float> picture, std::span<const float> reference)
 {
     double sum = 0;
     const auto map_tone = [](double x) { return x / (1 + x); };
@@ -142,6 +143,20 @@ double relative_error(const Picture& picture, const Picture& reference)
         sum += d * d / (t * t + 0.01);
     }
     return sum / double(picture.size());
+}
+
+// What relative_error sums, per pixel: black 0, white 0.25 and more.
+void save_error_map(const Options& options, const Picture& picture, const Picture& reference, const std::string& path)
+{
+    formats::Image image { options.width, options.height, {} };
+    for (size_t i = 0; i < picture.size(); i += 3) {
+        const double error = relative_error({ &picture[i], 3 }, { &reference[i], 3 });
+        const auto grey = uint8_t(255 * std::min(1.0, 4 * error));
+        image.pixels.push_back({ grey, grey, grey, 255 });
+    }
+    const std::vector<std::byte> bytes = formats::write_png(image);
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
 }
 
 struct Errors {
@@ -153,8 +168,9 @@ Errors measure(
     const Options& options, const Journey& journey, const std::map<int, Picture>& references, const std::string& mode)
 {
     const size_t plus = mode.find('+');
-    Run run(
-        options, { { "flt_denoiser", mode.substr(0, plus) }, { "flt_taa", plus == std::string::npos ? "off" : "on" } });
+    const std::string antialiasing = plus == std::string::npos ? "off" : mode.substr(plus + 1);
+    Run run(options,
+        { { "flt_denoiser", mode.substr(0, plus) }, { "flt_taa", antialiasing == "taa" ? "on" : antialiasing } });
     Errors errors;
     for (int frame = 0; frame < options.frames; frame++) {
         run.draw(camera_at(journey, frame_time(frame)), frame_time(frame));
@@ -170,6 +186,9 @@ Errors measure(
         std::string name = fmt::format("{}/{}_{}.png", options.pictures, journey.name, mode);
         std::ranges::replace(name, ' ', '_');
         run.save(name);
+        if (!references.empty())
+            save_error_map(
+                options, run.radiance(), references.rbegin()->second, name.substr(0, name.size() - 4) + "_error.png");
     }
     return errors;
 }
@@ -230,7 +249,8 @@ int main(int argc, char** argv)
     program.add_option("--frames", options.frames, "Length of each journey");
     program.add_option("--checks", options.checks, "Frames at the end of each journey that are compared, five apart");
     program.add_option("--samples", options.samples, "Frames averaged for the converged pictures");
-    program.add_option("--modes", options.modes, "Values of flt_denoiser; with +taa behind: and flt_taa on");
+    program.add_option(
+        "--modes", options.modes, "Values of flt_denoiser; with +taa or +upscale behind: and flt_taa on or upscale");
     program.add_option("--journey", options.journey, "Part of its name; else all");
     program.add_option("--set", options.settings, "NAME=VALUE");
     program.add_option("--cache", options.cache, "Folder for converged pictures");

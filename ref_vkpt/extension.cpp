@@ -47,7 +47,7 @@ bool capture_display(uint8_t* rgba)
 bool capture_radiance(float* rgb)
 {
     Module* m = module();
-    return m && m->frame.accumulated_frames() > 0 && !m->graphics.is_recording() && m->frame.read_radiance(rgb);
+    return m && m->frame.has_radiance() && !m->graphics.is_recording() && m->frame.read_radiance(rgb);
 }
 
 uint32_t accumulated_frames() { return module() ? module()->frame.accumulated_frames() : 0; }
@@ -237,6 +237,11 @@ void print_info()
     engine::print("clusters       {}", info.clusters);
     engine::print("emitters       {}, power {:.6g} {:.6g} {:.6g} (radiance x units^2 x sr)", info.emitters,
         info.emitted_power[0], info.emitted_power[1], info.emitted_power[2]);
+    if (const Module* m = module()) {
+        const glm::uvec2 size = m->frame.rendered_size();
+        engine::print(
+            "rendered       {} x {} pixels, {} broken since the start", size.x, size.y, m->frame.broken_pixels());
+    }
     engine::print("light lists    {} entries", info.light_list_entries);
     engine::print("textures       {}, {:.1f} MiB", info.textures, mib(info.texture_bytes));
     engine::print("memory (MiB)   geometry {:.1f}, acceleration {:.1f}, lights {:.1f}, images {:.1f}, staging {:.1f}",

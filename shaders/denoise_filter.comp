@@ -10,9 +10,12 @@ layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FilteredBuffer { uvec4 v[]; };
 
 // Luminance differences of this many deviations count for 1 / e.
-const float deviations = 3.0;
+const float deviations = 1.5;
 // Relative to the luminance: what is below cannot be seen, and half floats end there.
 const float least_deviation = 2e-3;
+
+// Specular light does not mix where roughness differs by twice the inverse of this.
+const float roughness_stop = 16.0;
 
 // Sums over the taps.
 struct Sums {
@@ -41,10 +44,15 @@ Sums first_tap(vec3 light, float deviation, float weight)
     return sums;
 }
 
-// 1 / (deviations x deviation): 0 where the deviation is unknown, and every tap on the surface counts.
-float sharpness(vec3 light, float deviation)
+// How far two luminances are apart, in what their deviations allow for; 0 where either is unknown, and every tap on the surface
+// counts. Both deviations count: were it the pixel's own alone, the few bright samples of a rare path would be turned away by
+// their neighbours, whose history has not met such a path yet, and their light would be lost.
+float distance_in_deviations(float l, float deviation, float other, float other_deviation)
 {
-    return deviation < 0.0 ? 0.0 : 1.0 / (deviations * deviation + least_deviation * luminance(light) + 1e-6);
+    if (min(deviation, other_deviation) < 0.0)
+        return 0.0;
+    float allowed = deviations * sqrt(deviation * deviation + other_deviation * other_deviation);
+    return abs(other - l) / (allowed + least_deviation * l + 1e-6);
 }
 
 float filtered_deviation(Sums sums, float deviation, float taps)
@@ -65,11 +73,9 @@ void filter_pixel(uvec2 pixel, uint index)
         FilteredBuffer(push.target).v[index] = bits;
         return;
     }
-    vec3 normal = guide_normal(guide);
+    vec4 kind = unpackSnorm4x8(guide.x); // normal, material
     vec2 slope = unpackHalf2x16(load_slope(index));
     FilteredLight centre = unpack_filtered(bits);
-    float diffuse_sharpness = sharpness(centre.diffuse, centre.diffuse_deviation);
-    float specular_sharpness = sharpness(centre.specular, centre.specular_deviation);
     float diffuse_luminance = luminance(centre.diffuse), specular_luminance = luminance(centre.specular);
     const float centre_weight = 0.25;
     Sums diffuse = first_tap(centre.diffuse, centre.diffuse_deviation, centre_weight);
@@ -86,18 +92,23 @@ void filter_pixel(uvec2 pixel, uint index)
         uvec2 other = load_guide(there);
         vec2 pixels = vec2(way) * nearest;
         float distance = plane_distance(depth, slope, pixels, guide_depth(other));
-        float cosine = max(dot(normal, guide_normal(other)), 0.0);
+        vec4 other_kind = unpackSnorm4x8(other.x);
+        float cosine = max(dot(kind.xyz, other_kind.xyz), 0.0);
         float cosine2 = cosine * cosine, cosine4 = cosine2 * cosine2, cosine8 = cosine4 * cosine4, cosine16 = cosine8 * cosine8;
         float kernel = way.x == 0 || way.y == 0 ? 0.125 : 0.0625;
         float weight = distance < plane_tolerance(slope, pixels) ? kernel * cosine16 * cosine16 : 0.0;
-        if (weight < 1e-3)
+        // A metal has no diffuse light, and specular light of another colour; other roughnesses reflect other things.
+        float difference = abs(kind.w - other_kind.w);
+        if (weight < 1e-3 || difference > 0.9)
             continue;
         FilteredLight light = unpack_filtered(source.v[there]);
-        float diffuse_distance = abs(luminance(light.diffuse) - diffuse_luminance) * diffuse_sharpness;
-        float specular_distance = abs(luminance(light.specular) - specular_luminance) * specular_sharpness
+        float diffuse_distance = distance_in_deviations(
+            diffuse_luminance, centre.diffuse_deviation, luminance(light.diffuse), light.diffuse_deviation);
+        float specular_distance = distance_in_deviations(specular_luminance, centre.specular_deviation,
+                                      luminance(light.specular), light.specular_deviation)
             + dot(pixels, pixels) * specular_fall;
         add_tap(diffuse, light.diffuse, light.diffuse_deviation, weight * exp(-diffuse_distance));
-        add_tap(specular, light.specular, light.specular_deviation, weight * exp(-specular_distance));
+        add_tap(specular, light.specular, light.specular_deviation, weight * exp(-specular_distance) * max(1.0 - roughness_stop * difference, 0.0));
     }
     FilteredLight result;
     result.diffuse = diffuse.light / diffuse.weight;

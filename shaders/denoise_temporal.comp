@@ -11,6 +11,7 @@ const float most_moment_frames = 16.0;
 // From so many frames on, their variance is believed.
 const float least_frames = 4.0;
 const float least_normal_cosine = 0.9;
+const float most_material_difference = 0.1; // of material_key
 // Smoother surfaces show their reflections, which move as things behind them.
 const float glossy_roughness = 0.3;
 
@@ -28,21 +29,24 @@ History find_history(uint index, vec3 shown, vec2 at)
     if ((frame.flags & FRAME_HISTORY) == 0u)
         return none;
     uvec2 guide = load_guide(index);
-    vec3 normal = guide_normal(guide);
+    vec4 kind = unpackSnorm4x8(guide.x); // normal, material
     vec2 slope = unpackHalf2x16(load_slope(index));
     vec2 corner = floor(at), part = at - corner;
     History sum = none;
     float total = 0.0;
     [[dont_unroll]] for (uint tap = 0u; tap < 4u; tap++) {
         vec2 offset = vec2(tap & 1u, tap >> 1u), place = corner + offset;
-        if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.size))))
+        if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
             continue;
-        uint there = uint(place.y) * frame.size.x + uint(place.x);
+        uint there = uint(place.y) * frame.previous_size.x + uint(place.x);
         uvec2 old = load_previous_guide(there);
-        float distance = plane_distance(shown.z, slope, place + frame.offset_change - shown.xy, guide_depth(old));
+        vec2 pixels = (place + frame.offset_change - shown.xy) / frame.previous_scale;
+        float distance = plane_distance(shown.z, slope, pixels, guide_depth(old));
         vec2 shares = mix(1.0 - part, part, offset);
         float weight = shares.x * shares.y;
-        if (distance > plane_tolerance(slope, vec2(1.0)) || dot(normal, guide_normal(old)) < least_normal_cosine || weight < 1e-3)
+        vec4 old_kind = unpackSnorm4x8(old.x);
+        if (distance > plane_tolerance(slope, vec2(1.0)) || dot(kind.xyz, old_kind.xyz) < least_normal_cosine
+            || abs(kind.w - old_kind.w) > most_material_difference || weight < 1e-3)
             continue;
         FilteredLight light = unpack_filtered(load_previous_filtered(there));
         Moments moments = unpack_moments(load_previous_moments(there));
@@ -74,7 +78,24 @@ float average_deviation(vec2 mean_and_square, float frames)
     return sqrt(max(mean_and_square.y - mean_and_square.x * mean_and_square.x, 0.0) / frames);
 }
 
-vec3 without_broken(vec3 light) { return any(isnan(light)) || any(isinf(light)) ? vec3(0.0) : light; }
+// A rare path of great radiance must not stay in the history for seconds: new light counts up to so many times of what is known
+// of the place (biased; the more frames tell, the less).
+const float most_times_brighter = 50.0;
+// Of the picture's range: in the dark, light up to most_times_brighter times this is let through.
+const float least_known = 0.02;
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
+
+// `changed`: lambda.
+vec3 limit_firefly(vec3 light, vec3 known, float frames, float changed)
+{
+    if (frames < least_frames || changed > 0.1)
+        return light;
+    ExposureBuffer exposure = ExposureBuffer(frame.exposure);
+    float dark = least_known / (exposure.v.valid != 0u ? exposure.v.exposure : 1.0);
+    float limit = most_times_brighter * (luminance(known) + dark), l = luminance(light);
+    return l > limit ? light * (limit / l) : light;
+}
 
 // Averaged, for the specular lobe is sampled now and then only.
 float update_reflected_distance(uint index, float before)
@@ -91,8 +112,8 @@ vec2 place_of_reflection(uvec2 pixel, float distance)
 {
     vec2 screen = (vec2(pixel) + frame.pixel_offset) / vec2(frame.size) * 2.0 - 1.0;
     vec3 direction = normalize(frame.camera.forward + frame.camera.right * screen.x - frame.camera.up * screen.y);
-    ScreenPoint before = project(frame.previous_camera, frame.camera.eye + direction * distance);
-    return before.depth > 0.0 ? before.pixel - frame.pixel_offset : vec2(-1e6);
+    ScreenPoint before = project(frame.previous_camera, frame.camera.eye + direction * distance, frame.previous_size);
+    return place_in_last_view(before, frame.pixel_offset);
 }
 
 // Pixels over which the lobe spreads what it reflects: filters must not reach farther, or reflections blur.
@@ -132,8 +153,11 @@ void accumulate_pixel(uvec2 pixel, uint index)
         store_moments(index, uvec3(0u));
         return;
     }
-    vec3 diffuse = without_broken(load_diffuse_light(index));
-    vec3 specular = without_broken(load_specular_light(index) / specular_tint(primary.surface));
+    vec3 diffuse = load_diffuse_light(index), specular = load_specular_light(index) / specular_tint(primary.surface);
+    if (is_broken(diffuse) || is_broken(specular)) {
+        count_broken_pixel();
+        diffuse = specular = vec3(0.0); // or it would stay in the history
+    }
     vec3 shown = load_motion(index);
     History history = find_history(index, shown, shown.xy);
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
@@ -143,8 +167,11 @@ void accumulate_pixel(uvec2 pixel, uint index)
         history.moments.specular = glossy.moments.specular;
         history.moments.frames.y = glossy.moments.frames.y;
     }
+    vec2 changed = changed_share(pixel);
+    diffuse = limit_firefly(diffuse, history.light.diffuse, history.moments.frames.x, changed.x);
+    specular = limit_firefly(specular, history.light.specular, history.moments.frames.y, changed.y);
     vec2 frames = min(history.moments.frames + 1.0, most_frames);
-    frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed_share(pixel));
+    frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed);
     vec2 share = 1.0 / frames;
     vec2 moment_share = 1.0 / min(frames, most_moment_frames);
     vec2 now = vec2(luminance(diffuse), luminance(specular));

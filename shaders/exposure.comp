@@ -26,10 +26,10 @@ void count_luminances()
     if (lane < bin_count)
         bins[lane] = 0u;
     barrier();
-    uvec2 samples = (frame.size + 3u) / 4u;
+    uvec2 size = frame.resolved_size, samples = (size + 3u) / 4u;
     for (uint i = lane; i < samples.x * samples.y; i += gl_WorkGroupSize.x) {
-        uvec2 pixel = min(uvec2(i % samples.x, i / samples.x) * 4u + 2u, frame.size - 1u);
-        float value = luminance(load_accumulated(pixel.y * frame.size.x + pixel.x));
+        uvec2 pixel = min(uvec2(i % samples.x, i / samples.x) * 4u + 2u, size - 1u);
+        float value = luminance(load_accumulated(pixel.y * size.x + pixel.x));
         float place = (log2(max(value, 1e-6)) - lowest_log2) / (highest_log2 - lowest_log2);
         atomicAdd(bins[uint(clamp(place, 0.0, 0.999) * float(bin_count))], 1u);
     }

@@ -162,13 +162,14 @@ void store_reprojection(uint index, Path path, vec3 direction, vec2 offset)
     Camera camera = frame.camera;
     vec3 seen = direction * distance;
     float depth = dot(seen, camera.forward);
-    ScreenPoint before = project(frame.previous_camera, camera.eye + seen - mirrored(path, path.moved));
-    vec2 place = before.depth > 0.0 ? before.pixel - offset : vec2(-1e6);
-    store_motion(index, vec3(place, before.depth));
-    store_guide(index, path.reached_surface ? pack_guide(mirrored(path, path.hit.surface.normal), depth) : uvec2(0u));
+    ScreenPoint before = project(frame.previous_camera, camera.eye + seen - mirrored(path, path.moved), frame.previous_size);
+    store_motion(index, vec3(place_in_last_view(before, offset), before.depth));
+    Surface s = path.hit.surface;
+    store_guide(index,
+        path.reached_surface ? pack_guide(mirrored(path, s.normal), material_key(s.roughness, s.metallic), depth) : uvec2(0u));
     if (!path.reached_surface)
         return;
-    vec3 plane = mirrored(path, path.hit.surface.geometric_normal);
+    vec3 plane = mirrored(path, s.geometric_normal);
     vec2 slope = vec2(dot(plane, camera.right), -dot(plane, camera.up)) * 2.0 / vec2(frame.size) * depth / dot(plane, seen);
     store_slope(index, packHalf2x16(clamp(slope, -8.0, 8.0)));
 }

@@ -15,9 +15,9 @@ uint find_sample(uint index, PrimarySurface primary)
 {
     const uint none = 0xffffffffu;
     vec2 place = floor(load_motion(index).xy + 0.5);
-    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.size))))
+    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
         return none;
-    uint there = uint(place.y) * frame.size.x + uint(place.x);
+    uint there = uint(place.y) * frame.previous_size.x + uint(place.x);
     vec4 old = load_previous_position(there);
     float pixel_width = primary.depth * 2.0 * length(frame.camera.right) / float(frame.size.x);
     float cosine = max(dot(primary.surface.geometric_normal, primary.surface.view), 0.05);
@@ -34,7 +34,8 @@ void replay_stratum(uvec2 stratum, uint number)
     uint index = pixel.y * frame.size.x + pixel.x;
     PrimarySurface primary = load_primary_surface(index);
     uint there = primary.depth < 0.0 ? 0xffffffffu : find_sample(index, primary);
-    if (there == 0xffffffffu) {
+    uvec2 seed = load_previous_random_seed(there == 0xffffffffu ? index : there);
+    if (there == 0xffffffffu || seed.y < frame.scene.oldest_repeatable) {
         store_replayed(number, vec2(-1.0));
         return;
     }
@@ -43,7 +44,7 @@ void replay_stratum(uvec2 stratum, uint number)
     store_position(index, vec4(load_previous_position(there).xyz, primary.depth));
     store_normals(index, load_previous_normals(there));
     store_surface(index, load_previous_surface(there));
-    store_random_seed(index, load_previous_random_seed(there));
+    store_random_seed(index, seed);
 }
 
 VKPT_RUN_OVER_STRATA(replay_stratum)

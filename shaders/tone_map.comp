@@ -1,9 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From radiance to what the screen shows, at the window's size; debug views take the picture's place.
+// From radiance to what the screen shows, at the window's size: under water it sways, bright things shine over, exposure and tone
+// curve, the engine's blend, gamma, and 8 bits by blue noise. Debug views take the picture's place.
 #include "lib/frame.glsl"
+#include "lib/bloom.glsl"
 #include "lib/debug_views.glsl"
+#include "lib/random.glsl"
+#include "lib/surfaces.glsl"
 
 layout(set = 0, binding = 1, rgba8) uniform writeonly image2D picture;
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
@@ -24,12 +28,45 @@ vec3 encode_srgb(vec3 linear)
     return mix(1.055 * pow(max(linear, 0.0031308), vec3(1.0 / 2.4)) - 0.055, linear * 12.92, lessThan(linear, vec3(0.0031308)));
 }
 
-// `pixel` of the window, `source` and `index` of the rendered pixel there.
-vec3 shown_colour(uvec2 pixel, uvec2 source, uint index)
+// The picture's radiance at a place from (0, 0) to (1, 1): as it is where pixels match, else between four of them.
+vec3 sample_radiance(vec2 place)
 {
-    if (frame.cvars.pt_debug_view != DEBUG_VIEW_OFF)
-        return encode_srgb(clamp(debug_colour(frame.cvars.pt_debug_view, source, index), 0.0, 1.0));
-    vec3 exposed = load_accumulated(index) * ExposureBuffer(frame.exposure).v.exposure;
+    uvec2 size = frame.resolved_size;
+    vec2 at = clamp(place * vec2(size) - 0.5, vec2(0.0), vec2(size - 1u)), part = fract(at);
+    uint first = uint(at.y) * size.x + uint(at.x);
+    if (all(lessThan(abs(fract(at + 0.5) - 0.5), vec2(1e-3)))) {
+        uvec2 pixel = uvec2(at + 0.5);
+        return load_accumulated(pixel.y * size.x + pixel.x);
+    }
+    uint right = at.x < float(size.x - 1u) ? 1u : 0u, down = at.y < float(size.y - 1u) ? size.x : 0u;
+    return mix(mix(load_accumulated(first), load_accumulated(first + right), part.x),
+        mix(load_accumulated(first + down), load_accumulated(first + down + right), part.x), part.y);
+}
+
+// Where the eye sees `place` from under water: displaced along each axis by a wave that runs along the other, and drawn in by as
+// much as the waves are high, so that nothing beyond the edge is asked for.
+vec2 sway(vec2 place)
+{
+    float height = 0.008 * frame.cvars.pt_water_warp;
+    vec2 phase = place.yx * vec2(14.0, 11.0) + frame.time * vec2(1.9, 1.6);
+    return mix(vec2(0.5), place, 1.0 - 2.0 * height) + height * sin(phase);
+}
+
+// `pixel` of the window.
+vec3 shown_colour(uvec2 pixel)
+{
+    if (frame.cvars.pt_debug_view != DEBUG_VIEW_OFF) {
+        uvec2 rendered = min(pixel * frame.size / frame.output_size, frame.size - 1u);
+        vec3 colour = debug_colour(frame.cvars.pt_debug_view, rendered, rendered.y * frame.size.x + rendered.x);
+        return encode_srgb(clamp(colour, 0.0, 1.0));
+    }
+    vec2 place = (vec2(pixel) + 0.5) / vec2(frame.output_size);
+    if ((frame.flags & FRAME_UNDERWATER) != 0u && frame.cvars.pt_water_warp > 0.0)
+        place = sway(place);
+    vec3 radiance = sample_radiance(place);
+    if ((frame.flags & FRAME_BLOOM) != 0u)
+        radiance = mix(radiance, sample_bloom_level(frame.screen.bloom, bloom_size(), place), frame.cvars.pt_bloom);
+    vec3 exposed = radiance * ExposureBuffer(frame.exposure).v.exposure;
     vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve(exposed) : clamp(exposed, 0.0, 1.0);
     vec3 colour = mix(encode_srgb(display), frame.blend.rgb, frame.blend.a);
     // The players' gamma was made for unlit darkness: 1.2, its default, changes nothing here.
@@ -46,11 +83,10 @@ void main()
         uvec2 pixel = uvec2(tile % tiles_across, tile / tiles_across) * 8u + pixel_in_tile(gl_LocalInvocationIndex);
         if (tile >= tile_count || any(greaterThanEqual(pixel, frame.output_size)))
             continue;
-        uvec2 source = min(pixel * frame.size / frame.output_size, frame.size - 1u);
-        uint index = source.y * frame.size.x + source.x;
+        uvec2 rendered = min(pixel * frame.size / frame.output_size, frame.size - 1u);
         // Views without a world stand before what 2D has drawn.
-        if ((frame.flags & FRAME_NO_WORLD) != 0u && load_position(index).w == DEPTH_NOTHING)
+        if ((frame.flags & FRAME_NO_WORLD) != 0u && load_position(rendered.y * frame.size.x + rendered.x).w == DEPTH_NOTHING)
             continue;
-        imageStore(picture, ivec2(frame.output_origin + pixel), vec4(shown_colour(pixel, source, index), 1.0));
+        imageStore(picture, ivec2(frame.output_origin + pixel), vec4(shown_colour(pixel), 1.0));
     }
 }

@@ -43,7 +43,7 @@ Failure note_failure(const char* entry)
         return note(Failure::fatal, VKPT_MODULE_NAME ": %s%s", error.what(), "");
     } catch (const std::bad_alloc&) {
         return note(Failure::level, VKPT_MODULE_NAME ": out of memory in %s%s", entry,
-            ": close other programs, or lower r_mode or pt_view_scale");
+            ": close other programs, or lower r_mode");
     } catch (const std::exception& error) {
         return note(Failure::fatal, VKPT_MODULE_NAME ": internal error in %s: %s", entry, error.what());
     } catch (...) {

@@ -72,8 +72,8 @@ Frame::Frame(Graphics& graphics, Workers& workers)
     exposure_ = make_exposure();
     ltc_ = graphics.uploader.make_buffer(
         std::vector<float>(ltc_table.begin(), ltc_table.end()), MemoryKind::lights, "linearly transformed cosines");
-    blue_noise_ = graphics.uploader.make_buffer(
-        std::as_bytes(std::span(blue_noise_words)), MemoryKind::images, "blue noise");
+    blue_noise_
+        = graphics.uploader.make_buffer(std::as_bytes(std::span(blue_noise_words)), MemoryKind::images, "blue noise");
     readback_ = Buffer(
         graphics.gpu, light_level_bytes * frames_in_flight, BufferHome::readback, MemoryKind::staging, "light level");
     std::memset(readback_.mapped(), 0, readback_.size());
@@ -82,6 +82,9 @@ Frame::Frame(Graphics& graphics, Workers& workers)
     read_ray_counts_ = Buffer(
         graphics.gpu, sizeof(shared::RayCounts), BufferHome::readback, MemoryKind::staging, "ray counts readback");
     std::memset(read_ray_counts_.mapped(), 0, read_ray_counts_.size());
+    statistics_ = Buffer(graphics.gpu, sizeof(shared::FrameStatistics) * frames_in_flight, BufferHome::readback,
+        MemoryKind::staging, "frame statistics");
+    std::memset(statistics_.mapped(), 0, statistics_.size());
     graphics.bindings.bind_uniforms(uniforms_, sizeof(shared::FrameUniforms));
     graphics.uploader.flush();
 }
@@ -96,14 +99,41 @@ void Frame::begin()
     std::array<float, shared::LIGHT_LEVEL_LANES> lanes;
     std::memcpy(lanes.data(), readback_.mapped() + graphics_.slot() * light_level_bytes, light_level_bytes);
     light_level_ = std::accumulate(lanes.begin(), lanes.end(), 0.0f) / float(lanes.size());
-    // Room for the largest view now: once recording refers to the buffers, they cannot be replaced.
+    read_statistics();
+    double milliseconds = 0;
+    for (const PassTime& time : graphics_.timer.times())
+        milliseconds += time.milliseconds;
+    render_scale_.add_frame(milliseconds, scale_limits());
+    // Room for the largest view now: once recording refers to the buffers, they cannot be replaced. For the whole
+    // window, though fewer pixels may be rendered, so that a change of the render size costs nothing.
     const VkExtent2D output = graphics_.size();
-    reserve(scaled_size({ output.width, output.height }));
+    reserve({ output.width, output.height });
 }
 
-glm::uvec2 Frame::scaled_size(glm::uvec2 size)
+// Of the slot's last frame, which has finished.
+void Frame::read_statistics()
 {
-    return glm::max(size * uint32_t(cvars::values().pt_view_scale) / 100u, glm::uvec2(1));
+    std::byte* const mapped = statistics_.mapped() + graphics_.slot() * sizeof(shared::FrameStatistics);
+    shared::FrameStatistics statistics;
+    std::memcpy(&statistics, mapped, sizeof(statistics));
+    std::memset(mapped, 0, sizeof(statistics));
+    if (statistics.broken_pixels > 0 && broken_pixels_ == 0)
+        engine::print("ref_vkpt: the light of {} pixels is not a number and shown black; pt_info counts them. Please "
+                      "report map, place and settings",
+            statistics.broken_pixels);
+    broken_pixels_ += statistics.broken_pixels;
+}
+
+RenderScale::Limits Frame::scale_limits()
+{
+    constexpr uint32_t lowest = 50; // below it there are too few samples a pixel for upscaling to follow movement
+    const CvarValues& cvars = cvars::values();
+    return { cvars.pt_target_ms, lowest, uint32_t(cvars.pt_render_scale) };
+}
+
+glm::uvec2 Frame::scaled_size(glm::uvec2 size) const
+{
+    return glm::max(size * render_scale_.percent(scale_limits()) / 100u, glm::uvec2(1));
 }
 
 void Frame::reserve(glm::uvec2 size)
@@ -112,6 +142,7 @@ void Frame::reserve(glm::uvec2 size)
         return;
     graphics_.finish();
     graphics_.screen.reserve_pixels(size);
+    radiance_ = nullptr;
     restart_accumulation();
     history_.forget();
 }
@@ -128,11 +159,13 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.pixel_offset = glm::vec2(0.5f);
     uniforms.screen = graphics_.screen.addresses();
     uniforms.exposure = exposure_.address();
+    uniforms.statistics = statistics_.address() + graphics_.slot() * sizeof(shared::FrameStatistics);
     uniforms.ltc = ltc_.address();
     uniforms.blue_noise = blue_noise_.address();
     uniforms.ray_counts = ray_counts_.address();
     uniforms.light_level = readback_.address() + graphics_.slot() * light_level_bytes;
-    uniforms.size = size;
+    uniforms.size = uniforms.resolved_size = uniforms.previous_size = size;
+    uniforms.previous_scale = glm::vec2(1);
     uniforms.output_origin = glm::uvec2(view.origin);
     uniforms.output_size = view.size;
     uniforms.frame_seconds = cvars.pt_seed > 0 ? first_frame_seconds : std::min(seconds, 1.0f);
@@ -154,11 +187,22 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     const uint32_t slot = graphics_.slot();
     const MapGeometry* world = scene.world ? &scene.world->models[0] : nullptr;
     const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
-    const Upload triangles = triangles_.reserve(
-        slot, world ? world->triangles : no_triangles, version, scene.moving.triangle_count());
-    const Upload emitters
-        = emitters_.reserve(slot, world ? world->emitters : no_emitters, version, scene.emitters.size());
-    std::ranges::copy(scene.emitters, emitters.as<shared::Emitter>());
+    const Upload triangles
+        = triangles_.reserve(slot, world ? world->triangles : no_triangles, version, scene.moving.triangle_count());
+    const LightLists* lights = world ? &scene.world->light_lists : nullptr;
+    const bool repeats = lights && lights->has_changed() && motion == Motion::known;
+    const LightLists::Repeated repeated = repeats ? lights->repeat() : LightLists::Repeated();
+    // Lights that have gone stay in the repeated lists: dark.
+    const size_t emitter_count = std::max(
+        scene.emitters.size(), repeats ? repeated.emitter_count - lights->static_emitter_count() : size_t(0));
+    const Upload emitters = emitters_.reserve(slot, world ? world->emitters : no_emitters, version, emitter_count);
+    auto* const end = std::ranges::copy(scene.emitters, emitters.as<shared::Emitter>()).out;
+    std::fill(end, emitters.as<shared::Emitter>() + emitter_count, shared::Emitter {});
+    if (repeats) {
+        out.repeated_lists = uploads_.push(repeated.lists);
+        out.repeated_light_indices = uploads_.push(repeated.dynamic_indices);
+        out.previous_list_lengths = uploads_.push(lights->previous_lengths());
+    }
     out.triangles = triangles.address;
     out.emitters = emitters.address;
     out.materials = uploads_.push(scene.materials);
@@ -191,19 +235,18 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
         out.light_list_count = 1;
         return;
     }
-    const LightLists& lights = scene.world->light_lists;
     const bool is_latest = scene.kept_lights.lists.empty();
     const Bvh& bvh = scene.world->bvh();
     out.trees[0]
         = { gpu_world->bvh_nodes.address(), gpu_world->bvh_triangles.address(), bvh.grid_origin, bvh.grid_scale };
     out.trees[1] = moving;
     out.tree_count = scene.moving.triangle_count() > 0 ? 2 : 1;
-    out.light_lists = uploads_.push(is_latest ? lights.lists() : scene.kept_lights.lists);
+    out.light_lists = uploads_.push(is_latest ? lights->lists() : scene.kept_lights.lists);
     out.static_light_indices = gpu_world->light_indices.address();
     out.dynamic_light_indices
-        = uploads_.push(is_latest ? lights.dynamic_indices() : scene.kept_lights.dynamic_indices);
+        = uploads_.push(is_latest ? lights->dynamic_indices() : scene.kept_lights.dynamic_indices);
     out.bsp_tree = gpu_world->bsp_tree.address();
-    out.light_list_count = uint32_t(lights.lists().size());
+    out.light_list_count = uint32_t(lights->lists().size());
 }
 
 // What moves, right into the memory that the device reads.
@@ -212,16 +255,15 @@ shared::BvhView Frame::write_moving(const MovingGeometry& moving, MovingTarget t
     const CpuTimer timer("cpu bvh");
     const Upload nodes = uploads_.reserve(moving.node_count() * shared::BVH_NODE_BYTES);
     // One record even where there is none: its address must be one.
-    const Upload records
-        = uploads_.reserve(std::max<size_t>(moving.triangle_count(), 1) * shared::BVH_TRIANGLE_BYTES);
+    const Upload records = uploads_.reserve(std::max<size_t>(moving.triangle_count(), 1) * shared::BVH_TRIANGLE_BYTES);
     target.nodes = nodes.as<uint32_t>();
     target.records = records.as<uint32_t>();
     const Grid grid = moving_writer_.write(moving, target);
     return { nodes.address, records.address, grid.origin, grid.scale };
 }
 
-void Frame::fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world,
-    const MovingTarget& target)
+void Frame::fill_structures(
+    shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target)
 {
     const CpuTimer timer("cpu bvh");
     // Only Mesa's CPU driver depends on the order, and sorting costs time every frame.
@@ -328,13 +370,34 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfac
         record_denoiser(uniforms);
     record_pass("accumulate", pixels.groups);
     if (uniforms.flags & shared::FRAME_ANTIALIASED)
-        record_pass("temporal_antialiasing", pixels.groups);
+        record_pass("temporal_antialiasing", pixel_groups(uniforms.resolved_size));
     if (surfaces == Surfaces::probes)
         return;
     if (world)
         record_lit_pass("light_level", { 1, { shared::LIGHT_LEVEL_LANES, 1 } });
     record_pass("exposure", 1);
+    if (uniforms.flags & shared::FRAME_BLOOM)
+        record_bloom(uniforms);
     record_pass("tone_map", pixel_groups(uniforms.output_size));
+}
+
+// What was averaged holds no longer if anything has changed.
+void Frame::follow_changes(const View& view, bool average)
+{
+    CvarValues shown_by = cvars::values();
+    shown_by.r_lightlevel = 0; // written by ourselves, every frame
+    if (!average || !is_same(view, last_view_) || !(shown_by == last_cvars_))
+        restart_accumulation();
+    last_view_ = view;
+    last_cvars_ = shown_by;
+}
+
+// A view without a world, such as the player's model in a menu, leaves what the world's views remember alone.
+void Frame::prepare_menu(shared::FrameUniforms& uniforms) const
+{
+    uniforms.screen.accumulated = uniforms.screen.radiance;
+    uniforms.accumulated_frames = 0;
+    uniforms.exposure += sizeof(shared::ExposureState);
 }
 
 void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* gpu_world, bool average)
@@ -343,23 +406,34 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
         engine::print("vkpt: more than {} 3D views in one frame; the rest is not shown", max_views);
         return;
     }
-    const glm::uvec2 size = scaled_size(view.size);
-    CvarValues shown_by = cvars::values();
-    shown_by.r_lightlevel = 0; // written by ourselves, every frame
-    if (!average || !is_same(view, last_view_) || !(shown_by == last_cvars_))
-        restart_accumulation();
-    last_view_ = view;
-    last_cvars_ = shown_by;
-    view_size_ = size;
-
+    // Averaged pictures and menus are complete.
+    const glm::uvec2 size = average || !scene.world ? view.size : scaled_size(view.size);
+    if (scene.world)
+        follow_changes(view, average);
     commands_ = graphics_.commands();
+    if (!scene.world)
+        graphics_.screen.exchange_history(); // the world's last view lies safe under the names previous_
     shared::FrameUniforms uniforms = make_uniforms(view, size);
+    if (!scene.world)
+        prepare_menu(uniforms);
     begin_filters(uniforms, scene, gpu_world, average);
-    fill_scene(uniforms.scene, scene, gpu_world,
-        uniforms.flags & shared::FRAME_HISTORY ? Motion::known : Motion::unknown);
+    view_size_ = uniforms.resolved_size;
+    radiance_ = scene.world ? &graphics_.screen.accumulated() : &graphics_.screen.radiance();
+    fill_scene(
+        uniforms.scene, scene, gpu_world, uniforms.flags & shared::FRAME_HISTORY ? Motion::known : Motion::unknown);
+    if (scene.world) {
+        rendered_size_ = size;
+        uniforms.scene.oldest_repeatable = is_followed_by_another_ ? uniforms.frame_index
+            : lists_changed_                                       ? history_frame_index_
+                                                                   : 0;
+        is_followed_by_another_ = false;
+        lists_changed_ = scene.world->light_lists.has_changed();
+        history_frame_index_ = uniforms.frame_index;
+    }
     uniforms.time = scene.time;
     uniforms.flags |= (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0) | (scene.world ? 0 : shared::FRAME_NO_WORLD)
-        | (average ? shared::FRAME_JITTER : 0);
+        | (average ? shared::FRAME_JITTER : 0)
+        | (!average && scene.world && wants_bloom(uniforms) ? shared::FRAME_BLOOM : 0);
     const bool counts_rays = cvars::values().pt_count_rays != 0;
     uniforms.flags |= counts_rays ? shared::FRAME_COUNT_RAYS : 0;
     bind(write_uniforms(uniforms));
@@ -375,7 +449,10 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
         record_read_ray_counts();
     record_memory_barrier(
         commands_, shaders, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-    accumulated_frames_++;
+    if (scene.world)
+        accumulated_frames_++;
+    else
+        graphics_.screen.exchange_history();
 }
 
 void Frame::record_clear_ray_counts() const
@@ -405,15 +482,16 @@ shared::RayCounts Frame::read_ray_counts() const
 bool Frame::read_radiance(float* rgb)
 {
     const size_t bytes = size_t(view_size_.x) * view_size_.y * sizeof(glm::vec3);
-    if (bytes == 0)
+    if (bytes == 0 || !radiance_)
         return false;
     const Buffer copy(graphics_.gpu, bytes, BufferHome::readback, MemoryKind::staging, "radiance readback");
     graphics_.run_once([&](VkCommandBuffer commands) {
         record_memory_barrier(commands, graphics_.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
         const VkBufferCopy region { 0, 0, bytes };
-        vkCmdCopyBuffer(commands, graphics_.screen.accumulated().handle(), copy.handle(), 1, &region);
-        record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+        vkCmdCopyBuffer(commands, radiance_->handle(), copy.handle(), 1, &region);
+        record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     });
     std::memcpy(rgb, copy.mapped(), bytes);
     return true;
@@ -430,6 +508,7 @@ void Frame::measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t
     reserve(view.size);
     history_.forget();
     view_size_ = view.size;
+    radiance_ = &graphics_.screen.accumulated();
     for (uint32_t sample = 0; sample < samples; sample++) {
         accumulated_frames_ = sample;
         graphics_.run_once([&](VkCommandBuffer commands) {

@@ -5,6 +5,7 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/extension.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
+#include "ref_vkpt/frame/render_scale.hpp"
 #include "ref_vkpt/frame/uploads.hpp"
 #include "ref_vkpt/frame/view_history.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
@@ -32,9 +33,11 @@ struct ParkedView {
     Buffer exposure;
     View last_view;
     CvarValues last_cvars;
-    glm::uvec2 size { 0 };
+    glm::uvec2 size { 0 }, rendered_size { 0 };
+    const Buffer* radiance = nullptr;
     ViewHistory history;
-    uint32_t offset_index = 0, accumulated_frames = 0, noise_index = 0;
+    bool lists_changed = false;
+    uint32_t history_frame_index = 0, offset_index = 0, accumulated_frames = 0, noise_index = 0;
     std::chrono::steady_clock::time_point last_time;
 };
 
@@ -47,8 +50,8 @@ public:
 
     // After Graphics::begin_frame.
     void begin();
-    // Records one view. `gpu_world` belongs to scene.world. `average`: go on averaging if nothing changed since the last
-    // view, else start anew.
+    // Records one view. `gpu_world` belongs to scene.world. `average`: go on averaging if nothing changed since the
+    // last view, else start anew.
     void record_view(const View& view, SceneSnapshot& scene, const GpuWorld* gpu_world, bool average);
     // Between frames: takes up `parked` and leaves there what the view drawn so far keeps (view_slots.cpp).
     void exchange_view(ParkedView& parked);
@@ -57,7 +60,11 @@ public:
     void set_trace_backend(TraceBackend backend) { backend_ = backend; }
     TraceBackend trace_backend() const { return backend_; }
     // The map has gone; the device is idle.
-    void forget_world() { structures_.forget_world(); }
+    void forget_world()
+    {
+        structures_.forget_world();
+        radiance_ = nullptr;
+    }
     // Bytes of the map's acceleration structure per triangle, in the backend that is used.
     double bytes_per_triangle(const GpuWorld& gpu_world, const World& world) const;
 
@@ -73,7 +80,14 @@ public:
 
     // The last view's accumulated radiance. The device must be idle.
     bool read_radiance(float* rgb);
+    // Whether a view has been drawn, so that there is a picture to read.
+    bool has_radiance() const { return radiance_ != nullptr; }
+    // Pixels of read_radiance.
     glm::uvec2 view_size() const { return view_size_; }
+    // Pixels that the last view of the world rendered.
+    glm::uvec2 rendered_size() const { return rendered_size_; }
+    // Pixels since the start whose light was not a number, or infinite, in the frames that have finished.
+    uint64_t broken_pixels() const { return broken_pixels_; }
     const View& last_view() const { return last_view_; }
     // Irradiance / pi at points, see Extension. Between frames.
     void measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t samples, SceneSnapshot& scene,
@@ -101,26 +115,40 @@ private:
     enum class Motion { unknown, known };
     void fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world, Motion motion);
     shared::BvhView write_moving(const MovingGeometry& moving, MovingTarget target);
-    void fill_structures(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target);
+    void fill_structures(
+        shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target);
     uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
     void bind(uint32_t uniform_offset) const;
     void record_clear_ray_counts() const;
     void record_read_ray_counts() const;
     void record_passes(const shared::FrameUniforms& uniforms, Surfaces surfaces, bool world);
     void record_pass(const char* name, uint32_t groups);
-    void begin_filters(shared::FrameUniforms& uniforms, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average);
+    void begin_filters(
+        shared::FrameUniforms& uniforms, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average);
     void record_denoiser(const shared::FrameUniforms& uniforms);
     void record_replay(const shared::FrameUniforms& uniforms);
     void record_gradient(const shared::FrameUniforms& uniforms);
     void record_spatial_filter(uint32_t groups);
-    void record_filter_level(const char* name, const shared::FilterPush& push, uint32_t groups);
+    static bool wants_bloom(const shared::FrameUniforms& uniforms);
+    // A pass that is told something.
+    template <class Push> void record_level(const char* name, const Push& push, uint32_t groups)
+    {
+        vkCmdPushConstants(
+            commands_, graphics_.bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);
+        record_pass(name, groups);
+    }
     void record_traced_pass(const char* name, const Work& work);
     void record_lit_pass(const char* name, const Work& work);
     void record_traced(const char* name, const std::string& variant, const Work& work);
     void finish_pass(const char* name);
     void trace_chunk(std::span<const TracedRay> rays, uint32_t row, const TraceRequest& request, SceneSnapshot& scene,
         const GpuWorld& gpu_world, TracedHit* hits, double& seconds);
-    static glm::uvec2 scaled_size(glm::uvec2 size); // by pt_view_scale
+    static RenderScale::Limits scale_limits();
+    glm::uvec2 scaled_size(glm::uvec2 size) const; // by pt_render_scale and pt_target_ms
+    void read_statistics();
+    void follow_changes(const View& view, bool average);
+    void prepare_menu(shared::FrameUniforms& uniforms) const;
+    void record_bloom(const shared::FrameUniforms& uniforms);
     void reserve(glm::uvec2 size);
 
     Graphics& graphics_;
@@ -129,17 +157,24 @@ private:
     MovingWriter moving_writer_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;
-    Buffer uniforms_, exposure_, ltc_, blue_noise_, readback_, ray_counts_, read_ray_counts_;
+    Buffer uniforms_, exposure_, ltc_, blue_noise_, readback_, statistics_, ray_counts_, read_ray_counts_;
     VkDeviceSize uniform_stride_;
     uint32_t views_this_frame_ = 0;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
 
     View last_view_;
     CvarValues last_cvars_;
-    glm::uvec2 view_size_ { 0 };
+    glm::uvec2 view_size_ { 0 }, rendered_size_ { 0 };
+    RenderScale render_scale_;
+    uint64_t broken_pixels_ = 0;
     ViewHistory history_;
     uint32_t offset_index_ = 0;
     uint32_t accumulated_frames_ = 0;
+    const Buffer* radiance_ = nullptr; // of the last view
+    // Of the last view of the world:
+    bool lists_changed_ = false;
+    bool is_followed_by_another_ = false; // another view came since, and the light lists went on with it
+    uint32_t history_frame_index_ = 0;
     uint32_t noise_index_ = 0;
     float light_level_ = 0;
     std::chrono::steady_clock::time_point last_view_time_;

@@ -2,7 +2,8 @@
 // The part of the frame that works across frames: the denoiser and its history. docs/denoiser.md explains the passes.
 #include "ref_vkpt/frame/frame.hpp"
 
-#include <iterator>
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace vkpt {
@@ -14,10 +15,32 @@ constexpr uint32_t filter_levels = 5;
 // Of the gradient's; odd, so that the result lies in gradient_b.
 constexpr uint32_t gradient_levels = 3;
 
-// Halton's sequence to the bases 2 and 3, its first eight points.
-constexpr glm::vec2 offsets_in_pixel[]
-    = { { 1 / 2.0f, 1 / 3.0f }, { 1 / 4.0f, 2 / 3.0f }, { 3 / 4.0f, 1 / 9.0f }, { 1 / 8.0f, 4 / 9.0f },
-          { 5 / 8.0f, 7 / 9.0f }, { 3 / 8.0f, 2 / 9.0f }, { 7 / 8.0f, 5 / 9.0f }, { 1 / 16.0f, 8 / 9.0f } };
+// Of the bloom's pyramid. Below the least size of the picture, bloom is left out.
+constexpr uint32_t bloom_levels = 5;
+constexpr uint32_t least_bloom_size = 32;
+
+// Camera rays pass through so many places of each pixel of the result, one after the other.
+constexpr uint32_t offsets_per_pixel = 8;
+
+// Halton's sequence (radical inverse of index + 1).
+float halton(uint32_t index, uint32_t base)
+{
+    float value = 0, digit = 1;
+    for (uint32_t rest = index + 1; rest > 0; rest /= base) {
+        digit /= float(base);
+        value += digit * float(rest % base);
+    }
+    return value;
+}
+
+// Fewer rendered pixels have more places each, so that all pixels of the result get their samples.
+glm::vec2 offset_in_pixel(uint32_t index, glm::uvec2 rendered, glm::uvec2 resolved)
+{
+    const uint64_t pixels = std::max<uint64_t>(1, uint64_t(rendered.x) * rendered.y);
+    const uint64_t places = offsets_per_pixel * uint64_t(resolved.x) * resolved.y / pixels;
+    index = uint32_t(index % std::clamp<uint64_t>(places, offsets_per_pixel, 16 * offsets_per_pixel));
+    return { halton(index, 2), halton(index, 3) };
+}
 
 uint32_t stratum_groups(glm::uvec2 size)
 {
@@ -32,14 +55,19 @@ uint32_t stratum_groups(glm::uvec2 size)
 void Frame::begin_filters(
     shared::FrameUniforms& uniforms, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average)
 {
-    const bool antialiases = cvars::values().flt_taa == "on",
+    const bool upscales = cvars::values().flt_taa == "upscale",
+               antialiases = upscales || cvars::values().flt_taa == "on",
                denoises = uniforms.cvars.flt_denoiser != shared::DENOISER_OFF;
-    if (average || !scene.world || !(antialiases || denoises)) {
+    if (!scene.world)
+        return;
+    if (average || !(antialiases || denoises)) {
         history_.forget();
         return;
     }
+    if (upscales)
+        uniforms.resolved_size = uniforms.output_size;
     if (antialiases)
-        uniforms.pixel_offset = offsets_in_pixel[offset_index_++ % std::size(offsets_in_pixel)];
+        uniforms.pixel_offset = offset_in_pixel(offset_index_++, uniforms.size, uniforms.resolved_size);
     uniforms.flags |= shared::FRAME_REPROJECTED | (antialiases ? shared::FRAME_ANTIALIASED : 0)
         | (denoises ? shared::FRAME_DENOISED : 0)
         | (uniforms.cvars.flt_denoiser == shared::DENOISER_ASVGF ? shared::FRAME_REPLAYED : 0);
@@ -47,6 +75,8 @@ void Frame::begin_filters(
     key.camera = uniforms.camera;
     key.pixel_offset = uniforms.pixel_offset;
     key.size = uniforms.size;
+    key.output_size = uniforms.output_size;
+    key.resolved_size = uniforms.resolved_size;
     key.world = gpu_world ? gpu_world->version : 0;
     key.time = scene.time;
     key.denoiser = uniforms.cvars.flt_denoiser;
@@ -54,7 +84,9 @@ void Frame::begin_filters(
     const ViewHistory::Key& last = history_.continues_into(key) ? history_.last() : key;
     uniforms.flags |= &last != &key ? shared::FRAME_HISTORY : 0;
     uniforms.previous_camera = last.camera;
-    uniforms.offset_change = last.pixel_offset - key.pixel_offset;
+    uniforms.previous_size = last.size;
+    uniforms.previous_scale = glm::vec2(last.size) / glm::vec2(key.size);
+    uniforms.offset_change = last.pixel_offset - 0.5f - (key.pixel_offset - 0.5f) * uniforms.previous_scale;
     history_.keep(key);
     graphics_.screen.exchange_history();
     uniforms.screen = graphics_.screen.addresses();
@@ -86,15 +118,41 @@ void Frame::record_gradient(const shared::FrameUniforms& uniforms)
     record_pass("denoise_gradient", groups);
     uint64_t source = screen.gradient_a, target = screen.gradient_b;
     for (uint32_t level = 0; level < gradient_levels; level++) {
-        record_filter_level("denoise_gradient_filter", { source, target, 1u << level, level }, groups);
+        record_level("denoise_gradient_filter", shared::FilterPush { source, target, 1u << level, level }, groups);
         std::swap(source, target);
     }
 }
 
-void Frame::record_filter_level(const char* name, const shared::FilterPush& push, uint32_t groups)
+// A pyramid of averages, mixed from its top downwards; the result is its first level, which tone_map reads.
+void Frame::record_bloom(const shared::FrameUniforms& uniforms)
 {
-    vkCmdPushConstants(commands_, graphics_.bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);
-    record_pass(name, groups);
+    struct Level {
+        uint64_t address;
+        glm::uvec2 size;
+    };
+    std::array<Level, bloom_levels> levels;
+    uint64_t address = uniforms.screen.bloom;
+    glm::uvec2 size = (uniforms.resolved_size + shared::BLOOM_FIRST_STEP - 1u) / shared::BLOOM_FIRST_STEP;
+    for (Level& level : levels) {
+        level = { address, size };
+        address += sizeof(glm::uvec2) * size.x * size.y;
+        size = (size + 1u) / 2u;
+    }
+    const auto record = [&](const char* name, const Level& source, const Level& target) {
+        record_level(name, shared::BloomPush { source.address, target.address, source.size, target.size },
+            pixel_groups(target.size));
+    };
+    record("bloom_shrink", { 0, uniforms.resolved_size }, levels[0]);
+    for (uint32_t level = 1; level < bloom_levels; level++)
+        record("bloom_shrink", levels[level - 1], levels[level]);
+    for (uint32_t level = bloom_levels - 1; level > 0; level--)
+        record("bloom_grow", levels[level], levels[level - 1]);
+}
+
+bool Frame::wants_bloom(const shared::FrameUniforms& uniforms)
+{
+    return uniforms.cvars.pt_bloom > 0
+        && std::min(uniforms.resolved_size.x, uniforms.resolved_size.y) >= least_bloom_size;
 }
 
 // The first level's result is what the next view accumulates on; the last one's lies in filter_b.
@@ -103,7 +161,7 @@ void Frame::record_spatial_filter(uint32_t groups)
     const shared::ScreenBuffers& screen = graphics_.screen.addresses();
     uint64_t source = screen.filter_a, target = screen.filtered;
     for (uint32_t level = 0; level < filter_levels; level++) {
-        record_filter_level("denoise_filter", { source, target, 1u << level, level }, groups);
+        record_level("denoise_filter", shared::FilterPush { source, target, 1u << level, level }, groups);
         source = target;
         target = (filter_levels - level) % 2 == 0 ? screen.filter_b : screen.filter_a;
     }

@@ -77,4 +77,6 @@ void Screen::exchange(ViewBuffers& other)
 
 const Buffer& Screen::accumulated() const { return buffers_[row_accumulated]; }
 
+const Buffer& Screen::radiance() const { return buffers_[row_radiance]; }
+
 } // namespace vkpt

@@ -42,6 +42,7 @@ public:
     const shared::ScreenBuffers& addresses() const { return addresses_; }
     VkDeviceAddress trace_stack() const { return trace_stack_.address(); }
     const Buffer& accumulated() const;
+    const Buffer& radiance() const;
 
 private:
     Gpu gpu_;

@@ -6,9 +6,10 @@
 
 namespace vkpt {
 
+// Of the world's views, and of menus.
 Buffer Frame::make_exposure()
 {
-    return graphics_.uploader.make_buffer(std::vector<shared::ExposureState>(1), MemoryKind::images, "exposure");
+    return graphics_.uploader.make_buffer(std::vector<shared::ExposureState>(2), MemoryKind::images, "exposure");
 }
 
 void Frame::exchange_view(ParkedView& parked)
@@ -18,11 +19,16 @@ void Frame::exchange_view(ParkedView& parked)
     std::swap(last_view_, parked.last_view);
     std::swap(last_cvars_, parked.last_cvars);
     std::swap(view_size_, parked.size);
+    std::swap(rendered_size_, parked.rendered_size);
+    std::swap(radiance_, parked.radiance);
+    std::swap(lists_changed_, parked.lists_changed);
+    std::swap(history_frame_index_, parked.history_frame_index);
     std::swap(history_, parked.history);
     std::swap(offset_index_, parked.offset_index);
     std::swap(accumulated_frames_, parked.accumulated_frames);
     std::swap(noise_index_, parked.noise_index);
     std::swap(last_view_time_, parked.last_time);
+    is_followed_by_another_ = true;
 }
 
 // A view that is drawn for the first time.

@@ -8,6 +8,7 @@
 #include <bit>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 
 namespace vkpt {
 
@@ -188,16 +189,40 @@ void LightLists::update(std::span<const Emitter> dynamic_emitters)
     previous_lengths_.clear();
     for (const shared::LightList& list : lists_)
         previous_lengths_.push_back(list.static_count + list.dynamic_count);
-    bool changed = placed_.size() != dynamic_emitters.size();
+    previous_dynamic_count_ = placed_.size();
+    changed_ = placed_.size() != dynamic_emitters.size();
     placed_.resize(dynamic_emitters.size());
     for (size_t i = 0; i < dynamic_emitters.size(); i++) {
         if (is_same_place(placed_[i].emitter, dynamic_emitters[i]))
             continue;
         place(placed_[i], dynamic_emitters[i]);
-        changed = true;
+        changed_ = true;
     }
-    if (changed)
-        flatten();
+    if (!changed_)
+        return;
+    previous_lists_ = lists_;
+    std::swap(previous_dynamic_indices_, dynamic_indices_);
+    flatten();
+}
+
+LightLists::Repeated LightLists::repeat() const
+{
+    if (!changed_)
+        return { lists_, dynamic_indices_, static_emitter_count_ + placed_.size() };
+    Repeated result;
+    result.lists = lists_;
+    result.emitter_count = static_emitter_count_ + std::max(placed_.size(), previous_dynamic_count_);
+    for (size_t i = 0; i < lists_.size(); i++) {
+        const auto before = std::span(previous_dynamic_indices_)
+                                .subspan(previous_lists_[i].first_dynamic, previous_lists_[i].dynamic_count);
+        const auto now = std::span(dynamic_indices_).subspan(lists_[i].first_dynamic, lists_[i].dynamic_count);
+        const size_t first = result.dynamic_indices.size();
+        result.dynamic_indices.insert(result.dynamic_indices.end(), before.begin(), before.end());
+        std::ranges::set_difference(now, before, std::back_inserter(result.dynamic_indices));
+        result.lists[i].first_dynamic = uint32_t(first);
+        result.lists[i].dynamic_count = uint32_t(result.dynamic_indices.size() - first);
+    }
+    return result;
 }
 
 void LightLists::flatten()

@@ -28,6 +28,19 @@ public:
     // Length of every list before the last update: a list that grows or shrinks changes the strides of subset samplers,
     // and who replays last frame's choices needs the length that they were made with.
     const std::vector<uint32_t>& previous_lengths() const { return previous_lengths_; }
+    // Whether the last update changed any list.
+    bool has_changed() const { return changed_; }
+
+    // The lists as the random numbers of the last frame must walk them to meet the same lights at the same places. In
+    // each, what was in it before the last update comes first, at its old place (previous_lengths of them), though the
+    // light may have gone; then what has come. Gone ones are dark, or past the end of this frame's emitters, which is
+    // below `emitter_count` then.
+    struct Repeated {
+        std::vector<shared::LightList> lists;
+        std::vector<uint32_t> dynamic_indices;
+        size_t emitter_count = 0; // static and dynamic, before or after the update
+    };
+    Repeated repeat() const;
     size_t static_emitter_count() const { return static_emitter_count_; }
     // Static emitters that touch no cluster (they lie in solid): only the list for outside holds them.
     size_t unlisted_static_count() const { return unlisted_static_count_; }
@@ -60,6 +73,10 @@ private:
     std::vector<glm::vec3> cluster_mins_, cluster_maxs_;
     std::vector<Placed> placed_; // by dynamic index
     std::vector<uint32_t> previous_lengths_;
+    std::vector<shared::LightList> previous_lists_;
+    std::vector<uint32_t> previous_dynamic_indices_;
+    size_t previous_dynamic_count_ = 0;
+    bool changed_ = false;
 };
 
 } // namespace vkpt

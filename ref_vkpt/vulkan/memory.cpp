@@ -103,7 +103,7 @@ MemoryBlock& MemoryAllocator::add_block(VkDeviceSize size, uint32_t type, bool l
     MemoryBlock block;
     if (const VkResult result = vkAllocateMemory(device_.handle, &info, nullptr, &block.memory); result < 0)
         throw FatalError(fmt::format("out of memory on {}: {} MiB for {} not to be had; lower the resolution or "
-                                     "pt_view_scale",
+                                     "pt_render_scale",
             device_.properties.deviceName, size >> 20, describe(kind)));
     block.size = size;
     block.type = type;

@@ -36,6 +36,13 @@ const float deviation_unknown = -1.0;
 // Colour that the specular light of this surface carries.
 vec3 specular_tint(Surface s) { return mix(vec3(1.0), max(s.albedo, 0.05), s.metallic); }
 
+// ---- broken light
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FrameStatisticsBuffer { FrameStatistics v; };
+
+bool is_broken(vec3 light) { return any(isnan(light)) || any(isinf(light)); }
+void count_broken_pixel() { atomicAdd(FrameStatisticsBuffer(frame.statistics).v.broken_pixels, 1u); }
+
 // ---- strata: blocks of 3 x 3 pixels, one of which repeats an older sample
 
 const uint stratum_width = 3u;

@@ -49,19 +49,19 @@ uvec2 pixel_in_tile(uint lane)
 #else
 
 // Workgroups walk several tiles because starting one costs the CPU driver as much as a cheap pixel pass.
-#define VKPT_RUN_OVER_PIXELS(run)                                                                                      \
+#define VKPT_RUN_OVER(size_, run)                                                                                      \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
     void main()                                                                                                        \
     {                                                                                                                  \
-        uint tiles_across = (frame.size.x + 7u) / 8u, tile_count = tiles_across * ((frame.size.y + 7u) / 8u);          \
+        uvec2 size = size_, tiles = (size + 7u) / 8u;                                                                  \
         [[dont_unroll]] for (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {                                            \
             uint tile = gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP + i;                                                  \
-            uvec2 pixel = uvec2(tile % tiles_across, tile / tiles_across) * 8u                                         \
-                + pixel_in_tile(gl_LocalInvocationIndex);                                                              \
-            if (tile < tile_count && all(lessThan(pixel, frame.size)))                                                 \
-                run(pixel, pixel.y * frame.size.x + pixel.x);                                                          \
+            uvec2 pixel = uvec2(tile % tiles.x, tile / tiles.x) * 8u + pixel_in_tile(gl_LocalInvocationIndex);         \
+            if (tile < tiles.x * tiles.y && all(lessThan(pixel, size)))                                                \
+                run(pixel, pixel.y * size.x + pixel.x);                                                                \
         }                                                                                                              \
     }
+#define VKPT_RUN_OVER_PIXELS(run) VKPT_RUN_OVER(frame.size, run)
 #define VKPT_RUN_OVER_LANES(run)                                                                                       \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
     void main() { run(gl_LocalInvocationIndex); }

@@ -27,6 +27,9 @@ struct LightTables {
 struct LightListView {
     LightTables tables;
     LightList range;
+    // Lights that random numbers are spread over. Fewer than light_count() where an older sample is repeated: behind the lights
+    // that its list held, each at its old place, come those that were not there yet.
+    uint counted;
 };
 
 // The PVS cluster of a point, -1 in solid.
@@ -46,6 +49,7 @@ LightListView open_light_list(LightTables tables, int cluster)
     LightListView list;
     list.tables = tables;
     list.range = tables.lists.v[cluster < 0 ? outside : min(uint(cluster), outside)];
+    list.counted = list.range.static_count + list.range.dynamic_count;
     return list;
 }
 
@@ -62,11 +66,11 @@ uint light_at(LightListView list, uint position)
     return list.tables.dynamic_indices.v[list.range.first_dynamic + position - list.range.static_count];
 }
 
-// Where an emitter stands in the list, -1: nowhere.
-int find_light(LightListView list, uint emitter)
+// Where an emitter stands in a sorted part of the list, -1: nowhere.
+int find_light_in(LightListView list, uint emitter, uint first, uint end)
 {
-    uint low = 0u;
-    uint high = light_count(list);
+    uint low = first;
+    uint high = end;
     while (low < high) {
         uint middle = (low + high) / 2u;
         if (light_at(list, middle) < emitter)
@@ -74,7 +78,14 @@ int find_light(LightListView list, uint emitter)
         else
             high = middle;
     }
-    return low < light_count(list) && light_at(list, low) == emitter ? int(low) : -1;
+    return low < end && light_at(list, low) == emitter ? int(low) : -1;
+}
+
+// Where an emitter stands in the list, -1: nowhere.
+int find_light(LightListView list, uint emitter)
+{
+    int place = find_light_in(list, emitter, 0u, list.counted);
+    return place >= 0 ? place : find_light_in(list, emitter, list.counted, light_count(list));
 }
 
 // With its lightstyle applied.

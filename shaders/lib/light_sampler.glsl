@@ -95,6 +95,21 @@ uint choose_uniformly(float xi, uint count)
     return min(uint(xi * float(count)), count - 1u);
 }
 
+// A place in the list, all alike. Where an older sample is repeated, the number's old choice stands with the probability that it
+// still has, and what is left goes to the lights that have come.
+uint choose_place(LightListView list, float xi)
+{
+    uint count = light_count(list);
+    if (list.counted == count || list.counted == 0u)
+        return choose_uniformly(xi, count);
+    uint place = choose_uniformly(xi, list.counted);
+    float rest = xi * float(list.counted) - float(place);
+    float kept = float(list.counted) / float(count);
+    if (rest < kept)
+        return place;
+    return list.counted + choose_uniformly(clamp((rest - kept) / (1.0f - kept), 0.0f, max_below_one), count - list.counted);
+}
+
 float weigh_light(LightListView list, LightPredictor predictor, uint position)
 {
     return light_contribution(predictor, load_emitter(list, light_at(list, position)));

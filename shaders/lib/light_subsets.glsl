@@ -12,7 +12,7 @@ const uint max_subset_length = 64u;
 uint subset_stride(uint count, uint subset_length)
 {
     uint length_limit = clamp(subset_length, 1u, max_subset_length);
-    return (count + length_limit - 1u) / length_limit;
+    return max((count + length_limit - 1u) / length_limit, 1u);
 }
 
 // One number decides the subset, and what remains of it the light in the subset: each light owns one interval.
@@ -39,7 +39,7 @@ LightSample sample_subset_in_two_sweeps(
     float weights[max_subset_length];
     float total = 0.0f;
     uint length_used = 0u;
-    for (uint position = choice.offset; position < count; position += choice.stride) {
+    for (uint position = choice.offset; position < count && length_used < max_subset_length; position += choice.stride) {
         float weight = weigh_light(list, predictor, position);
         weights[length_used] = weight;
         total += weight;
@@ -72,7 +72,7 @@ float strided_subset_probability(LightListView list, LightPredictor predictor, u
     if (place < 0)
         return 0.0f;
     uint count = light_count(list);
-    uint stride = subset_stride(count, subset_length);
+    uint stride = subset_stride(list.counted, subset_length);
     float total = 0.0f, mass = 0.0f;
     for (uint position = uint(place) % stride; position < count; position += stride) {
         float weight = weigh_light(list, predictor, position);
@@ -91,7 +91,7 @@ LightSample sample_independent_strides(
     uint count = light_count(list);
     if (count == 0u)
         return no_light();
-    uint stride = subset_stride(count, subset_length);
+    uint stride = subset_stride(list.counted, subset_length);
     uint state = start_fast_random(random.more);
     Reservoir reservoir = make_reservoir(random.light);
     for (uint first = 0u; first < count; first += stride) {
@@ -116,7 +116,7 @@ float independent_strides_probability(
     if (place < 0)
         return 0.0f;
     uint count = light_count(list);
-    uint stride = subset_stride(count, subset_length);
+    uint stride = subset_stride(list.counted, subset_length);
     uint state = start_fast_random(random.more);
     float total = 0.0f, mass = 0.0f;
     for (uint first = 0u; first < count; first += stride) {

@@ -15,6 +15,20 @@ struct ReflectedLight {
     vec3 specular;
 };
 
+// The lights of a cluster. For a sample of the last view that is repeated: with the last view's lights at their old places.
+LightListView open_light_list_for(LightRandom random, int cluster)
+{
+    LightTables tables = light_tables();
+    if (frame.scene.repeated_lists == 0ul || random.more.frame == frame.frame_index)
+        return open_light_list(tables, cluster);
+    tables.lists = LightListBuffer(frame.scene.repeated_lists);
+    tables.dynamic_indices = LightIndexBuffer(frame.scene.repeated_light_indices);
+    LightListView list = open_light_list(tables, cluster);
+    uint outside = tables.list_count - 1u;
+    list.counted = LightIndexBuffer(frame.scene.previous_list_lengths).v[cluster < 0 ? outside : min(uint(cluster), outside)];
+    return list;
+}
+
 // How many of a path's surfaces send out a BSDF ray. With MIS the first one always does: without bounces, for emission alone.
 uint bsdf_ray_count()
 {
@@ -26,12 +40,14 @@ uint bsdf_ray_count()
 ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, bool bsdf_ray_follows)
 {
     ReflectedLight result = ReflectedLight(vec3(0.0), vec3(0.0));
-    LightListView list = open_light_list(light_tables(), cluster);
+    LightListView list = open_light_list_for(random, cluster);
     LightOptions options = light_options();
     LightSample light = sample_light(list, s, random, options);
     if (light.emitter < 0)
         return result;
     Emitter emitter = load_emitter(list, uint(light.emitter));
+    if (emitter.radiance == vec3(0.0))
+        return result;
     EmitterSample point = sample_emitter_point(emitter, s, light.point, options);
     if (point.pdf <= 0.0)
         return result;
@@ -62,7 +78,7 @@ ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, b
 // accounts for it.
 float weigh_met_emitter(Surface s, int cluster, LightRandom random, uint emitter, vec3 point, float bsdf_pdf)
 {
-    LightListView list = open_light_list(light_tables(), cluster);
+    LightListView list = open_light_list_for(random, cluster);
     Emitter e = load_emitter(list, emitter);
     if (!is_met_by_rays(e))
         return 0.0;

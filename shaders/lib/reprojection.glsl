@@ -11,20 +11,36 @@ struct ScreenPoint {
     float depth; // along the camera's axis; <= 0: behind it
 };
 
-ScreenPoint project(Camera camera, vec3 point)
+// On a screen of `size` pixels.
+ScreenPoint project(Camera camera, vec3 point, uvec2 size)
 {
     vec3 offset = point - camera.eye;
     float depth = dot(offset, camera.forward);
     vec2 screen = vec2(dot(offset, camera.right) / dot(camera.right, camera.right),
                       -dot(offset, camera.up) / dot(camera.up, camera.up))
         / max(depth, 1e-3);
-    return ScreenPoint((screen * 0.5 + 0.5) * vec2(frame.size), depth);
+    return ScreenPoint((screen * 0.5 + 0.5) * vec2(size), depth);
 }
 
-// Shading normal and depth, as filters compare them.
-uvec2 pack_guide(vec3 normal, float depth) { return uvec2(packSnorm4x8(vec4(normal, 0.0)), floatBitsToUint(depth)); }
+// The pixel of the last view, whole numbers being pixels, whose middle shows what the middle of a pixel of this one does: `before`
+// is where that pixel's ray, which passes `offset` from its corner, ended.
+vec2 place_in_last_view(ScreenPoint before, vec2 offset)
+{
+    return before.depth > 0.0 ? before.pixel - 0.5 - (offset - 0.5) * frame.previous_scale : vec2(-1e6);
+}
+
+// Shading normal, material and depth, as filters compare them. `material`: see material_key.
+uvec2 pack_guide(vec3 normal, float material, float depth)
+{
+    return uvec2(packSnorm4x8(vec4(normal, material)), floatBitsToUint(depth));
+}
 vec3 guide_normal(uvec2 guide) { return unpackSnorm4x8(guide.x).xyz; }
+float guide_material(uvec2 guide) { return unpackSnorm4x8(guide.x).w; }
 float guide_depth(uvec2 guide) { return uintBitsToFloat(guide.y); }
+
+// One number for what tells materials apart: keys of two roughnesses differ by half their difference, those of a metal and another
+// material by 1 at least.
+float material_key(float roughness, float metallic) { return (0.5 + 0.5 * roughness) * (metallic > 0.5 ? -1.0 : 1.0); }
 
 // Relative distance of a tap's depth from the plane through the pixel's surface; 0: on it. 1 / depth is linear on the screen.
 float plane_distance(float depth, vec2 slope, vec2 pixels, float tap_depth)

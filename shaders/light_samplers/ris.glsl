@@ -29,7 +29,7 @@ float weigh_candidate(LightListView list, Surface s, uint emitter, vec2 point, L
 LightCandidate draw_candidate(LightListView list, Surface s, INOUT(uint) state, LightOptions options)
 {
     LightCandidate candidate;
-    candidate.emitter = light_at(list, choose_uniformly(next_fast_random(state), light_count(list)));
+    candidate.emitter = light_at(list, choose_place(list, next_fast_random(state)));
     float x = next_fast_random(state);
     float y = next_fast_random(state);
     candidate.point = vec2(x, y);

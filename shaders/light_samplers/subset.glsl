@@ -12,7 +12,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
 {
     if (light_count(list) == 0u)
         return no_light();
-    SubsetChoice choice = choose_subset(light_count(list), random.light, options.subset_length);
+    SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
     return sample_subset_in_two_sweeps(list, make_predictor(s, options), choice, random);
 }
 

@@ -13,7 +13,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
 {
     if (light_count(list) == 0u)
         return no_light();
-    SubsetChoice choice = choose_subset(light_count(list), random.light, options.subset_length);
+    SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
     return sample_subset_in_two_sweeps(list, make_predictor(s, options), choice, random);
 }
 
@@ -24,7 +24,7 @@ float light_probability(LightListView list, Surface s, uint emitter, LightRandom
         return 0.0f;
     LightPredictor predictor = make_predictor(s, options);
     uint count = light_count(list);
-    SubsetChoice choice = choose_subset(count, random.light, options.subset_length);
+    SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
     float mass = weigh_light(list, predictor, uint(place));
     float total = mass;
     for (uint first = 0u; first < count; first += choice.stride) {

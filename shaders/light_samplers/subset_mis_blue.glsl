@@ -26,7 +26,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
     if (count == 0u)
         return no_light();
     LightPredictor predictor = make_predictor(s, options);
-    uint stride = subset_stride(count, options.subset_length);
+    uint stride = subset_stride(list.counted, options.subset_length);
     Reservoir reservoir = make_reservoir(random.light);
     for (uint index = 0u; index * stride < count; index++) {
         uint position = choose_in_stride(random, index, stride);
@@ -49,7 +49,7 @@ float light_probability(LightListView list, Surface s, uint emitter, LightRandom
         return 0.0f;
     LightPredictor predictor = make_predictor(s, options);
     uint count = light_count(list);
-    uint stride = subset_stride(count, options.subset_length);
+    uint stride = subset_stride(list.counted, options.subset_length);
     float total = 0.0f;
     float mass = 0.0f;
     for (uint index = 0u; index * stride < count; index++) {

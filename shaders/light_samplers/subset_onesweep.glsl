@@ -14,7 +14,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
     if (count == 0u)
         return no_light();
     LightPredictor predictor = make_predictor(s, options);
-    SubsetChoice choice = choose_subset(count, random.light, options.subset_length);
+    SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
     Reservoir reservoir = make_reservoir(choice.rest);
     for (uint position = choice.offset; position < count; position += choice.stride) {
         uint emitter = light_at(list, position);

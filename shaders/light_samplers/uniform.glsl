@@ -12,7 +12,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
     uint count = light_count(list);
     if (count == 0u)
         return no_light();
-    return make_light_sample(light_at(list, choose_uniformly(random.light, count)), 1.0f / float(count), random);
+    return make_light_sample(light_at(list, choose_place(list, random.light)), 1.0f / float(count), random);
 }
 
 float light_probability(LightListView list, Surface s, uint emitter, LightRandom random, LightOptions options)

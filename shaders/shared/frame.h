@@ -40,6 +40,8 @@ struct RayCounts {
     uint visible;
 };
 
+VKPT_CONST uint FRAME_BLOOM = 2048u; // the picture is mixed with what bloom_*.comp made of it
+
 VKPT_CONST uint LIGHT_LEVEL_LANES = 64u; // = PIXEL_GROUP_SIZE
 
 // Automatic exposure's memory.
@@ -53,6 +55,21 @@ struct ScreenBuffers {
 #define VKPT_SCREEN_BUFFER(type, name) uint64_t name;
 #include "screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
+};
+
+// What the passes count for the CPU.
+struct FrameStatistics {
+    uint broken_pixels; // whose light was not a number, or infinite; they are shown black
+};
+
+VKPT_CONST uint BLOOM_FIRST_STEP = 4u; // the pyramid's first level has a pixel for so many of the picture's, in either direction
+
+// One level of the bloom's pyramid, which is made smaller from, or added to, another (push constants).
+struct BloomPush {
+    uint64_t source; // uvec2: half floats rgb; 0: the picture's radiance
+    uint64_t target;
+    uvec2 source_size;
+    uvec2 target_size;
 };
 
 // What one level of the denoiser's spatial filter is told (push constants).
@@ -102,6 +119,11 @@ struct SceneView {
     uint64_t light_lists;
     uint64_t static_light_indices;
     uint64_t dynamic_light_indices;
+    // The same for samples that repeat the last view's random numbers, see LightLists::repeat(). 0: nothing has changed.
+    uint64_t repeated_lists;
+    uint64_t repeated_light_indices;
+    uint64_t previous_list_lengths; // a uint each
+    uint oldest_repeatable; // frame_index: samples with older numbers met other lists in the last view
     uint64_t lightstyles; // a float each
     uint64_t bsp_tree;
     uint light_list_count; // clusters + 1
@@ -113,7 +135,9 @@ struct FrameUniforms {
     Camera camera;
     Camera previous_camera; // where FRAME_HISTORY
     vec2 pixel_offset;      // where in their pixel camera rays pass, unless FRAME_JITTER
-    vec2 offset_change;     // the last view's pixel_offset less this one's
+    uvec2 previous_size;    // pixels of the buffers named previous_, other than previous_resolved
+    vec2 previous_scale;    // previous_size / size
+    vec2 offset_change;     // from `motion` to where the last view's pixels were sampled, in its pixels
     SceneView scene;
     ScreenBuffers screen;
     uint64_t exposure; // ExposureState
@@ -122,10 +146,12 @@ struct FrameUniforms {
     uint64_t probes; // IrradianceProbe list where FRAME_PROBES; rays of probe_rays.comp
     uint64_t probe_hits; // written by probe_rays.comp
     uint probe_mask; // of the rays
+    uint64_t statistics; // FrameStatistics
     uint64_t light_level; // LIGHT_LEVEL_LANES floats, written by light_level.comp
     uint64_t ray_counts; // RayCounts where FRAME_COUNT_RAYS
     uint probe_count;
     uvec2 size;          // pixels rendered
+    uvec2 resolved_size; // pixels of the buffers `resolved` and `accumulated`: more where anti-aliasing upscales
     uvec2 output_origin; // where the view lies in the picture
     uvec2 output_size;
     float time;          // seconds of the game

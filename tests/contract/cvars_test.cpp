@@ -135,10 +135,10 @@ TEST_F(Cvars, TheEnginesOwnAreNotJudged)
 TEST_F(Cvars, ValuesOfTheConfigurationCountFromTheStart)
 {
     mock.set("pt_light_subset", "17");
-    mock.set("pt_view_scale", "10");
+    mock.set("pt_render_scale", "10");
     cvars::register_all();
     EXPECT_EQ(cvars::values().pt_light_subset, 17);
-    EXPECT_EQ(cvars::values().pt_view_scale, 25);
+    EXPECT_EQ(cvars::values().pt_render_scale, 25);
 }
 
 TEST_F(Cvars, FilesAreGivenBack)

@@ -49,7 +49,7 @@ TEST(Engine, ChangesModes)
         + "r_mode -1\nvid_fullscreen 0\nr_customwidth 161\nr_customheight 97\nr_vsync 0\nvid_restart\nwait_25\n"
         + capture_into("odd") + "quit\n";
     // The window's size is what counts here; the 3D view may be coarse, for a CPU renders it.
-    options.arguments = { "+set", "pt_view_scale", "25", "+map", own_map, "+exec", "test.cfg" };
+    options.arguments = { "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
     options.limit = std::chrono::seconds(240);
     const EngineRun run(options);
     run.expect_clean();
@@ -70,7 +70,7 @@ TEST(Engine, FollowsItsWindow)
         + "quit\n";
     options.display_commands = { window + "windowsize 402 299", window + "windowunmap", window + "windowmap",
         window + "windowsize 97 61" };
-    options.arguments = { "+set", "pt_view_scale", "25", "+map", own_map, "+exec", "test.cfg" };
+    options.arguments = { "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
     options.limit = std::chrono::seconds(240);
     const EngineRun run(options);
     run.expect_clean();
@@ -85,8 +85,8 @@ TEST(Engine, ChangesSettingsWhileRunning)
     EngineOptions options;
     options.script = "wait_25\n";
     for (const char* command : { "r_vsync 0", "r_vsync 1", "vid_gamma 1.6", "pt_bounces 0", "pt_bounces 3",
-             "pt_light_subset 1", "pt_light_subset 32", "pt_exposure 2", "pt_tone_map none", "pt_view_scale 50",
-             "pt_view_scale 100", "pt_accumulate 1", "pt_accumulate 0", "pt_bounces 99999", "pt_bounces no-number",
+             "pt_light_subset 1", "pt_light_subset 32", "pt_exposure 2", "pt_tone_map none", "pt_render_scale 50",
+             "pt_render_scale 100", "pt_accumulate 1", "pt_accumulate 0", "pt_bounces 99999", "pt_bounces no-number",
              "viewsize 60", "viewsize 100" })
         options.script += std::string(command) + "\nwait_5\n";
     options.script += "quit\n";

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <random>
 
 namespace vkpt::test {
@@ -131,6 +132,49 @@ TEST(DynamicLights, ListsOfSlotsEqualListsFromScratch)
         for (size_t i = 0; i < lengths.size(); i++)
             ASSERT_EQ(lists.lists()[i].first_dynamic, fresh.lists()[i].first_dynamic);
     }
+}
+
+// Who repeats the last frame's random numbers meets what was there at its old place, and all that has come behind it.
+TEST(DynamicLights, RepeatedListsKeepOldPlaces)
+{
+    const formats::Bsp bsp = make_cell_map(map_size, make_random_cells(map_size, 0.6, 2));
+    Game game(7);
+    DynamicLights slots;
+    LightLists lists;
+    lists.build(bsp, {});
+    std::vector<shared::LightList> old_lists = lists.lists();
+    std::vector<uint32_t> old_indices;
+    size_t old_count = 0, with_gone_lights = 0;
+    for (int step = 0; step < 300; step++) {
+        game.step();
+        std::vector<Emitter> arranged = game.emitters();
+        slots.arrange(arranged);
+        lists.update(arranged);
+        const LightLists::Repeated repeated = lists.repeat();
+        EXPECT_EQ(repeated.emitter_count, lists.has_changed() ? std::max(old_count, arranged.size()) : arranged.size());
+        for (size_t i = 0; i < old_lists.size(); i++) {
+            const auto part = [](const std::vector<uint32_t>& indices, size_t first, size_t count) {
+                return std::vector(indices.begin() + long(first), indices.begin() + long(first + count));
+            };
+            const shared::LightList& list = repeated.lists[i];
+            const std::vector<uint32_t> all = part(repeated.dynamic_indices, list.first_dynamic, list.dynamic_count);
+            const auto before = part(old_indices, old_lists[i].first_dynamic, old_lists[i].dynamic_count);
+            const auto now
+                = part(lists.dynamic_indices(), lists.lists()[i].first_dynamic, lists.lists()[i].dynamic_count);
+            ASSERT_EQ(lists.previous_lengths()[i], before.size());
+            ASSERT_EQ(part(all, 0, before.size()), before);
+            std::vector<uint32_t> expected;
+            std::ranges::set_union(before, now, std::back_inserter(expected));
+            std::vector<uint32_t> sorted = all;
+            std::ranges::sort(sorted);
+            ASSERT_EQ(sorted, expected);
+            with_gone_lights += all.size() > now.size();
+        }
+        old_lists = lists.lists();
+        old_indices = lists.dynamic_indices();
+        old_count = arranged.size();
+    }
+    EXPECT_GT(with_gone_lights, 0u);
 }
 
 TEST(DynamicLights, ThatGoOutAreInNoList)

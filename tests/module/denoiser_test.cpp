@@ -134,9 +134,9 @@ TEST_F(Denoiser, CutsDropTheHistory)
         session->view.view_origin[0] += 130; // a teleport
         session->draw();
         const Radiance after_cut = session->capture();
-        session->set("pt_view_scale", 50);
+        session->view.width /= 2;
         session->draw();
-        session->set("pt_view_scale", 100); // other pixels
+        session->view.width *= 2; // other pixels
         session->draw();
         EXPECT_TRUE(session->capture() == after_cut) << mode;
         session->load_map("room");

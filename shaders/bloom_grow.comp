@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Mixes a level of the bloom's pyramid with the coarser ones below it, from the smallest upwards.
+#include "lib/frame.glsl"
+#include "lib/bloom.glsl"
+
+layout(push_constant, scalar) uniform PushBlock { BloomPush push; };
+
+// Of a level; what is left is the coarser ones': each is half as strong as the one above it, and about four times as wide.
+const float own_share = 0.5;
+
+void grow_pixel(uvec2 pixel, uint index)
+{
+    vec3 own = unpack_half3(BloomBuffer(push.target).v[index]);
+    vec3 coarser = sample_bloom_level(push.source, push.source_size, (vec2(pixel) + 0.5) / vec2(push.target_size));
+    BloomBuffer(push.target).v[index] = pack_half3(mix(coarser, own, own_share));
+}
+
+VKPT_RUN_OVER(push.target_size, grow_pixel)

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The filters in a game's course: every trace backend, menus, pauses, rewinds, lights that come and go, and a long
+// flight through our own level.
+#include "client/host/scene.hpp"
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace vkpt::tests {
+namespace {
+
+class Filters : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        folder_ = std::make_unique<GameFolder>();
+        folder_->add_wall("wall", 180);
+        MapBuilder map;
+        map.add_room({ -256, -256, 0 }, { 256, 256, 256 }, map.add_material("wall"));
+        map.add_block({ 20, -60, 0 }, { 50, -30, 40 }, map.add_material("wall"));
+        for (int i = 0; i < 16; i++)
+            map.add_point_light({ 60 - 8 * float(i), 40, 200 }, 20);
+        folder_->add_map("room", map.finish());
+        cube_path_ = folder_->add_cube("cube", 8, red_index);
+        session_ = std::make_unique<Session>(*folder_, CvarList { { "flt_taa", "on" } });
+    }
+    static void TearDownTestSuite()
+    {
+        session_.reset();
+        folder_.reset();
+    }
+    // As at the start of a map.
+    void SetUp() override
+    {
+        session_->set("flt_denoiser", "asvgf");
+        session_->set("flt_taa", "on");
+        session_->set("pt_seed", 1);
+        session_->set("pt_trace", "software");
+        session_->view.flags = 0;
+        session_->view.time = 1;
+        session_->view.dlight_count = 0;
+        session_->load_map("room");
+        session_->look({ -120, -100, 90 }, { 20, 20, 0 });
+    }
+
+    // A menu with a model before the picture.
+    static void draw_menu()
+    {
+        const engine::Entity entity = make_entity(session_->module().register_model(cube_path_.c_str()), { 40, 0, 0 });
+        const engine::RefDef world = session_->view;
+        session_->look({ 0, 0, 0 }, { 1, 0, 0 });
+        session_->view.flags = engine::RDF_NOWORLDMODEL;
+        session_->view.entities = &entity;
+        session_->view.entity_count = 1;
+        session_->draw();
+        session_->view = world;
+    }
+
+    static inline std::unique_ptr<GameFolder> folder_;
+    static inline std::unique_ptr<Session> session_;
+    static inline std::string cube_path_;
+};
+
+double error_between(const Radiance& picture, const Radiance& reference)
+{
+    double sum = 0;
+    for (size_t i = 0; i < picture.pixels.size(); i++)
+        sum += std::pow(double(luminance(picture.pixels[i])) - double(luminance(reference.pixels[i])), 2);
+    return sum / double(picture.pixels.size());
+}
+
+TEST_F(Filters, EveryTraceBackendGivesTheSamePicture)
+{
+    const ModuleInfo info = session_->extension().info();
+    std::vector<std::string> backends;
+    for (size_t i = 0; info.trace_backends[i]; i++)
+        backends.emplace_back(info.trace_backends[i]);
+    Radiance first;
+    for (const std::string& backend : backends) {
+        session_->set("pt_trace", backend);
+        session_->load_map("room");
+        session_->draw(8);
+        const Radiance picture = session_->capture();
+        EXPECT_EQ(count_broken(picture), 0u) << backend;
+        if (first.pixels.empty())
+            first = picture;
+        // Rays through edges may differ in their last bit.
+        EXPECT_LT(error_between(picture, first), 1e-3 * std::pow(luminance(first.mean()), 2)) << backend;
+    }
+}
+
+TEST_F(Filters, AMenuLeavesTheGamesHistoryAlone)
+{
+    session_->draw(12);
+    const Radiance without = session_->capture();
+    session_->load_map("room");
+    session_->set("flt_taa", "off"); // begins anew: the same camera rays as before
+    session_->draw();
+    session_->set("flt_taa", "on");
+    session_->draw(10);
+    draw_menu();
+    EXPECT_FALSE(is_black(session_->capture())); // the model
+    session_->draw();
+    draw_menu();
+    session_->draw();
+    const Radiance with = session_->capture();
+    session_->load_map("room");
+    session_->draw();
+    const Radiance anew = session_->capture();
+    EXPECT_LT(error_between(with, without), 0.1 * error_between(anew, without));
+}
+
+TEST_F(Filters, PauseKeepsTheHistoryAndRewindDropsIt)
+{
+    session_->set("flt_taa", "off");
+    session_->draw();
+    const Radiance first = session_->capture();
+    session_->draw(10);
+    const Radiance settled = session_->capture();
+    EXPECT_FALSE(settled == first);
+    session_->draw(3); // time stands still
+    EXPECT_LT(error_between(session_->capture(), settled), 0.2 * error_between(first, settled));
+    session_->view.time = 0.5f;
+    session_->draw();
+    EXPECT_TRUE(session_->capture() == first);
+}
+
+// Lights whose reach ends before all that is seen come and go, and with them the lists: nobody may notice.
+TEST_F(Filters, LightsThatComeAndGoElsewhereChangeNothing)
+{
+    session_->set("pt_seed", 0);
+    session_->set("pt_bounces", 0);
+    session_->set("flt_taa", "off");
+    const Radiance reference = session_->accumulate(600);
+    session_->set("pt_accumulate", 0);
+    std::vector<engine::DynamicLight> lights;
+    for (int i = 0; i < 9; i++)
+        lights.push_back({ { 250, 250, 10 + 2 * float(i) }, { 1, 1, 1 }, 30 });
+    session_->view.dlights = lights.data();
+    for (const char* sampler : { "subset", "subset_mis_blue", "uniform" }) {
+        session_->set("pt_light_sampler", sampler);
+        const auto error = [&](auto count_of_frame) {
+            session_->load_map("room");
+            double sum = 0;
+            for (int frame = 0; frame < 40; frame++) {
+                session_->view.dlight_count = count_of_frame(frame);
+                session_->draw();
+                if (frame >= 24)
+                    sum += error_between(session_->capture(), reference) / 16;
+            }
+            return sum;
+        };
+        const double still = error([](int) { return 4; });
+        const double changing = error([](int frame) { return frame % 2 ? 9 : 1; });
+        EXPECT_LT(changing, 1.5 * still) << sampler;
+    }
+    session_->set("pt_light_sampler", "subset");
+    session_->set("pt_bounces", 1);
+}
+
+// But a light that comes into view is seen at once.
+TEST_F(Filters, ANewLightIsSeenAtOnce)
+{
+    session_->set("pt_seed", 0);
+    session_->set("flt_taa", "off");
+    const engine::DynamicLight light { { 0, 0, 100 }, { 1, 1, 1 }, 400 };
+    session_->view.dlights = &light;
+    for (const char* sampler : { "subset", "subset_mis_blue", "uniform" }) {
+        session_->set("pt_light_sampler", sampler);
+        session_->load_map("room");
+        session_->view.dlight_count = 0;
+        session_->draw(24);
+        const float before = luminance(session_->capture().mean());
+        session_->view.dlight_count = 1;
+        session_->draw(2);
+        const float soon = luminance(session_->capture().mean());
+        session_->draw(30);
+        const float after = luminance(session_->capture().mean());
+        EXPECT_GT(after, 1.5f * before) << sampler;
+        EXPECT_GT(soon - before, 0.7f * (after - before)) << sampler;
+    }
+    session_->set("pt_light_sampler", "subset");
+}
+
+// Through our level's halls, with turns, jumps and shots. $VKPT_FLIGHT_FRAMES of them, else 100.
+TEST(Flight, HasNoBrokenPixel)
+{
+    if (!std::filesystem::exists(std::filesystem::path(VKPT_GAME_FOLDER) / "baseq2/maps/vkpt1.bsp"))
+        GTEST_SKIP() << "the build has made no game data";
+    const char* wanted = std::getenv("VKPT_FLIGHT_FRAMES");
+    const int frames = wanted ? std::atoi(wanted) : 100;
+    Session session(std::filesystem::path(VKPT_GAME_FOLDER),
+        { { "pt_seed", "0" }, { "flt_denoiser", "asvgf" }, { "flt_taa", "upscale" }, { "pt_exposure", "0" } },
+        { 64, 36 });
+    client::Scene scene(session.files(), client::parse_scene_name("maps/vkpt1.bsp"));
+    scene.register_with(session.host());
+    for (int frame = 0; frame < frames; frame++) {
+        const float t = float(frame) / 60;
+        client::Camera camera;
+        camera.position
+            = { 180 * std::sin(0.7f * t), -150 + 330 * std::sin(0.31f * t), 54 + (frame % 200 > 150 ? 90 : 0) };
+        camera.yaw = 60 * t;
+        camera.pitch = 30 * std::sin(t);
+        scene.set_camera(camera);
+        engine::RefDef view = scene.view(64, 36, t);
+        const engine::DynamicLight shot { { camera.position.x + 40, camera.position.y, camera.position.z },
+            { 1, 0.8f, 0.3f }, 250 };
+        view.dlights = &shot;
+        view.dlight_count = frame % 10 < 3;
+        if (frame % 50 == 20)
+            session.set("pt_render_scale", frame % 100 < 50 ? 60 : 100);
+        session.host().draw_frame(view);
+        if (frame % 10 == 0) {
+            ASSERT_EQ(count_broken(session.capture()), 0u) << frame;
+        }
+    }
+    session.host().run_text("pt_info\n");
+    EXPECT_TRUE(session.has_line(" 0 broken since the start"));
+    EXPECT_FALSE(session.has_line("is not a number"));
+}
+
+} // namespace
+} // namespace vkpt::tests

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Fewer rendered pixels than shown ones: what upscaling brings back, what changes of the size leave alone, and how the
+// size follows the time.
+#include "ref_vkpt/frame/render_scale.hpp"
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace vkpt::tests {
+namespace {
+
+class Upscale : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        folder_ = std::make_unique<GameFolder>();
+        folder_->add_wall("wall", 180);
+        MapBuilder field;
+        field.add(rectangle({ 0, 0, 0 }, { 512, 0, 0 }, { 0, 512, 0 }), field.add_material("wall"));
+        for (int i = 0; i < 6; i++)
+            field.add_block({ 80.0f + 12 * float(i), -60.0f + 20 * float(i), 1 },
+                { 84.0f + 12 * float(i), -50.0f + 20 * float(i), 40 }, field.add_material("wall"));
+        field.add_point_light({ 0, 0, 3000 }, 100000);
+        folder_->add_map("field", field.finish());
+        session_ = std::make_unique<Session>(
+            *folder_, CvarList { { "pt_bounces", "0" }, { "pt_emission_scale", "0.0001" }, { "pt_seed", "0" } });
+        session_->load_map("field");
+        session_->look({ 0, -20, 50 }, { 120, 0, 20 });
+    }
+    static void TearDownTestSuite()
+    {
+        session_.reset();
+        folder_.reset();
+    }
+    void SetUp() override
+    {
+        for (const char* name : { "pt_accumulate", "pt_target_ms" })
+            session_->set(name, 0);
+        session_->set("pt_render_scale", 100);
+        session_->set("flt_taa", "off");
+        session_->set("flt_denoiser", "off");
+    }
+
+    static formats::Image shown()
+    {
+        session_->draw();
+        return session_->capture_display();
+    }
+
+    static inline std::unique_ptr<GameFolder> folder_;
+    static inline std::unique_ptr<Session> session_;
+};
+
+double error_between(const formats::Image& a, const formats::Image& b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < a.pixels.size(); i++)
+        sum += std::pow(double(a.pixels[i].g) - double(b.pixels[i].g), 2);
+    return sum / double(a.pixels.size());
+}
+
+TEST_F(Upscale, QuarterOfThePixelsComesNearTheWholePicture)
+{
+    session_->set("pt_accumulate", 1);
+    session_->draw(64);
+    const formats::Image reference = session_->capture_display();
+    session_->set("pt_accumulate", 0);
+    session_->set("pt_render_scale", 50);
+    session_->set("flt_taa", "on");
+    session_->draw(40);
+    const double enlarged = error_between(session_->capture_display(), reference);
+    session_->set("flt_taa", "upscale");
+    session_->draw(60);
+    const double upscaled = error_between(session_->capture_display(), reference);
+    EXPECT_GT(enlarged, 0);
+    EXPECT_LT(upscaled, 0.7 * enlarged);
+    const Radiance picture = session_->capture(); // as many pixels as the window
+    EXPECT_EQ(count_broken(picture), 0u);
+}
+
+// The pictures before and after, and the history of light, survive other sizes.
+TEST_F(Upscale, AChangeOfSizeKeepsTheHistory)
+{
+    session_->set("pt_emission_scale", 0.0001);
+    session_->set("flt_taa", "upscale");
+    session_->set("flt_denoiser", "asvgf");
+    session_->draw(40);
+    const formats::Image before = shown();
+    for (const int scale : { 75, 50, 90, 100 }) {
+        session_->set("pt_render_scale", scale);
+        const formats::Image after = shown();
+        EXPECT_LT(error_between(before, after), 30) << scale;
+    }
+    session_->set("flt_taa", "off"); // drops it
+    session_->set("flt_denoiser", "off");
+    EXPECT_GT(error_between(before, shown()), 30);
+}
+
+// With a time that no frame can keep, and one that all do.
+TEST_F(Upscale, TheSizeFollowsTheTime)
+{
+    session_->set("flt_taa", "upscale");
+    const auto rendered = [&] {
+        const size_t lines = session_->lines().size();
+        session_->host().run_text("pt_info\n");
+        for (size_t i = lines; i < session_->lines().size(); i++)
+            if (session_->lines()[i].starts_with("rendered"))
+                return session_->lines()[i];
+        return std::string();
+    };
+    session_->draw();
+    EXPECT_NE(rendered().find("64 x 48"), std::string::npos) << rendered();
+    session_->set("pt_target_ms", 0.001);
+    session_->draw(12);
+    EXPECT_NE(rendered().find("32 x 24"), std::string::npos) << rendered();
+    session_->set("pt_target_ms", 1000);
+    session_->draw(24);
+    EXPECT_NE(rendered().find("64 x 48"), std::string::npos) << rendered();
+    EXPECT_NE(rendered().find(" 0 broken"), std::string::npos) << rendered();
+}
+
+// A device whose frames take `fixed` ms and `full` ms for all pixels.
+double run_device(
+    RenderScale& scale, const RenderScale::Limits& limits, double fixed, double full, int frames, int& changes)
+{
+    double milliseconds = 0;
+    for (int i = 0; i < frames; i++) {
+        const double share = scale.percent(limits) / 100.0;
+        milliseconds = fixed + full * share * share + (i % 7 == 0 ? 40 : 0); // now and then a slow one
+        const uint32_t before = scale.percent(limits);
+        scale.add_frame(milliseconds, limits);
+        changes += scale.percent(limits) != before;
+        milliseconds = fixed + full * share * share;
+    }
+    return milliseconds;
+}
+
+TEST(RenderScale, HoldsTheTargetWithoutSwinging)
+{
+    for (const double full : { 20.0, 60.0, 90.0, 110.0 }) {
+        RenderScale scale;
+        const RenderScale::Limits limits { 40, 50, 100 };
+        int changes = 0;
+        run_device(scale, limits, 5, full, 100, changes);
+        changes = 0;
+        const double last = run_device(scale, limits, 5, full, 100, changes);
+        EXPECT_EQ(changes, 0) << full;
+        EXPECT_LE(last, 1.04 * 40) << full;
+        const uint32_t percent = scale.percent(limits);
+        const double larger = (percent + 2 * RenderScale::step) / 100.0;
+        EXPECT_TRUE(percent == 100 || 5 + full * larger * larger > 0.93 * 40)
+            << full << ": " << percent; // not needlessly small
+    }
+}
+
+TEST(RenderScale, KeepsItsLimits)
+{
+    RenderScale scale;
+    int changes = 0;
+    run_device(scale, { 10, 50, 90 }, 0, 1000, 50, changes);
+    EXPECT_EQ(scale.percent({ 10, 50, 90 }), 50u);
+    EXPECT_EQ(scale.percent({ 0, 50, 90 }), 90u);
+    EXPECT_EQ(scale.percent({ 10, 50, 30 }), 30u); // the player's wish is the upper limit
+}
+
+} // namespace
+} // namespace vkpt::tests
