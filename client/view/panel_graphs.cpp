@@ -145,7 +145,7 @@ void draw_errors(State& state)
     }
     if (!state.has_reference)
         return;
-    if (value_of(state, Side::a, "pt_view_scale") != value_of(state, Side::b, "pt_view_scale") && state.split.is_on)
+    if (value_of(state, Side::a, "pt_render_scale") != value_of(state, Side::b, "pt_render_scale") && state.split.is_on)
         ImGui::TextWrapped("A and B are of different size: the error is A's alone.");
     ImGui::Text("reference: %u frames", state.reference_frames);
     if (state.reference_rmse) {

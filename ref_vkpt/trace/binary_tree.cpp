@@ -17,7 +17,7 @@ int widest_axis(glm::vec3 extent)
 }
 
 // Cost of visiting a node relative to testing one triangle.
-constexpr float visit_cost = 1.0f;
+constexpr float visit_cost = 0.3f;
 constexpr int bin_count = 32;
 
 struct Split {

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstring>
 #include <glm/common.hpp>
+#include <limits>
+#include <utility>
 
 namespace vkpt {
 namespace {
@@ -23,6 +25,97 @@ uint32_t balanced_stack_need(uint32_t count, uint32_t max_leaf)
 struct Children {
     std::array<uint32_t, BVH_WIDTH> nodes {};
     uint32_t count = 0;
+    void add(uint32_t node) { nodes[count++] = node; }
+};
+
+// What a ray pays for a wide node and for a triangle, by their loads (lib/trace_software.glsl).
+constexpr float node_cost = 2.0f, triangle_cost = 1.0f;
+
+// The cheapest way to stand for each binary subtree by at most k children of a wide node, by the surface-area heuristic
+// (Ylitie et al., "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017, section 3.1).
+class Collapse {
+public:
+    Collapse(const BinaryTree& tree, uint32_t max_leaf)
+        : tree_(tree)
+        , max_leaf_(max_leaf)
+        , forests_(tree.nodes.size())
+    {
+        for (size_t node = tree.nodes.size(); node-- > 0;) // children stand behind their parents
+            solve(node);
+    }
+
+    bool is_leaf(uint32_t node) const { return forests_[node].leaf; }
+
+    Children children(uint32_t node) const
+    {
+        Children result;
+        if (is_leaf(node))
+            result.add(node);
+        else
+            open(node, BVH_WIDTH, result);
+        return result;
+    }
+
+private:
+    struct Forest {
+        std::array<float, BVH_WIDTH - 1> cost {}; // [k - 1]: by at most k roots
+        std::array<uint8_t, BVH_WIDTH> left {}; // [k - 1]: how many of k roots the left child gets
+        bool leaf = false; // what one root is
+    };
+
+    // The best way to share `roots` between the two children.
+    std::pair<float, uint8_t> share(const BinaryNode& node, uint32_t roots) const
+    {
+        std::pair<float, uint8_t> best { std::numeric_limits<float>::max(), uint8_t(1) };
+        for (uint32_t left = 1; left < roots; left++) {
+            const float cost = forests_[node.left].cost[left - 1] + forests_[node.right].cost[roots - left - 1];
+            if (cost < best.first)
+                best = { cost, uint8_t(left) };
+        }
+        return best;
+    }
+
+    void solve(size_t index)
+    {
+        const BinaryNode& node = tree_.nodes[index];
+        Forest& forest = forests_[index];
+        const float area = node.box.half_area();
+        const float as_leaf = area * triangle_cost * float(node.count);
+        if (node.is_leaf()) {
+            forest.cost.fill(as_leaf);
+            forest.leaf = true;
+            return;
+        }
+        const auto [opened, left] = share(node, BVH_WIDTH);
+        forest.left[BVH_WIDTH - 1] = left;
+        const float as_node = area * node_cost + opened;
+        forest.leaf = node.count <= max_leaf_ && as_leaf <= as_node;
+        forest.cost[0] = forest.leaf ? as_leaf : as_node;
+        for (uint32_t roots = 2; roots < BVH_WIDTH; roots++) {
+            const auto [cost, split] = share(node, roots);
+            forest.cost[roots - 1] = std::min(cost, forest.cost[roots - 2]);
+            forest.left[roots - 1] = split;
+        }
+    }
+
+    // Adds up to `roots` children that stand for what is below `node`.
+    void open(uint32_t node, uint32_t roots, Children& result) const
+    {
+        const Forest& forest = forests_[node];
+        while (roots > 1 && roots < BVH_WIDTH && forest.cost[roots - 1] == forest.cost[roots - 2])
+            roots--; // as good with fewer
+        if (roots == 1) {
+            result.add(node);
+            return;
+        }
+        const uint32_t left = forest.left[roots - 1];
+        open(tree_.nodes[node].left, left, result);
+        open(tree_.nodes[node].right, roots - left, result);
+    }
+
+    const BinaryTree& tree_;
+    uint32_t max_leaf_;
+    std::vector<Forest> forests_;
 };
 
 // Adds wide nodes in depth-first order.
@@ -32,6 +125,7 @@ public:
         : tree_(tree)
         , boxes_(boxes)
         , max_leaf_(max_leaf)
+        , collapse_(tree, max_leaf)
     {
     }
 
@@ -51,11 +145,11 @@ private:
     // `balanced`: it is from rebuild_balanced().
     uint32_t add_node(uint32_t node, uint32_t stack_left, uint32_t depth, bool balanced)
     {
-        Children children = balanced ? open_children(node, &count_of) : open_children(node, &area_of);
+        Children children = balanced ? open_levels(node) : collapse_.children(node);
         if (!balanced && !fits_stack(children, stack_left)) {
             balanced = true;
             rebuild_balanced(tree_, node, boxes_, max_leaf_);
-            children = open_children(node, &count_of);
+            children = open_levels(node);
         }
         wide_.max_depth = std::max(wide_.max_depth, depth);
         const size_t index = wide_.nodes.size();
@@ -64,7 +158,7 @@ private:
         for (uint32_t slot = 0; slot < children.count; slot++) {
             const BinaryNode child = tree_.nodes[children.nodes[slot]]; // a copy: adding children may move the nodes
             uint32_t word = BVH_LEAF | (child.count - 1) << BVH_LEAF_COUNT_SHIFT | child.first;
-            if (!child.is_leaf()) {
+            if (balanced ? !child.is_leaf() : !collapse_.is_leaf(children.nodes[slot])) {
                 word = uint32_t(wide_.nodes.size());
                 need = std::max(
                     need, add_node(children.nodes[slot], stack_left - (children.count - 1), depth + 1, balanced));
@@ -75,30 +169,27 @@ private:
         return need + children.count - 1;
     }
 
-    static float area_of(const BinaryNode& node) { return node.box.half_area(); }
-    static float count_of(const BinaryNode& node) { return float(node.count); }
-
-    // Replaces the inner node of the highest `weight` by its two children until eight are there. By area, these are the
-    // nodes that most rays would have to open; by count, all of one level come before those of the next.
-    Children open_children(uint32_t node, float (*weight)(const BinaryNode&)) const
+    // In a balanced tree: replaces the inner node of the most boxes by its two children until eight are there, so that
+    // all of one level come before those of the next.
+    Children open_levels(uint32_t node) const
     {
         Children children;
-        children.nodes[children.count++] = node;
+        children.add(node);
         while (children.count < BVH_WIDTH) {
             uint32_t best = BVH_WIDTH;
-            float best_weight = -1.0f;
+            uint32_t most = 0;
             for (uint32_t i = 0; i < children.count; i++) {
                 const BinaryNode& child = tree_.nodes[children.nodes[i]];
-                if (!child.is_leaf() && weight(child) > best_weight) {
+                if (!child.is_leaf() && child.count > most) {
                     best = i;
-                    best_weight = weight(child);
+                    most = child.count;
                 }
             }
             if (best == BVH_WIDTH)
                 break;
             const BinaryNode& opened = tree_.nodes[children.nodes[best]];
             children.nodes[best] = opened.left;
-            children.nodes[children.count++] = opened.right;
+            children.add(opened.right);
         }
         return children;
     }
@@ -115,6 +206,7 @@ private:
     BinaryTree& tree_;
     std::span<const Box> boxes_;
     uint32_t max_leaf_;
+    Collapse collapse_;
     WideTree wide_;
 };
 

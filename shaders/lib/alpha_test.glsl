@@ -4,9 +4,7 @@
 #define VKPT_LIB_ALPHA_TEST
 
 #include "frame.glsl"
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleBuffer { Triangle v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MaterialBuffer { Material v[]; };
+#include "wide_loads.glsl"
 
 vec2 interpolate_uv(Triangle triangle, vec2 barycentrics)
 {
@@ -17,8 +15,8 @@ vec2 interpolate_uv(Triangle triangle, vec2 barycentrics)
 // Whether the picture of triangle `id` has a hole at this place. The largest mip level counts, whatever the distance.
 bool is_cut_out(uint id, vec2 barycentrics)
 {
-    Triangle triangle = TriangleBuffer(frame.scene.triangles).v[id];
-    Material material = MaterialBuffer(frame.scene.materials).v[triangle.material];
+    Triangle triangle = fetch_Triangle(frame.scene.triangles, id);
+    Material material = fetch_Material(frame.scene.materials, triangle.material);
     if ((material.flags & MATERIAL_ALPHA_TEST) == 0u)
         return false;
     vec2 uv = interpolate_uv(triangle, barycentrics) + material.uv_scroll;

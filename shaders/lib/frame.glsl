@@ -19,11 +19,42 @@ layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; }
 layout(set = 0, binding = 2) uniform sampler samplers[SAMPLER_COUNT];
 layout(set = 1, binding = 0) uniform texture2D textures[];
 
+// An element of a buffer; the last parameter of load_element tells its type. By 64-bit loads and stores where its size allows it
+// (see wide_loads.glsl).
+#define VKPT_ELEMENT(type)                                                                                             \
+    layout(buffer_reference, scalar, buffer_reference_align = 4) buffer type##_elements { type v[]; };                 \
+    type load_element(uint64_t address, uint index, type unused) { return type##_elements(address).v[index]; }         \
+    void store_element(uint64_t address, uint index, type value) { type##_elements(address).v[index] = value; }
+VKPT_ELEMENT(float)
+VKPT_ELEMENT(uint)
+VKPT_ELEMENT(vec3)
+VKPT_ELEMENT(uvec3)
+#undef VKPT_ELEMENT
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ElementWords { uint64_t v[]; };
+
+uvec2 load_element(uint64_t address, uint index, uvec2 unused) { return unpack32(ElementWords(address).v[index]); }
+void store_element(uint64_t address, uint index, uvec2 value) { ElementWords(address).v[index] = pack64(value); }
+
+uvec4 load_element(uint64_t address, uint index, uvec4 unused)
+{
+    return uvec4(unpack32(ElementWords(address).v[index * 2u]), unpack32(ElementWords(address).v[index * 2u + 1u]));
+}
+void store_element(uint64_t address, uint index, uvec4 value)
+{
+    ElementWords(address).v[index * 2u] = pack64(value.xy);
+    ElementWords(address).v[index * 2u + 1u] = pack64(value.zw);
+}
+
+vec2 load_element(uint64_t address, uint index, vec2 unused) { return uintBitsToFloat(load_element(address, index, uvec2(0u))); }
+void store_element(uint64_t address, uint index, vec2 value) { store_element(address, index, floatBitsToUint(value)); }
+vec4 load_element(uint64_t address, uint index, vec4 unused) { return uintBitsToFloat(load_element(address, index, uvec4(0u))); }
+void store_element(uint64_t address, uint index, vec4 value) { store_element(address, index, floatBitsToUint(value)); }
+
 // load_NAME(pixel index) and store_NAME(pixel index, value) for every screen buffer
 #define VKPT_SCREEN_BUFFER(type, name)                                                                                 \
-    layout(buffer_reference, scalar, buffer_reference_align = 4) buffer name##_buffer { type v[]; };                   \
-    type load_##name(uint pixel) { return name##_buffer(frame.screen.name).v[pixel]; }                                 \
-    void store_##name(uint pixel, type value) { name##_buffer(frame.screen.name).v[pixel] = value; }
+    type load_##name(uint pixel) { return load_element(frame.screen.name, pixel, type(0)); }                           \
+    void store_##name(uint pixel, type value) { store_element(frame.screen.name, pixel, value); }
 #include "../shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
 

@@ -5,6 +5,7 @@
 
 #include "../shared/functions.h"
 #include "../shared/scene.h"
+#include "wide_loads.glsl"
 
 VKPT_BUFFER(EmitterBuffer, Emitter, 16);
 VKPT_BUFFER(LightListBuffer, LightList, 16);
@@ -37,7 +38,7 @@ int find_cluster(BspTreeBuffer tree, vec3 point)
 {
     int child = 0;
     while (child >= 0) {
-        BspTreeNode node = tree.v[child];
+        BspTreeNode node = VKPT_FETCH(BspTreeNode, tree, uint(child));
         child = dot(point, node.normal) - node.dist >= 0.0f ? node.front : node.back;
     }
     return -(child + 2);
@@ -48,7 +49,7 @@ LightListView open_light_list(LightTables tables, int cluster)
     uint outside = tables.list_count - 1u;
     LightListView list;
     list.tables = tables;
-    list.range = tables.lists.v[cluster < 0 ? outside : min(uint(cluster), outside)];
+    list.range = VKPT_FETCH(LightList, tables.lists, cluster < 0 ? outside : min(uint(cluster), outside));
     list.counted = list.range.static_count + list.range.dynamic_count;
     return list;
 }
@@ -91,7 +92,7 @@ int find_light(LightListView list, uint emitter)
 // With its lightstyle applied.
 Emitter load_emitter(LightListView list, uint emitter)
 {
-    Emitter e = list.tables.emitters.v[emitter];
+    Emitter e = VKPT_FETCH(Emitter, list.tables.emitters, emitter);
     e.radiance *= list.tables.lightstyles.v[e.lightstyle];
     return e;
 }

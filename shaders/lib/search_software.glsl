@@ -17,7 +17,11 @@ RawHit search_trees(Ray ray, uint mask, bool any_hit)
     uint64_t stack = software_stack(frame.scene.trace_stack, lane);
     RawHit hit = no_hit(ray.t_max);
     [[dont_unroll]] for (uint tree = 0u; tree < frame.scene.tree_count; tree++) {
-        software_trace(frame.scene.trees[tree], ray.origin, ray.direction, ray.t_min, hit, mask, any_hit, stack);
+        // Both loads are of constant places: for an index the CPU driver would gather every word.
+        BvhView view = frame.scene.trees[0];
+        if (tree == 1u)
+            view = frame.scene.trees[1];
+        software_trace(view, ray.origin, ray.direction, ray.t_min, hit, mask, any_hit, stack);
         if (any_hit && hit.triangle != TRACE_MISS)
             break;
     }

@@ -55,8 +55,8 @@ vec2 warp_uv(vec2 uv)
 // `cone_width`: the ray's footprint there, in units. `view`: unit, towards the ray's origin.
 HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width)
 {
-    Triangle triangle = TriangleBuffer(frame.scene.triangles).v[hit.triangle];
-    Material material = MaterialBuffer(frame.scene.materials).v[triangle.material];
+    Triangle triangle = fetch_Triangle(frame.scene.triangles, hit.triangle);
+    Material material = fetch_Material(frame.scene.materials, triangle.material);
     vec2 b = hit.barycentrics;
     float b0 = 1.0 - b.x - b.y;
 

@@ -25,8 +25,9 @@ struct Triangle {
     uint material;     // index into the material table
     int emitter;       // index into the emitter table, -1: emits nothing or is not in the light lists
     int cluster;       // PVS cluster if all of it lies in one, else -1: look it up by position
+    uint padding;      // to 8 bytes, for 64-bit loads
 };
-VKPT_ASSERT_SIZE(Triangle, 84);
+VKPT_ASSERT_SIZE(Triangle, 88);
 
 VKPT_CONST uint MATERIAL_SKY = 1u;         // radiance comes from the sky
 VKPT_CONST uint MATERIAL_WARP = 2u;        // liquid: turbulent texture, refracting surface

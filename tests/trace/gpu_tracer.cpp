@@ -32,7 +32,10 @@ GpuTracer::GpuTracer(
             tree.grid_scale });
     push_.rays = device.create_buffer_of(rays).address;
     push_.hits = hits_.address;
-    push_.trees = device.create_buffer_of(std::span<const BvhView>(views)).address;
+    if (!views.empty()) {
+        push_.first_tree = views[0];
+        push_.more_trees = device.create_buffer_of(std::span<const BvhView>(views).subspan(1)).address;
+    }
     push_.stack = device.create_buffer(size_t(groups_) * TRACE_RAYS_GROUP * TRACE_STACK_BYTES_PER_LANE).address;
     push_.ray_count = uint32_t(rays.size());
     push_.tree_count = uint32_t(views.size());

@@ -34,7 +34,7 @@ void main()
         if (index < push.ray_count) {
             TestRay ray = load_ray(index);
             store_hit(index,
-                software_trace_all(push.trees, push.tree_count, ray.origin, ray.direction, ray.t_min, ray.t_max,
+                software_trace_all(push.first_tree, push.more_trees, push.tree_count, ray.origin, ray.direction, ray.t_min, ray.t_max,
                     push.ray_mask, any_hit, stack));
         }
     }

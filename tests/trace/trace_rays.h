@@ -4,6 +4,7 @@
 #define VKPT_TESTS_TRACE_RAYS_H
 
 #include "shaders/shared/language.h"
+#include "shaders/shared/trace.h"
 
 VKPT_SHARED_BEGIN
 
@@ -27,12 +28,15 @@ VKPT_ASSERT_SIZE(TestHit, 24);
 struct TraceRaysPush {
     uint64_t rays; // TestRay
     uint64_t hits; // TestHit
-    uint64_t trees; // BvhView
+    uint64_t more_trees; // BvhView, those after the first
     uint64_t stack;
     uint ray_count;
     uint tree_count;
     uint ray_mask;
+    uint padding;
+    BvhView first_tree;
 };
+VKPT_ASSERT_SIZE(TraceRaysPush, 88); // Vulkan promises room for 128
 
 VKPT_CONST uint TRACE_RAYS_GROUP = 64u; // lanes
 VKPT_CONST uint TRACE_RAYS_PER_GROUP = 64u * 8u; // every lane traces 8 rays: fewer lanes, fewer stacks
