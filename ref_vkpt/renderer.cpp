@@ -334,7 +334,7 @@ void begin_frame(float)
     m.graphics.timer.collect_into(statistics);
     CpuTimer::collect_into(statistics);
     const auto now = std::chrono::steady_clock::now();
-    if (statistics && m.last_begin)
+    if (statistics && m.last_begin && m.frame_has_view) // loading is another matter
         statistics->add(whole_frame, std::chrono::duration<double, std::milli>(now - *m.last_begin).count());
     m.last_begin = now;
     m.frame_has_view = false;

@@ -44,10 +44,13 @@ void OutputFile::write(formats::Bytes bytes)
 
 void OutputFile::take(const fs::path& file)
 {
-    std::error_code error;
-    fs::copy_file(file, working_path_, fs::copy_options::overwrite_existing, error);
-    if (error)
-        fail(error.value());
+    errno = 0;
+    std::ifstream from(file, std::ios::binary);
+    std::ofstream to(working_path_, std::ios::binary | std::ios::trunc);
+    to << from.rdbuf();
+    to.close(); // a full disk may show only here
+    if (!from || !to)
+        fail(errno);
 }
 
 void OutputFile::commit()

@@ -21,7 +21,7 @@ public:
     // Where to write, for libraries that open files themselves.
     const std::filesystem::path& working_path() const { return working_path_; }
     void write(formats::Bytes bytes);
-    // The contents of another file.
+    // The contents of another file, which is not empty.
     void take(const std::filesystem::path& file);
     // Gives the file its name.
     void commit();

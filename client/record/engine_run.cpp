@@ -160,14 +160,18 @@ EngineRun::EngineRun(const EngineRunOptions& options)
     try {
         make_folder(options);
         watch(start(options), options);
+    } catch (const fs::filesystem_error& error) {
+        remove_folder();
+        throw Failure(fmt::format("cannot prepare the engine's folder: {}; $TMPDIR names another place", error.what()));
     } catch (...) {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
+        remove_folder();
         throw;
     }
 }
 
-EngineRun::~EngineRun()
+EngineRun::~EngineRun() { remove_folder(); }
+
+void EngineRun::remove_folder() const
 {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);

@@ -36,6 +36,7 @@ private:
     struct User {
         unsigned id = 0, group = 0;
     };
+    void remove_folder() const;
     void choose_user();
     bool can_user_read(const std::filesystem::path& path) const;
     void make_folder(const EngineRunOptions& options);

@@ -87,9 +87,9 @@ void EngineRun::make_folder(const EngineOptions& options)
     std::filesystem::permissions(folder, std::filesystem::perms(0755)); // the engine's user has to enter
     std::filesystem::create_directories(folder / "files");
     std::ofstream(folder / "files" / "test.cfg") << wait_aliases() << options.script;
-    for (const auto& [name, contents] : options.files) {
-        std::filesystem::create_directories((folder / "files" / name).parent_path());
-        std::ofstream(folder / "files" / name, std::ios::binary) << contents;
+    for (const auto& [path, contents] : options.files) {
+        std::filesystem::create_directories((folder / "files" / path).parent_path());
+        std::ofstream(folder / "files" / path, std::ios::binary) << contents;
     }
     outcome.game_folder = folder / "home" / ".yq2" / "baseq2";
 }
