@@ -26,7 +26,7 @@ float seconds_since(Clock::time_point time) { return std::chrono::duration<float
 
 glm::ivec2 window_size(const ViewerOptions& options)
 {
-    return { options.render.host.width + int(panel_width), std::max(options.render.host.height + 356, 820) };
+    return { options.render.host.width + int(panel_width), std::max(options.render.host.height + 374, 820) };
 }
 
 bool is_same(const Camera& a, const Camera& b)
