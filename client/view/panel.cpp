@@ -101,9 +101,9 @@ void draw_dock(State& state, glm::vec2 window)
     if (ImGui::Begin("dock", nullptr, fixed)) {
         constexpr ImGuiTableFlags flags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_PadOuterX;
         if (ImGui::BeginTable("columns", 3, flags)) {
-            ImGui::TableSetupColumn("passes", 0, 0.30f);
-            ImGui::TableSetupColumn("error", 0, 0.29f);
-            ImGui::TableSetupColumn("lights", 0, 0.41f);
+            ImGui::TableSetupColumn("passes", ImGuiTableColumnFlags_WidthStretch, 0.30f);
+            ImGui::TableSetupColumn("error", ImGuiTableColumnFlags_WidthStretch, 0.29f);
+            ImGui::TableSetupColumn("lights", ImGuiTableColumnFlags_WidthStretch, 0.41f);
             ImGui::TableNextColumn();
             draw_passes(state);
             ImGui::TableNextColumn();

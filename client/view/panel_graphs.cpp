@@ -132,6 +132,14 @@ void draw_error_row(const State& state, Side which)
     ImGui::Text("RMSE %.4g   relative MSE %.4g", error.rmse, error.relative_mse);
 }
 
+bool are_of_one_size(const State& state)
+{
+    return std::ranges::all_of(state.live, [&](const LiveSetting& setting) {
+        return !setting.help.starts_with("Render size")
+            || value_of(state, Side::a, setting.name) == value_of(state, Side::b, setting.name);
+    });
+}
+
 } // namespace
 
 void draw_passes(const State& state) { draw_side_passes(state.side(state.active)); }
@@ -145,8 +153,8 @@ void draw_errors(State& state)
     }
     if (!state.has_reference)
         return;
-    if (value_of(state, Side::a, "pt_render_scale") != value_of(state, Side::b, "pt_render_scale") && state.split.is_on)
-        ImGui::TextWrapped("A and B are of different size: the error is A's alone.");
+    if (state.split.is_on && !are_of_one_size(state))
+        ImGui::TextWrapped("A and B are rendered at different sizes: B's error means nothing.");
     ImGui::Text("reference: %u frames", state.reference_frames);
     if (state.reference_rmse) {
         ImGui::SameLine();

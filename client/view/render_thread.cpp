@@ -81,6 +81,7 @@ public:
         result.milliseconds = passed.count();
         result.averaged_frames = extension_.accumulated_frames();
         result.backend = extension_.info().trace_backend;
+        result.asked = request.settings;
         result.used = read_settings(host_);
         if (request.side == Side::reference)
             update_reference(request);

@@ -56,7 +56,7 @@ struct RenderedFrame {
     uint32_t reference_frames = 0;
     std::optional<double> reference_rmse; // of the reference itself
     std::optional<Inspection> inspection;
-    Settings used; // where the module put a value right
+    Settings asked, used; // they differ where the module put a value right
 };
 
 struct SceneFacts {

@@ -26,7 +26,7 @@ float seconds_since(Clock::time_point time) { return std::chrono::duration<float
 
 glm::ivec2 window_size(const ViewerOptions& options)
 {
-    return { options.render.host.width + int(panel_width), std::max(options.render.host.height + 356, 820) };
+    return { options.render.host.width + int(panel_width), std::max(options.render.host.height + 374, 820) };
 }
 
 bool is_same(const Camera& a, const Camera& b)
@@ -97,9 +97,18 @@ void Viewer::handle(const SDL_Event& event)
     }
 }
 
+// Asked of the place, for Dear ImGui knows of the mouse's way only from its next frame on.
+bool Viewer::is_over_picture() const
+{
+    int x = 0, y = 0;
+    SDL_GetMouseState(&x, &y);
+    const bool has_popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    return state_.shown.contains({ float(x), float(y) }) && !state_.shows_help && !has_popup;
+}
+
 void Viewer::handle_mouse(const SDL_Event& event)
 {
-    const bool is_interface = ImGui::GetIO().WantCaptureMouse && !is_pressed_;
+    const bool is_interface = !is_pressed_ && !is_over_picture();
     if (event.type == SDL_MOUSEWHEEL && !is_interface) {
         state_.speed = std::clamp(state_.speed * std::pow(1.25f, float(event.wheel.y)), slowest_speed, fastest_speed);
         show_notice(state_, fmt::format("speed {:.0f} units per second", state_.speed));
@@ -217,19 +226,21 @@ void Viewer::show_side(RenderedFrame frame)
 {
     SideState& side = state_.side(frame.side);
     side.picture = std::move(frame.picture);
-    side.passes.add(frame.passes);
     side.milliseconds = frame.milliseconds;
     side.averaged_frames = frame.averaged_frames;
     side.backend = frame.backend;
-    if (frame.error)
-        side.errors.add(*frame.error);
     if (frame.inspection)
         state_.inspection = std::move(frame.inspection);
     if (!state_.has_flown)
         state_.camera = frame.camera;
-    for (auto& [name, value] : side.settings) // the module puts values right
-        if (const auto used = frame.used.find(name); used != frame.used.end() && last_a_.settings == side.settings)
-            value = used->second;
+    if (frame.asked == side.settings) { // else the user has changed some meanwhile
+        side.passes.add(frame.passes);
+        if (frame.error && state_.has_reference)
+            side.errors.add(*frame.error);
+        for (auto& [name, value] : side.settings)
+            if (const auto used = frame.used.find(name); used != frame.used.end())
+                value = used->second;
+    }
     window_.upload(side.texture, side.picture);
     has_picture_ = true;
 }

@@ -29,6 +29,7 @@ public:
 private:
     void handle(const SDL_Event& event);
     void handle_mouse(const SDL_Event& event);
+    bool is_over_picture() const;
     void move_camera();
     bool has_news(); // takes what the render thread has
     void start(SceneFacts facts);

@@ -209,9 +209,9 @@ TEST_F(ViewWindow, ModuleThatFailsEndsWithItsWords)
 #ifdef REAL_MODULE
 TEST_F(ViewWindow, RealModuleComparesAndInspects)
 {
-    start(REAL_MODULE, { "maps/sample.bsp", "--size", "64x48", "--b", "pt_light_sampler=uniform" }, VKPT_TEST_CACHE);
+    start(REAL_MODULE, { "maps/sample.bsp", "--size", "64x48", "--b", "pt_bounces=0" }, VKPT_TEST_CACHE);
     ASSERT_TRUE(save_picture(std::chrono::seconds(150))) << folder.read("log.txt");
-    expect_title("| B: uniform");
+    expect_title("pt_bounces 0");
     press("p m");
     press("2 v");
     expect_title("pt_debug_view albedo");

@@ -121,8 +121,9 @@ TEST_F(Inspection, ProbabilitiesAreThoseOfThePicks)
             EXPECT_GT(light.weight, 0);
             EXPECT_GT(light.radiance[0], 0);
             sum += light.probability;
-            if (std::string_view(sampler) == "uniform")
+            if (std::string_view(sampler) == "uniform") {
                 EXPECT_NEAR(light.probability, 1.0 / 11, 1e-6);
+            }
         }
         EXPECT_NEAR(sum, 1, std::string_view(sampler) == "subset_mis" ? 0.05 : 1e-3) << sampler;
     }
