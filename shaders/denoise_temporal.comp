@@ -81,18 +81,19 @@ float average_deviation(vec2 mean_and_square, float frames)
 // A rare path of great radiance must not stay in the history for seconds: new light counts up to so many times of what is known
 // of the place (biased; the more frames tell, the less).
 const float most_times_brighter = 50.0;
-// Of the picture's range: in the dark, light up to most_times_brighter times this is let through.
-const float least_known = 0.02;
+// Added to what is known, as a share of the picture's range: in the dark, and more so where little is known yet.
+const float least_known = 0.02, least_known_at_first = 0.4;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
 // `changed`: lambda.
 vec3 limit_firefly(vec3 light, vec3 known, float frames, float changed)
 {
-    if (frames < least_frames || changed > 0.1)
+    if (changed > 0.1)
         return light;
     ExposureBuffer exposure = ExposureBuffer(frame.exposure);
-    float dark = least_known / (exposure.v.valid != 0u ? exposure.v.exposure : 1.0);
+    float dark = (frames < least_frames ? least_known_at_first : least_known)
+        / (exposure.v.valid != 0u ? exposure.v.exposure : 1.0);
     float limit = most_times_brighter * (luminance(known) + dark), l = luminance(light);
     return l > limit ? light * (limit / l) : light;
 }

@@ -88,7 +88,7 @@ TEST_F(Finish, DitheredGreyHasItsMeanAndBlueErrors)
     const double expected = encode_srgb(sky.pixels[0].y);
     ASSERT_EQ(
         *std::ranges::max_element(sky.pixels, {}, luminance), *std::ranges::min_element(sky.pixels, {}, luminance));
-    for (const float exposure : { 0.9f, 0.93f, 1.0f, 1.11f }) {
+    for (const float exposure : { 0.5f, 0.72f, 0.93f, 1.0f }) {
         session_->set("pt_exposure", exposure);
         EXPECT_NEAR(shown_green(4), encode_srgb(sky.pixels[0].y * exposure), 1e-3) << exposure;
     }
@@ -170,7 +170,7 @@ TEST_F(Finish, ThePictureSwaysUnderWater)
     const auto still = shown(0, engine::RDF_UNDERWATER), swaying = shown(1, engine::RDF_UNDERWATER);
     EXPECT_GT(differs(still, swaying), 20u);
     session_->view.time += 0.5f;
-    EXPECT_GT(differs(swaying, shown(1, engine::RDF_UNDERWATER)), 20u);
+    EXPECT_GT(differs(swaying, shown(1, engine::RDF_UNDERWATER)), 8u);
 }
 
 TEST_F(Finish, ExposureFollowsTheLightBitByBit)
