@@ -49,7 +49,7 @@ Sums first_tap(vec3 light, float deviation, float weight)
 // their neighbours, whose history has not met such a path yet, and their light would be lost.
 float distance_in_deviations(float l, float deviation, float other, float other_deviation)
 {
-    if (min(deviation, other_deviation) < 0.0)
+    if (!is_known(deviation) || !is_known(other_deviation))
         return 0.0;
     float allowed = deviations * sqrt(deviation * deviation + other_deviation * other_deviation);
     return abs(other - l) / (allowed + least_deviation * l + 1e-6);
@@ -57,7 +57,7 @@ float distance_in_deviations(float l, float deviation, float other, float other_
 
 float filtered_deviation(Sums sums, float deviation, float taps)
 {
-    if (deviation >= 0.0)
+    if (is_known(deviation))
         return sqrt(sums.variance) / sums.weight;
     float mean = sums.luminance / sums.weight;
     return sqrt(max(sums.luminance2 / sums.weight - mean * mean, 0.0) / taps);

@@ -40,7 +40,7 @@ vec3 motion_colour(uvec2 pixel, uint index)
 vec3 variance_colour(uint index)
 {
     FilteredLight light = unpack_filtered(load_filtered(index));
-    if (light.diffuse_deviation < 0.0 || light.specular_deviation < 0.0)
+    if (!is_known(light.diffuse_deviation) || !is_known(light.specular_deviation))
         return vec3(1.0);
     float mean = luminance(light.diffuse) + luminance(light.specular);
     return heat_colour(length(vec2(light.diffuse_deviation, light.specular_deviation)) / max(mean, 1e-6));

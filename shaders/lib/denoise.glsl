@@ -33,6 +33,9 @@ FilteredLight unpack_filtered(uvec4 bits)
 // A deviation that tells the first level of the spatial filter: too few frames, measure it among the neighbours.
 const float deviation_unknown = -1.0;
 
+// By the sign bit: a comparison of what was a half float a moment ago makes CPU drivers compare half floats, lane by lane.
+bool is_known(float deviation) { return floatBitsToInt(deviation) >= 0; }
+
 // Colour that the specular light of this surface carries.
 vec3 specular_tint(Surface s) { return mix(vec3(1.0), max(s.albedo, 0.05), s.metallic); }
 
