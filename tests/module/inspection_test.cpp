@@ -100,7 +100,7 @@ TEST_F(Inspection, FrozenViewKeepsItsLights)
 TEST_F(Inspection, ProbabilitiesAreThoseOfThePicks)
 {
     EXPECT_FALSE(inspect({ 1, 1 })) << "nothing has been drawn";
-    for (const char* sampler : { "uniform", "full", "subset", "subset_mis" }) {
+    for (const char* sampler : { "uniform", "subset", "subset_mis" }) {
         session_->set("pt_light_sampler", sampler);
         session_->draw();
         ASSERT_TRUE(inspect({ 32, 40 })) << sampler; // the floor
