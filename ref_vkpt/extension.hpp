@@ -10,7 +10,7 @@
 
 namespace vkpt {
 
-inline constexpr uint32_t extension_version = 3;
+inline constexpr uint32_t extension_version = 4;
 
 inline constexpr uint32_t view_count = 4; // that select_view can tell apart
 

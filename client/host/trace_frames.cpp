@@ -2,6 +2,7 @@
 #include "client/host/trace_frames.hpp"
 
 #include "client/host/errors.hpp"
+#include "client/host/hash.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -83,7 +84,7 @@ void TraceFrames::check_files(FileSystem& files)
                                       "recorded with: --basedir DIR, --game NAME.",
                 path_, call.name, fmt::join(files.search_path(), "\n  ")));
         if (!bytes || bytes->size() != join(call.numbers[0], call.numbers[1])
-            || trace::content_hash(*bytes) != join(call.numbers[2], call.numbers[3]))
+            || hash_bytes(*bytes) != join(call.numbers[2], call.numbers[3]))
             others.push_back(fmt::format("{} ({})", call.name, bytes ? "another" : "missing"));
     }
     if (others.empty())

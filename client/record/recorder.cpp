@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/record/recorder.hpp"
 
+#include "client/host/hash.hpp"
 #include "formats/bsp.hpp"
 #include "formats/model.hpp"
 #include "ref_vkpt/engine/engine.hpp"
@@ -111,7 +112,7 @@ std::optional<std::vector<std::byte>> Recorder::load_file(const std::string& pat
     const formats::Bytes bytes = file->bytes();
     if (noted_files_.insert(path).second) {
         Call call = make_call(CallKind::file, path);
-        const uint64_t size = bytes.size(), hash = trace::content_hash(bytes);
+        const uint64_t size = bytes.size(), hash = client::hash_bytes(bytes);
         call.numbers = { int32_t(size), int32_t(size >> 32), int32_t(hash), int32_t(hash >> 32) };
         write(std::move(call));
     }

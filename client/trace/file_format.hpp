@@ -57,13 +57,4 @@ template <class Header> uint32_t header_crc(const Header& header)
     return crc_of(std::as_bytes(std::span(&header, 1)).first(sizeof header - sizeof(uint32_t)));
 }
 
-// Of a file's contents: FNV-1a, 64 bits. Tells an edited file from the recorded one; it is no defence against forgery.
-inline uint64_t content_hash(std::span<const std::byte> bytes)
-{
-    uint64_t hash = 0xcbf29ce484222325;
-    for (const std::byte byte : bytes)
-        hash = (hash ^ uint64_t(byte)) * 0x100000001b3;
-    return hash;
-}
-
 } // namespace vkpt::trace

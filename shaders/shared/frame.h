@@ -32,15 +32,14 @@ VKPT_CONST uint FRAME_REPROJECTED = 512u; // primary_visibility tells where thin
 VKPT_CONST uint FRAME_DENOISED = 128u;  // the picture is made from the filtered light
 VKPT_CONST uint FRAME_ANTIALIASED = 1024u; // the picture is averaged over views
 VKPT_CONST uint FRAME_REPLAYED = 256u;  // random numbers follow the buffer random_seed: some pixels repeat an older sample
-VKPT_CONST uint FRAME_COUNT_RAYS = 2048u; // every ray is counted in `ray_counts`
+VKPT_CONST uint FRAME_BLOOM = 2048u; // the picture is mixed with what bloom_*.comp made of it
+VKPT_CONST uint FRAME_COUNT_RAYS = 4096u; // every ray is counted in `ray_counts`
 
 // Rays of a view, by what they were asked.
 struct RayCounts {
     uint nearest;
     uint visible;
 };
-
-VKPT_CONST uint FRAME_BLOOM = 2048u; // the picture is mixed with what bloom_*.comp made of it
 
 VKPT_CONST uint LIGHT_LEVEL_LANES = 64u; // = PIXEL_GROUP_SIZE
 
