@@ -261,7 +261,8 @@ std::string make_plots(const SceneResult& scene)
         }
         const size_t bands = result.spectrum.power.size();
         for (size_t band = 0; band < bands; band++)
-            if (result.spectrum.power[band] > 0 && !result.variant.is_filtered()) // the lowest bands hold no frequency of a tile
+            if (result.spectrum.power[band] > 0
+                && !result.variant.is_filtered()) // the lowest bands hold no frequency of a tile
                 power.points.push_back({ (double(band) + 0.5) / double(2 * bands), result.spectrum.power[band] });
         samples.lines.push_back(std::move(by_samples));
         time.lines.push_back(std::move(by_time));

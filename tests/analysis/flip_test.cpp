@@ -43,8 +43,9 @@ TEST(Flip, OfEqualPicturesIsZero)
 }
 
 // Without edges only the colour counts. Green (L* 87.73, a* -86.18, b* 83.18) and blue (32.30, 79.19, -107.86) end the
-// scale: with a* and b* times L* / 100, HyAB is 55.43 + hypot(101.2, 107.8) = 203.3, and 203.3^.7 = 41.28. Black and white
-// are 100 apart: 100^.7 = 25.12 lies above the knee at .4 * 41.28 = 16.51, so .95 + .05 * (25.12 - 16.51) / 24.77 = .9674.
+// scale: with a* and b* times L* / 100, HyAB is 55.43 + hypot(101.2, 107.8) = 203.3, and 203.3^.7 = 41.28. Black and
+// white are 100 apart: 100^.7 = 25.12 lies above the knee at .4 * 41.28 = 16.51, so .95 + .05 * (25.12 - 16.51) / 24.77
+// = .9674.
 TEST(Flip, OfFlatColoursFollowsTheFormula)
 {
     EXPECT_NEAR(flip(paint_colour(0, 0, 0), paint_colour(1, 1, 1)), 0.9674, 3e-4);
