@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The masks that the build made, as the shaders look them up, and the tool that makes them.
+#include "client/analysis/spectrum.hpp"
 #include "glsl_libraries.hpp"
 #include "ref_vkpt/noise/blue_noise.hpp"
-#include "spectrum.hpp"
 #include "tools/blue_noise/void_and_cluster.hpp"
 
 #include <algorithm>
@@ -14,6 +14,8 @@ namespace vkpt::test {
 namespace {
 
 using namespace glsl;
+using analysis::measure_spectrum;
+using analysis::Spectrum;
 
 constexpr size_t side = BLUE_NOISE_SIZE, slice_size = side * side, voxels = slice_size * BLUE_NOISE_SLICES;
 
