@@ -429,7 +429,7 @@ TEST_F(Cli, CompareRefusesWhatThereIsNot)
     } cases[] = {
         { { "compare", "-o", "compared" }, 2, "--figures" },
         { { "compare", "maps/sample.bsp", "--figures", "-o", "compared" }, 2, "SCENE" },
-        { { "compare", "--figures", "-o", "compared" }, 2, "uniform" },
+        { { "compare", "--figures", "-o", "compared" }, 1, "maps/vkpt1.bsp" },
         { { "compare", "maps/sample.bsp", "--samplers", "best", "-o", "compared" }, 2, "subset, uniform" },
         { { "compare", "maps/sample.bsp", "--reference-sampler", "best", "--samplers", "subset", "-o", "compared" }, 2,
             "best" },
