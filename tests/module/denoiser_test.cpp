@@ -3,7 +3,6 @@
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
-#include <cmath>
 #include <gtest/gtest.h>
 
 namespace vkpt::tests {
@@ -42,14 +41,6 @@ protected:
     GameFolder folder_;
     std::string cube_path_;
 };
-
-double error_between(const Radiance& picture, const Radiance& reference)
-{
-    double sum = 0;
-    for (size_t i = 0; i < picture.pixels.size(); i++)
-        sum += std::pow(double(luminance(picture.pixels[i])) - double(luminance(reference.pixels[i])), 2);
-    return sum / double(picture.pixels.size());
-}
 
 // One light, far away: each pixel's light is the same in every frame, and hardly differs from its neighbours'.
 TEST_F(Denoiser, ConstantLightStaysConstant)

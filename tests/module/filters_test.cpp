@@ -64,14 +64,6 @@ protected:
     static inline std::string cube_path_;
 };
 
-double error_between(const Radiance& picture, const Radiance& reference)
-{
-    double sum = 0;
-    for (size_t i = 0; i < picture.pixels.size(); i++)
-        sum += std::pow(double(luminance(picture.pixels[i])) - double(luminance(reference.pixels[i])), 2);
-    return sum / double(picture.pixels.size());
-}
-
 TEST_F(Filters, EveryTraceBackendGivesTheSamePicture)
 {
     const ModuleInfo info = session_->extension().info();

@@ -31,6 +31,14 @@ bool is_black(const Radiance& picture)
     return std::ranges::all_of(picture.pixels, [](const glm::vec3& pixel) { return pixel == glm::vec3(0); });
 }
 
+double error_between(const Radiance& picture, const Radiance& reference)
+{
+    double sum = 0;
+    for (size_t i = 0; i < picture.pixels.size(); i++)
+        sum += std::pow(double(luminance(picture.pixels[i])) - double(luminance(reference.pixels[i])), 2);
+    return sum / double(picture.pixels.size());
+}
+
 CameraRay camera_ray(const engine::RefDef& view, glm::vec2 place)
 {
     const float pitch = glm::radians(view.view_angles[0]), yaw = glm::radians(view.view_angles[1]);

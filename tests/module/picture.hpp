@@ -23,6 +23,8 @@ struct Radiance {
 // Values that are not finite, or negative.
 size_t count_broken(const Radiance& picture);
 bool is_black(const Radiance& picture);
+// Mean square difference of luminance; both are of one size.
+double error_between(const Radiance& picture, const Radiance& reference);
 
 struct CameraRay {
     glm::vec3 origin, direction;
