@@ -6,6 +6,7 @@
 #include "ref_vkpt/frame/capture.hpp"
 #include "ref_vkpt/frame/frame.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
+#include "ref_vkpt/frame/shader_warm_up.hpp"
 #include "ref_vkpt/scene/scene.hpp"
 #include "ref_vkpt/trace/trace_choice.hpp"
 #include "ref_vkpt/workers.hpp"
@@ -39,6 +40,7 @@ struct Module {
         bool snapshot_is_frozen = false;
     };
     std::array<ParkedScene, view_count> parked_views;
+    std::optional<ShaderWarmUp> warm_up; // from the first map's registration on
     FrameCapture capture;
     PassStatistics pass_statistics; // with pt_times 1
     const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();

@@ -6,6 +6,7 @@
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/exports.hpp"
 #include "ref_vkpt/frame/bench_report.hpp"
+#include "ref_vkpt/frame/frame_shaders.hpp"
 #include "ref_vkpt/frame/game_file.hpp"
 #include "ref_vkpt/frame/trace_measurement.hpp"
 #include "ref_vkpt/module.hpp"
@@ -137,7 +138,8 @@ void write_bench_report(const Module& m)
     const std::string report = make_bench_report(m.pass_statistics, extension_table().info(), facts);
     const std::string path = engine::game_directory() + "/" + name;
     const std::string reason = write_game_file(path, std::as_bytes(std::span(report)));
-    engine::print("ref_vkpt: {} {}", reason.empty() ? "wrote" : "cannot write", reason.empty() ? path : path + ": " + reason);
+    engine::print(
+        "ref_vkpt: {} {}", reason.empty() ? "wrote" : "cannot write", reason.empty() ? path : path + ": " + reason);
 }
 
 void print_pass_statistics(Module& m)
@@ -289,6 +291,8 @@ void begin_registration(std::string_view map)
     m.gpu_world = {};
     m.frame.forget_world();
     m.frame.restart_accumulation();
+    if (!m.warm_up)
+        m.warm_up.emplace(m.graphics.device, m.graphics.pipelines, frame_shaders(m.frame.trace_backend()));
     m.scene.begin_registration(map);
 }
 
@@ -368,6 +372,8 @@ void render_view(const engine::RefDef& refdef)
     if (has_world && !m.scene.world())
         throw LevelError("a view of a world was asked for before any map was registered");
     m.frame_has_view = true;
+    if (m.warm_up)
+        m.warm_up->wait();
     if (!has_world) {
         SceneSnapshot snapshot = take_snapshot(refdef);
         record_view(refdef, snapshot, nullptr, false);
@@ -397,7 +403,8 @@ void end_frame()
     m.draw2d.record(m.graphics.commands());
     m.graphics.timer.mark(m.graphics.commands(), "2d");
     m.graphics.end_frame();
-    // What the engine's server reads as the light on the player: 255 * half the radiance of a white floor, as lightmaps go.
+    // What the engine's server reads as the light on the player: 255 * half the radiance of a white floor, as lightmaps
+    // go.
     constexpr float server_scale = 150 * 0.5f;
     if (m.scene.world())
         engine::set_cvar("r_lightlevel", server_scale * m.frame.light_level());

@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/frame.hpp"
 
 #include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/frame/frame_shaders.hpp"
 #include "ref_vkpt/lights/ltc_table.hpp"
 #include "ref_vkpt/noise/blue_noise.hpp"
 
@@ -77,8 +78,8 @@ Frame::Frame(Graphics& graphics, Workers& workers)
     readback_ = Buffer(
         graphics.gpu, light_level_bytes * frames_in_flight, BufferHome::readback, MemoryKind::staging, "light level");
     std::memset(readback_.mapped(), 0, readback_.size());
-    ray_counts_ = Buffer(
-        graphics.gpu, sizeof(shared::RayCounts), BufferHome::device, MemoryKind::staging, "ray counts");
+    ray_counts_
+        = Buffer(graphics.gpu, sizeof(shared::RayCounts), BufferHome::device, MemoryKind::staging, "ray counts");
     read_ray_counts_ = Buffer(
         graphics.gpu, sizeof(shared::RayCounts), BufferHome::readback, MemoryKind::staging, "ray counts readback");
     std::memset(read_ray_counts_.mapped(), 0, read_ray_counts_.size());
@@ -332,17 +333,19 @@ void Frame::record_pass(const char* name, uint32_t groups)
 }
 
 // A pass that traces: its shader was built once for each backend.
-void Frame::record_traced_pass(const char* name, const Work& work) { record_traced(name, "", work); }
+void Frame::record_traced_pass(const char* name, const Work& work)
+{
+    record_traced(name, traced_shader(name, backend_), work);
+}
 
 // A pass that chooses lights, and traces: its shader was built once for each light sampler, too.
 void Frame::record_lit_pass(const char* name, const Work& work)
 {
-    record_traced(name, ":" + cvars::values().pt_light_sampler, work);
+    record_traced(name, lit_shader(name, backend_), work);
 }
 
-void Frame::record_traced(const char* name, const std::string& variant, const Work& work)
+void Frame::record_traced(const char* name, const std::string& shader, const Work& work)
 {
-    const std::string shader = std::string(name) + ".comp" + variant + ":" + std::string(name_of(backend_));
     if (backend_ == TraceBackend::pipeline) {
         const RayPipeline& pipeline = graphics_.pipelines.ray(shader);
         vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.handle);

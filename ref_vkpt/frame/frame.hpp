@@ -139,7 +139,7 @@ private:
     }
     void record_traced_pass(const char* name, const Work& work);
     void record_lit_pass(const char* name, const Work& work);
-    void record_traced(const char* name, const std::string& variant, const Work& work);
+    void record_traced(const char* name, const std::string& shader, const Work& work);
     void finish_pass(const char* name);
     void trace_chunk(std::span<const TracedRay> rays, uint32_t row, const TraceRequest& request, SceneSnapshot& scene,
         const GpuWorld& gpu_world, TracedHit* hits, double& seconds);

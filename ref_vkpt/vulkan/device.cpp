@@ -20,17 +20,28 @@ std::atomic<uint32_t> validation_message_count { 0 };
 const char* result_name(VkResult result)
 {
     switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY: return "out of host memory";
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "out of device memory";
-    case VK_ERROR_DEVICE_LOST: return "device lost";
-    case VK_ERROR_INITIALIZATION_FAILED: return "initialization failed";
-    case VK_ERROR_LAYER_NOT_PRESENT: return "layer not present";
-    case VK_ERROR_EXTENSION_NOT_PRESENT: return "extension not present";
-    case VK_ERROR_FEATURE_NOT_PRESENT: return "feature not present";
-    case VK_ERROR_INCOMPATIBLE_DRIVER: return "incompatible driver";
-    case VK_ERROR_SURFACE_LOST_KHR: return "surface lost";
-    case VK_ERROR_OUT_OF_DATE_KHR: return "swapchain out of date";
-    default: return "error";
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+        return "out of host memory";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        return "out of device memory";
+    case VK_ERROR_DEVICE_LOST:
+        return "device lost";
+    case VK_ERROR_INITIALIZATION_FAILED:
+        return "initialization failed";
+    case VK_ERROR_LAYER_NOT_PRESENT:
+        return "layer not present";
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+        return "extension not present";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+        return "feature not present";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        return "incompatible driver";
+    case VK_ERROR_SURFACE_LOST_KHR:
+        return "surface lost";
+    case VK_ERROR_OUT_OF_DATE_KHR:
+        return "swapchain out of date";
+    default:
+        return "error";
     }
 }
 
@@ -113,7 +124,8 @@ const char* require_features(const Features& has, Features& use)
         VkBool32* enable;
         const char* name;
     };
-#define VKPT_FEATURE(block, field) Row { &has.block.field, &use.block.field, #field }
+#define VKPT_FEATURE(block, field)                                                                                     \
+    Row { &has.block.field, &use.block.field, #field }
     const Row rows[] = {
         VKPT_FEATURE(core.features, shaderInt64),
         VKPT_FEATURE(v12, scalarBlockLayout),
@@ -155,18 +167,24 @@ template <class Head, class Link> void chain(Head& head, Link& link)
 int rank_device_type(VkPhysicalDeviceType type)
 {
     switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 4;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 3;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return 1;
-    default: return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return 1;
+    default:
+        return 0;
     }
 }
 
 // Sets an environment variable unless the user did, until the end of life.
 class ScopedVariable {
 public:
-    ScopedVariable(const char* name, const std::string& value) : name_(std::getenv(name) ? nullptr : name)
+    ScopedVariable(const char* name, const std::string& value)
+        : name_(std::getenv(name) ? nullptr : name)
     {
         if (name_)
             setenv(name_, value.c_str(), 1);
@@ -185,11 +203,11 @@ private:
 
 } // namespace
 
-// Mesa's CPU driver runs our compute BVH up to twice as fast with 512-bit vectors, and its disk cache ignores the width:
-// code of one width, found by a program that runs with another, crashes it. So the width is changed only together with a
-// cache of our own. The driver reads the width again and again, so both stay as long as the device. Then they go:
-// Mesa's OpenGL, which an engine that goes on with another renderer loads into the same process, cannot draw with such
-// vectors.
+// Mesa's CPU driver runs our compute BVH up to twice as fast with 512-bit vectors, and its disk cache ignores the
+// width: code of one width, found by a program that runs with another, crashes it. So the width is changed only
+// together with a cache of our own. The driver reads the width again and again, so both stay as long as the device.
+// Then they go: Mesa's OpenGL, which an engine that goes on with another renderer loads into the same process, cannot
+// draw with such vectors.
 class CpuDriverSettings {
 public:
     explicit CpuDriverSettings(const std::string& cache_directory)
@@ -201,10 +219,14 @@ public:
             width_.emplace("LP_NATIVE_VECTOR_WIDTH", "512");
 #endif
         const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
-        cache_.emplace("MESA_SHADER_CACHE_DIR", fmt::format("{}/driver-{}", cache_directory, width ? width : "default"));
+        directory_ = fmt::format("{}/driver-{}", cache_directory, width ? width : "default");
+        cache_.emplace("MESA_SHADER_CACHE_DIR", directory_);
     }
 
+    const std::string& directory() const { return directory_; }
+
 private:
+    std::string directory_; // empty: not ours
     std::optional<ScopedVariable> width_, cache_;
 };
 
@@ -228,17 +250,43 @@ uint32_t Device::validation_messages() { return validation_message_count; }
 Device::Device(const DeviceSettings& settings)
     : cpu_driver_(std::make_unique<CpuDriverSettings>(settings.cache_directory))
     , windowed_(!settings.instance_extensions.empty())
+    , uses_rays_(settings.ray_tracing)
 {
     load_vulkan_library();
     try {
         create_instance(settings);
         choose_physical_device(settings);
-        create_logical_device(settings.ray_tracing);
+        create_logical_device();
     } catch (...) {
         destroy();
         throw;
     }
 }
+
+// The entry points of the original serve both, as they belong to the physical device.
+Device::Device(Twin, const Device& original)
+    : instance(original.instance)
+    , physical(original.physical)
+    , queue_family(original.queue_family)
+    , properties(original.properties)
+    , memory(original.memory)
+    , driver(original.driver)
+    , is_cpu(original.is_cpu)
+    , has_debug_utils(original.has_debug_utils)
+    , max_textures(original.max_textures)
+    , windowed_(false)
+    , uses_rays_(original.uses_rays_)
+    , owns_instance_(false)
+{
+    create_logical_device();
+}
+
+std::unique_ptr<Device> Device::make_twin(const Device& original)
+{
+    return std::unique_ptr<Device>(new Device(Twin {}, original));
+}
+
+std::string Device::driver_cache_directory() const { return cpu_driver_ ? cpu_driver_->directory() : ""; }
 
 Device::~Device() { destroy(); }
 
@@ -248,7 +296,7 @@ void Device::destroy()
         vkDestroyDevice(handle, nullptr);
     if (messenger_)
         vkDestroyDebugUtilsMessengerEXT(instance, messenger_, nullptr);
-    if (instance)
+    if (instance && owns_instance_)
         vkDestroyInstance(instance, nullptr);
     handle = VK_NULL_HANDLE;
     messenger_ = VK_NULL_HANDLE;
@@ -309,7 +357,8 @@ void Device::choose_physical_device(const DeviceSettings& settings)
     std::vector<VkPhysicalDevice> devices(count);
     VKPT_CHECK(vkEnumeratePhysicalDevices(instance, &count, devices.data()));
     if (devices.empty())
-        throw FatalError("no Vulkan device on this machine: install your card's driver, or mesa-vulkan-drivers for the CPU");
+        throw FatalError(
+            "no Vulkan device on this machine: install your card's driver, or mesa-vulkan-drivers for the CPU");
 
     std::string reasons;
     int best = -1;
@@ -346,8 +395,8 @@ void Device::choose_physical_device(const DeviceSettings& settings)
         properties = about.properties;
         queue_family = *family;
         driver = fmt::format("{} {}", v12.driverName, v12.driverInfo);
-        max_textures = std::min(v12.maxPerStageDescriptorUpdateAfterBindSampledImages,
-            v12.maxDescriptorSetUpdateAfterBindSampledImages);
+        max_textures = std::min(
+            v12.maxPerStageDescriptorUpdateAfterBindSampledImages, v12.maxDescriptorSetUpdateAfterBindSampledImages);
     }
     if (!physical)
         throw FatalError("no usable Vulkan device" + reasons);
@@ -355,7 +404,7 @@ void Device::choose_physical_device(const DeviceSettings& settings)
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
 }
 
-void Device::create_logical_device(bool ray_tracing)
+void Device::create_logical_device()
 {
     const std::vector<VkExtensionProperties> offered = device_extensions(physical);
     std::vector<const char*> extensions;
@@ -363,7 +412,7 @@ void Device::create_logical_device(bool ray_tracing)
     if (has_swapchain)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 
-    const bool structures = ray_tracing && contains(offered, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME)
+    const bool structures = uses_rays_ && contains(offered, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME)
         && contains(offered, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
     const bool query = structures && contains(offered, VK_KHR_RAY_QUERY_EXTENSION_NAME);
     const bool pipeline = structures && contains(offered, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
@@ -414,7 +463,8 @@ void Device::create_logical_device(bool ray_tracing)
     info.enabledExtensionCount = uint32_t(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     VKPT_CHECK(vkCreateDevice(physical, &info, nullptr, &handle));
-    load_device_functions(handle);
+    if (owns_instance_)
+        load_device_functions(handle);
     vkGetDeviceQueue(handle, queue_family, 0, &queue);
 }
 
@@ -454,7 +504,8 @@ uint32_t Device::find_memory_type(
             found = i;
     }
     if (!found)
-        throw FatalError(fmt::format("{} has no memory of the kind needed (flags {:#x})", properties.deviceName, required));
+        throw FatalError(
+            fmt::format("{} has no memory of the kind needed (flags {:#x})", properties.deviceName, required));
     return *found;
 }
 

@@ -30,6 +30,9 @@ class Device {
 public:
     // Throws FatalError: no Vulkan, no device, or a feature that device X lacks.
     explicit Device(const DeviceSettings& settings);
+    // Another logical device of the same physical one, without a window: for work beside the original's queue. The
+    // original outlives it.
+    static std::unique_ptr<Device> make_twin(const Device& original);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -62,23 +65,31 @@ public:
             | (has_ray_pipeline ? VkPipelineStageFlags(VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR) : 0);
     }
 
+    // Where Mesa's CPU driver keeps what it has compiled, if that is a folder of ours; else empty.
+    std::string driver_cache_directory() const;
+
     // How many validation messages have been printed.
     static uint32_t validation_messages();
 
     void wait_idle() const;
     // A memory type among `type_bits` with all of `required` and, if there is one, `preferred`.
-    uint32_t find_memory_type(uint32_t type_bits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
+    uint32_t find_memory_type(
+        uint32_t type_bits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
     void name_object(VkObjectType type, uint64_t object, std::string_view name) const;
 
 private:
+    struct Twin { };
+    Device(Twin, const Device& original);
     void create_instance(const DeviceSettings& settings);
     void choose_physical_device(const DeviceSettings& settings);
-    void create_logical_device(bool ray_tracing);
+    void create_logical_device();
     void read_ray_tracing_limits();
     void destroy();
 
     std::unique_ptr<CpuDriverSettings> cpu_driver_;
     bool windowed_;
+    bool uses_rays_; // the device's own, where it has them
+    bool owns_instance_ = true;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 

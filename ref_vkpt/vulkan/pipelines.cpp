@@ -43,7 +43,9 @@ VkRayTracingShaderGroupCreateInfoKHR make_group(uint32_t general, uint32_t close
 } // namespace
 
 Pipelines::Pipelines(const Gpu& gpu, const Bindings& bindings, std::string cache_file)
-    : gpu_(gpu), bindings_(bindings), cache_file_(std::move(cache_file))
+    : gpu_(gpu)
+    , bindings_(bindings)
+    , cache_file_(std::move(cache_file))
 {
     // Drivers check the header of what they are given and ignore a foreign cache.
     const std::vector<char> stored = cache_file_.empty() ? std::vector<char>() : read_file(cache_file_);
@@ -76,10 +78,8 @@ VkShaderModule Pipelines::make_module(std::string_view shader) const
     return module;
 }
 
-VkPipeline Pipelines::compute(std::string_view shader)
+VkPipeline Pipelines::make_compute_pipeline(std::string_view shader) const
 {
-    if (auto found = compute_.find(shader); found != compute_.end())
-        return found->second;
     const VkShaderModule module = make_module(shader);
     VkComputePipelineCreateInfo info { VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO };
     info.layout = bindings_.pipeline_layout();
@@ -92,7 +92,32 @@ VkPipeline Pipelines::compute(std::string_view shader)
     vkDestroyShaderModule(gpu_.device.handle, module, nullptr);
     check_vulkan(result, "vkCreateComputePipelines");
     gpu_.device.name_object(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shader);
-    compute_.emplace(shader, pipeline);
+    return pipeline;
+}
+
+VkPipeline Pipelines::compute(std::string_view shader)
+{
+    std::unique_lock lock(mutex_);
+    one_is_made_.wait(lock, [&] {
+        const auto found = compute_.find(shader);
+        return found == compute_.end() || found->second != VK_NULL_HANDLE;
+    });
+    if (const auto found = compute_.find(shader); found != compute_.end())
+        return found->second;
+    const auto entry = compute_.emplace(shader, VK_NULL_HANDLE).first;
+    lock.unlock();
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    try {
+        pipeline = make_compute_pipeline(shader);
+    } catch (...) {
+        lock.lock();
+        compute_.erase(entry); // whoever waits tries it, too
+        one_is_made_.notify_all();
+        throw;
+    }
+    lock.lock();
+    entry->second = pipeline;
+    one_is_made_.notify_all();
     return pipeline;
 }
 
@@ -167,8 +192,8 @@ void Pipelines::save_cache() const
     std::vector<char> data(size);
     if (vkGetPipelineCacheData(gpu_.device.handle, cache_, &size, data.data()) != VK_SUCCESS)
         return;
-    // Written beside and renamed, so that a cut write never leaves half a cache. A cache that cannot be written is no error.
-    // By process: several may share the folder.
+    // Written beside and renamed, so that a cut write never leaves half a cache. A cache that cannot be written is no
+    // error. By process: several may share the folder.
     const std::string partial = fmt::format("{}.{}.new", cache_file_, getpid());
     std::ofstream file(partial, std::ios::binary);
     file.write(data.data(), std::streamsize(size));

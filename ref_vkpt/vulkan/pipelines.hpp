@@ -5,7 +5,9 @@
 #include "ref_vkpt/vulkan/bindings.hpp"
 #include "ref_vkpt/vulkan/shaders.hpp"
 
+#include <condition_variable>
 #include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -26,6 +28,7 @@ public:
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
 
+    // From any thread. Waits where another one is making it.
     VkPipeline compute(std::string_view shader);
     // `shader`: the ray generation one.
     const RayPipeline& ray(std::string_view shader);
@@ -35,6 +38,7 @@ public:
 
 private:
     void save_cache() const;
+    VkPipeline make_compute_pipeline(std::string_view shader) const;
     VkPipeline make_ray_pipeline(std::string_view shader) const;
     void fill_table(RayPipeline& pipeline) const;
 
@@ -42,7 +46,9 @@ private:
     const Bindings& bindings_;
     std::string cache_file_;
     VkPipelineCache cache_ = VK_NULL_HANDLE;
-    std::map<std::string, VkPipeline, std::less<>> compute_;
+    std::mutex mutex_; // of compute_
+    std::condition_variable one_is_made_;
+    std::map<std::string, VkPipeline, std::less<>> compute_; // VK_NULL_HANDLE: a thread is making it
     std::map<std::string, RayPipeline, std::less<>> ray_;
 };
 

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/frame/shader_warm_up.hpp"
+
+#include "ref_vkpt/engine/errors.hpp"
+#include "shaders/shared/frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <optional>
+
+namespace vkpt {
+
+namespace {
+
+constexpr size_t most_threads = 8; // each holds a device with its own memory
+
+// FNV-1a, 64 bits.
+uint64_t hash_bytes(std::span<const std::byte> bytes, uint64_t hash)
+{
+    for (const std::byte byte : bytes)
+        hash = (hash ^ uint64_t(byte)) * 0x100000001b3;
+    return hash;
+}
+
+// A device beside the frame's own, that is asked to do nothing by each shader.
+class IdleDevice {
+public:
+    explicit IdleDevice(const Device& original)
+        : device_(Device::make_twin(original))
+        , uniforms_(gpu_, sizeof(shared::FrameUniforms), BufferHome::upload, MemoryKind::staging, "idle uniforms")
+        , output_(gpu_, output_settings(), "idle output")
+    {
+        VkCommandPoolCreateInfo pool { VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO };
+        pool.queueFamilyIndex = device_->queue_family;
+        VKPT_CHECK(vkCreateCommandPool(device_->handle, &pool, nullptr, &pool_));
+        VkCommandBufferAllocateInfo commands { VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO };
+        commands.commandPool = pool_;
+        commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+        commands.commandBufferCount = 1;
+        VKPT_CHECK(vkAllocateCommandBuffers(device_->handle, &commands, &commands_));
+        bindings_.bind_uniforms(uniforms_, uniforms_.size());
+        bindings_.bind_output(output_);
+    }
+
+    ~IdleDevice()
+    {
+        vkDeviceWaitIdle(device_->handle);
+        vkDestroyCommandPool(device_->handle, pool_, nullptr);
+    }
+
+    void dispatch_nothing(const std::string& shader)
+    {
+        VKPT_CHECK(vkResetCommandPool(device_->handle, pool_, 0));
+        VkCommandBufferBeginInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
+        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        VKPT_CHECK(vkBeginCommandBuffer(commands_, &info));
+        record_barrier(commands_,
+            { output_.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, VK_ACCESS_SHADER_WRITE_BIT });
+        bindings_.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, 0);
+        constexpr std::array<std::byte, push_constant_bytes> push {};
+        vkCmdPushConstants(
+            commands_, bindings_.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, push_constant_bytes, push.data());
+        vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.compute(shader));
+        vkCmdDispatch(commands_, 0, 1, 1);
+        VKPT_CHECK(vkEndCommandBuffer(commands_));
+        VkSubmitInfo submit { VK_STRUCTURE_TYPE_SUBMIT_INFO };
+        submit.commandBufferCount = 1;
+        submit.pCommandBuffers = &commands_;
+        VKPT_CHECK(vkQueueSubmit(device_->queue, 1, &submit, VK_NULL_HANDLE));
+        device_->wait_idle();
+    }
+
+private:
+    static ImageSettings output_settings()
+    {
+        ImageSettings settings;
+        settings.usage = VK_IMAGE_USAGE_STORAGE_BIT;
+        return settings;
+    }
+
+    std::unique_ptr<Device> device_;
+    MemoryAllocator memory_ { *device_ };
+    Gpu gpu_ { *device_, memory_ };
+    Bindings bindings_ { gpu_, true };
+    Pipelines pipelines_ { gpu_, bindings_, "" };
+    Buffer uniforms_;
+    Image output_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+};
+
+} // namespace
+
+ShaderWarmUp::ShaderWarmUp(const Device& device, Pipelines& pipelines, std::vector<std::string> shaders)
+    : device_(device)
+    , pipelines_(pipelines)
+    , shaders_(std::move(shaders))
+{
+    const std::string directory = device.driver_cache_directory();
+    if (device.is_cpu && !directory.empty() && !std::getenv("MESA_SHADER_CACHE_DISABLE")) {
+        compiled_file_ = directory + "/compiled.txt";
+        read_compiled();
+    }
+    const size_t cores = std::max(std::thread::hardware_concurrency(), 1u);
+    for (size_t i = 0; i < std::min({ cores, most_threads, shaders_.size() }); i++)
+        threads_.emplace_back([this] { run_thread(); });
+}
+
+ShaderWarmUp::~ShaderWarmUp()
+{
+    next_ = shaders_.size();
+    wait();
+}
+
+void ShaderWarmUp::wait()
+{
+    for (std::thread& thread : threads_)
+        thread.join();
+    threads_.clear();
+}
+
+// What fails here fails again, and is told, when the frame asks for it.
+void ShaderWarmUp::run_thread()
+try {
+    std::optional<IdleDevice> idle_device;
+    for (size_t i = next_++; i < shaders_.size(); i = next_++) {
+        const std::string& shader = shaders_[i];
+        const std::string key = key_of(shader);
+        if (!compiled_file_.empty() && !is_compiled(key)) {
+            if (!idle_device)
+                idle_device.emplace(device_);
+            idle_device->dispatch_nothing(shader);
+            add_compiled(key);
+        }
+        pipelines_.compute(shader);
+    }
+} catch (const std::exception&) {
+}
+
+// Of the code and of the driver's version.
+std::string ShaderWarmUp::key_of(const std::string& shader) const
+{
+    const uint64_t driver = hash_bytes(std::as_bytes(std::span(device_.driver)), 0xcbf29ce484222325);
+    return fmt::format("{} {:016x}", shader, hash_bytes(std::as_bytes(find_shader(shader)), driver));
+}
+
+void ShaderWarmUp::read_compiled()
+{
+    std::ifstream file(compiled_file_);
+    for (std::string line; std::getline(file, line);)
+        compiled_.insert(line);
+}
+
+bool ShaderWarmUp::is_compiled(const std::string& key)
+{
+    const std::scoped_lock lock(mutex_);
+    return compiled_.contains(key);
+}
+
+void ShaderWarmUp::add_compiled(const std::string& key)
+{
+    const std::scoped_lock lock(mutex_);
+    compiled_.insert(key);
+    std::ofstream(compiled_file_, std::ios::app) << key << '\n'; // one that cannot be written is done without
+}
+
+} // namespace vkpt

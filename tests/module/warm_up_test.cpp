@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The shaders of a frame are compiled before it, in the background, and remembered as compiled.
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace vkpt::tests {
+namespace {
+
+std::string read_text(const std::filesystem::path& path)
+{
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+}
+
+// Draws some filtered frames of the map and returns the names of what was timed.
+std::vector<std::string> draw_passes(const GameFolder& folder)
+{
+    Session session(folder, { { "flt_denoiser", "asvgf" }, { "flt_taa", "on" } });
+    session.load_map("room");
+    session.look({ -100, 0, 50 }, { 100, 0, 50 });
+    session.draw(3);
+    session.capture();
+    size_t count = 0;
+    const PassTime* times = session.extension().pass_times(&count);
+    std::vector<std::string> passes;
+    for (size_t i = 0; i < count; i++)
+        passes.emplace_back(times[i].name);
+    return passes;
+}
+
+TEST(ShaderWarmUp, CompilesEveryPassOfTheFrameOnce)
+{
+    GameFolder folder;
+    folder.add_wall("lamp", white_index);
+    MapBuilder map;
+    map.add_room({ -128, -128, 0 }, { 128, 128, 128 }, map.add_material("missing"));
+    map.add(rectangle({ 0, 0, 127 }, { 0, 16, 0 }, { 16, 0, 0 }), map.add_material("lamp", 0, 1000));
+    folder.add_map("room", map.finish());
+    // A cache of its own that stays, so that only the list is made anew.
+    const std::filesystem::path cache = std::filesystem::path(VKPT_TEST_CACHE) / "warmed";
+    setenv("VKPT_CACHE_DIR", cache.c_str(), 1);
+    std::filesystem::path list;
+    for (const char* width : { "512", "default" })
+        std::filesystem::remove(cache / ("driver-" + std::string(width)) / "compiled.txt");
+
+    const std::vector<std::string> passes = draw_passes(folder);
+    for (const char* width : { "512", "default" }) {
+        const std::filesystem::path path = cache / ("driver-" + std::string(width)) / "compiled.txt";
+        if (std::filesystem::exists(path))
+            list = path;
+    }
+    if (list.empty() && Session(folder).has_line("llvmpipe") == false) {
+        unsetenv("VKPT_CACHE_DIR");
+        GTEST_SKIP() << "only Mesa's CPU driver compiles at the dispatch";
+    }
+    const std::string compiled = read_text(list);
+    EXPECT_GT(passes.size(), 10u);
+    for (const std::string& pass : passes)
+        if (pass != "2d") {
+            EXPECT_NE(compiled.find(pass + ".comp"), std::string::npos) << pass << " was left to the frame";
+        }
+
+    draw_passes(folder);
+    EXPECT_EQ(read_text(list), compiled) << "something was compiled twice";
+    unsetenv("VKPT_CACHE_DIR");
+}
+
+} // namespace
+} // namespace vkpt::tests
