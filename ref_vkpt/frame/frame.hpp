@@ -27,18 +27,23 @@ struct GpuWorld {
 // Waits for the map's tree. Usable after uploader.flush().
 GpuWorld upload_world(const World& world, Uploader& uploader);
 
-// What a view that is drawn now and then keeps from one of its frames to the next.
-struct ParkedView {
-    Screen::ViewBuffers buffers;
-    Buffer exposure;
-    View last_view;
-    CvarValues last_cvars;
+// What a view of the world keeps from one of its frames to the next, beside its buffers.
+struct ViewState {
+    View view;
+    CvarValues cvars;
     glm::uvec2 size { 0 }, rendered_size { 0 };
-    const Buffer* radiance = nullptr;
+    const Buffer* radiance = nullptr; // the last view's
     ViewHistory history;
     bool lists_changed = false;
     uint32_t history_frame_index = 0, offset_index = 0, accumulated_frames = 0, noise_index = 0;
-    std::chrono::steady_clock::time_point last_time;
+    std::chrono::steady_clock::time_point time;
+};
+
+// A view that is drawn now and then, while others are.
+struct ParkedView {
+    Screen::ViewBuffers buffers;
+    Buffer exposure;
+    ViewState state;
 };
 
 class Frame {
@@ -63,14 +68,14 @@ public:
     void forget_world()
     {
         structures_.forget_world();
-        radiance_ = nullptr;
+        state_.radiance = nullptr;
     }
     // Bytes of the map's acceleration structure per triangle, in the backend that is used.
     double bytes_per_triangle(const GpuWorld& gpu_world, const World& world) const;
 
     // Forgets what was averaged: the next view is the first.
-    void restart_accumulation() { accumulated_frames_ = 0; }
-    uint32_t accumulated_frames() const { return accumulated_frames_; }
+    void restart_accumulation() { state_.accumulated_frames = 0; }
+    uint32_t accumulated_frames() const { return state_.accumulated_frames; }
 
     // Of the last frame's last view, where pt_count_rays was 1. The device must be idle.
     shared::RayCounts read_ray_counts() const;
@@ -81,14 +86,14 @@ public:
     // The last view's accumulated radiance. The device must be idle.
     bool read_radiance(float* rgb);
     // Whether a view has been drawn, so that there is a picture to read.
-    bool has_radiance() const { return radiance_ != nullptr; }
+    bool has_radiance() const { return state_.radiance != nullptr; }
     // Pixels of read_radiance.
-    glm::uvec2 view_size() const { return view_size_; }
+    glm::uvec2 view_size() const { return state_.size; }
     // Pixels that the last view of the world rendered.
-    glm::uvec2 rendered_size() const { return rendered_size_; }
+    glm::uvec2 rendered_size() const { return state_.rendered_size; }
     // Pixels since the start whose light was not a number, or infinite, in the frames that have finished.
     uint64_t broken_pixels() const { return broken_pixels_; }
-    const View& last_view() const { return last_view_; }
+    const View& last_view() const { return state_.view; }
     // Irradiance / pi at points, see Extension. Between frames.
     void measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t samples, SceneSnapshot& scene,
         const GpuWorld& gpu_world, float* rgb);
@@ -115,6 +120,7 @@ private:
     enum class Motion { unknown, known };
     void fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world, Motion motion);
     shared::BvhView write_moving(const MovingGeometry& moving, MovingTarget target);
+    void write_light_lists(shared::SceneView& out, const LightLists& lights);
     void fill_structures(
         shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target);
     uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
@@ -154,6 +160,8 @@ private:
     Graphics& graphics_;
     FrameUploads uploads_;
     PrefixedUpload triangles_, emitters_;
+    KeptUpload light_lists_, dynamic_light_indices_; // of the frame's first view of the world
+    bool lists_are_written_ = false;
     MovingWriter moving_writer_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;
@@ -162,22 +170,11 @@ private:
     uint32_t views_this_frame_ = 0;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
 
-    View last_view_;
-    CvarValues last_cvars_;
-    glm::uvec2 view_size_ { 0 }, rendered_size_ { 0 };
+    ViewState state_; // of the view that is drawn
     RenderScale render_scale_;
     uint64_t broken_pixels_ = 0;
-    ViewHistory history_;
-    uint32_t offset_index_ = 0;
-    uint32_t accumulated_frames_ = 0;
-    const Buffer* radiance_ = nullptr; // of the last view
-    // Of the last view of the world:
-    bool lists_changed_ = false;
-    bool is_followed_by_another_ = false; // another view came since, and the light lists went on with it
-    uint32_t history_frame_index_ = 0;
-    uint32_t noise_index_ = 0;
+    bool is_followed_by_another_ = false; // another view came since its last frame, and the light lists went on with it
     float light_level_ = 0;
-    std::chrono::steady_clock::time_point last_view_time_;
 };
 
 } // namespace vkpt

@@ -61,13 +61,13 @@ void Frame::begin_filters(
     if (!scene.world)
         return;
     if (average || !(antialiases || denoises)) {
-        history_.forget();
+        state_.history.forget();
         return;
     }
     if (upscales)
         uniforms.resolved_size = uniforms.output_size;
     if (antialiases)
-        uniforms.pixel_offset = offset_in_pixel(offset_index_++, uniforms.size, uniforms.resolved_size);
+        uniforms.pixel_offset = offset_in_pixel(state_.offset_index++, uniforms.size, uniforms.resolved_size);
     uniforms.flags |= shared::FRAME_REPROJECTED | (antialiases ? shared::FRAME_ANTIALIASED : 0)
         | (denoises ? shared::FRAME_DENOISED : 0)
         | (uniforms.cvars.flt_denoiser == shared::DENOISER_ASVGF ? shared::FRAME_REPLAYED : 0);
@@ -81,13 +81,13 @@ void Frame::begin_filters(
     key.time = scene.time;
     key.denoiser = uniforms.cvars.flt_denoiser;
     key.antialiases = antialiases;
-    const ViewHistory::Key& last = history_.continues_into(key) ? history_.last() : key;
+    const ViewHistory::Key& last = state_.history.continues_into(key) ? state_.history.last() : key;
     uniforms.flags |= &last != &key ? shared::FRAME_HISTORY : 0;
     uniforms.previous_camera = last.camera;
     uniforms.previous_size = last.size;
     uniforms.previous_scale = glm::vec2(last.size) / glm::vec2(key.size);
     uniforms.offset_change = last.pixel_offset - 0.5f - (key.pixel_offset - 0.5f) * uniforms.previous_scale;
-    history_.keep(key);
+    state_.history.keep(key);
     graphics_.screen.exchange_history();
     uniforms.screen = graphics_.screen.addresses();
 }

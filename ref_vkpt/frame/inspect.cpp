@@ -21,11 +21,11 @@ bool Frame::inspect_pixel(glm::uvec2 pixel, SceneSnapshot& scene, const GpuWorld
     std::span<InspectedLight> lights)
 {
     static_assert(sizeof(InspectedSurface) == 21 * 4 && sizeof(InspectedLight) == 13 * 4);
-    const glm::ivec2 inside = glm::ivec2(pixel) - last_view_.origin;
-    if (view_size_.x == 0 || inside.x < 0 || inside.y < 0 || uint32_t(inside.x) >= last_view_.size.x
-        || uint32_t(inside.y) >= last_view_.size.y)
+    const glm::ivec2 inside = glm::ivec2(pixel) - state_.view.origin;
+    if (state_.size.x == 0 || inside.x < 0 || inside.y < 0 || uint32_t(inside.x) >= state_.view.size.x
+        || uint32_t(inside.y) >= state_.view.size.y)
         return false;
-    const glm::uvec2 rendered = glm::min(glm::uvec2(inside) * view_size_ / last_view_.size, view_size_ - 1u);
+    const glm::uvec2 rendered = glm::min(glm::uvec2(inside) * state_.size / state_.view.size, state_.size - 1u);
     graphics_.finish();
     const Buffer surface_buffer(
         graphics_.gpu, sizeof surface, BufferHome::readback, MemoryKind::staging, "inspected surface");
@@ -35,11 +35,11 @@ bool Frame::inspect_pixel(glm::uvec2 pixel, SceneSnapshot& scene, const GpuWorld
     graphics_.run_once([&](VkCommandBuffer commands) {
         commands_ = commands;
         begin();
-        shared::FrameUniforms uniforms = make_uniforms(last_view_, view_size_);
+        shared::FrameUniforms uniforms = make_uniforms(state_.view, state_.size);
         fill_scene(uniforms.scene, scene, &gpu_world, Motion::unknown);
         bind(write_uniforms(uniforms));
         const shared::InspectPush push { surface_buffer.address(), light_buffer.address(),
-            rendered.y * view_size_.x + rendered.x, uint32_t(lights.size()), probability_draws, counted_choices };
+            rendered.y * state_.size.x + rendered.x, uint32_t(lights.size()), probability_draws, counted_choices };
         vkCmdPushConstants(commands, graphics_.bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof push, &push);
         const std::string shader = "inspect_pixel.comp:" + cvars::values().pt_light_sampler;
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, graphics_.pipelines.compute(shader));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/uploads.hpp"
 
+#include "ref_vkpt/frame/changes.hpp"
+
 #include <algorithm>
 #include <cstring>
 
@@ -37,8 +39,8 @@ Upload FrameUploads::reserve(size_t bytes)
     Slot& slot = slots_[slot_];
     VkDeviceSize offset = (slot.used + alignment - 1) & ~(alignment - 1);
     if (offset + bytes > slot.buffers.back().size()) {
-        slot.buffers.emplace_back(gpu_, std::max<VkDeviceSize>(first_size, bytes * 2), BufferHome::upload, kind_,
-            "frame uploads");
+        slot.buffers.emplace_back(
+            gpu_, std::max<VkDeviceSize>(first_size, bytes * 2), BufferHome::upload, kind_, "frame uploads");
         offset = 0;
     }
     Buffer& buffer = slot.buffers.back();
@@ -69,6 +71,18 @@ Upload PrefixedUpload::reserve(
         slot.version = prefix_version;
     }
     return { slot.buffer.mapped() + prefix.size(), slot.buffer.address() };
+}
+
+VkDeviceAddress KeptUpload::write(uint32_t frame_slot, std::span<const std::byte> bytes)
+{
+    Slot& slot = slots_[frame_slot];
+    if (!slot.buffer || bytes.size() > slot.buffer.size()) {
+        slot.buffer = Buffer();
+        slot.buffer = Buffer(gpu_, bytes.size() + bytes.size() / 4 + 4096, BufferHome::upload, kind_, name_);
+        slot.held.clear();
+    }
+    write_changes(slot.buffer.mapped(), slot.held, bytes);
+    return slot.buffer.address();
 }
 
 } // namespace vkpt

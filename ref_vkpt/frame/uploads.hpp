@@ -16,25 +16,24 @@ namespace vkpt {
 struct Upload {
     std::byte* mapped = nullptr;
     VkDeviceAddress address = 0;
-    template <class T>
-    T* as() const
-    {
-        return reinterpret_cast<T*>(mapped);
-    }
+    template <class T> T* as() const { return reinterpret_cast<T*>(mapped); }
 };
 
 // A bump allocator; grows by another buffer, which is folded into one when the frame's turn comes again.
 class FrameUploads {
 public:
-    FrameUploads(const Gpu& gpu, MemoryKind kind) : gpu_(gpu), kind_(kind) { }
+    FrameUploads(const Gpu& gpu, MemoryKind kind)
+        : gpu_(gpu)
+        , kind_(kind)
+    {
+    }
 
     // The device has finished the last frame with this slot.
     void begin_frame(uint32_t frame_slot);
     // Valid until the frame is submitted.
     Upload reserve(size_t bytes);
     VkDeviceAddress push(std::span<const std::byte> bytes);
-    template <class T>
-    VkDeviceAddress push(const std::vector<T>& items)
+    template <class T> VkDeviceAddress push(const std::vector<T>& items)
     {
         return push(std::as_bytes(std::span(items)));
     }
@@ -42,8 +41,8 @@ public:
 private:
     struct Slot {
         std::vector<Buffer> buffers; // the last one is being filled
-        VkDeviceSize used = 0;       // of the last
-        VkDeviceSize total = 0;      // of all, for folding
+        VkDeviceSize used = 0; // of the last
+        VkDeviceSize total = 0; // of all, for folding
     };
     Gpu gpu_;
     MemoryKind kind_;
@@ -55,12 +54,16 @@ private:
 // frame in flight.
 class PrefixedUpload {
 public:
-    PrefixedUpload(const Gpu& gpu, MemoryKind kind, const char* name) : gpu_(gpu), kind_(kind), name_(name) { }
+    PrefixedUpload(const Gpu& gpu, MemoryKind kind, const char* name)
+        : gpu_(gpu)
+        , kind_(kind)
+        , name_(name)
+    {
+    }
 
     // `prefix_version`: another number whenever the prefix changes. The device has finished with this slot.
     // The result's address is the prefix's, its memory is for the rest.
-    Upload reserve(
-        uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version, size_t rest_bytes);
+    Upload reserve(uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version, size_t rest_bytes);
     template <class T>
     Upload reserve(uint32_t frame_slot, const std::vector<T>& prefix, uint64_t prefix_version, size_t rest_count)
     {
@@ -71,6 +74,35 @@ private:
     struct Slot {
         Buffer buffer;
         uint64_t version = 0;
+    };
+    Gpu gpu_;
+    MemoryKind kind_;
+    const char* name_;
+    std::array<Slot, frames_in_flight> slots_;
+};
+
+// An array of which little changes from frame to frame: each frame in flight keeps it, and only what differs is
+// written.
+class KeptUpload {
+public:
+    KeptUpload(const Gpu& gpu, MemoryKind kind, const char* name)
+        : gpu_(gpu)
+        , kind_(kind)
+        , name_(name)
+    {
+    }
+
+    // Once a frame; the device has finished with this slot.
+    VkDeviceAddress write(uint32_t frame_slot, std::span<const std::byte> bytes);
+    template <class T> VkDeviceAddress write(uint32_t frame_slot, const std::vector<T>& items)
+    {
+        return write(frame_slot, std::as_bytes(std::span(items)));
+    }
+
+private:
+    struct Slot {
+        Buffer buffer;
+        std::vector<std::byte> held;
     };
     Gpu gpu_;
     MemoryKind kind_;

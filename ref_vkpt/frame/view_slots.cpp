@@ -16,18 +16,7 @@ void Frame::exchange_view(ParkedView& parked)
 {
     graphics_.screen.exchange(parked.buffers);
     std::swap(exposure_, parked.exposure);
-    std::swap(last_view_, parked.last_view);
-    std::swap(last_cvars_, parked.last_cvars);
-    std::swap(view_size_, parked.size);
-    std::swap(rendered_size_, parked.rendered_size);
-    std::swap(radiance_, parked.radiance);
-    std::swap(lists_changed_, parked.lists_changed);
-    std::swap(history_frame_index_, parked.history_frame_index);
-    std::swap(history_, parked.history);
-    std::swap(offset_index_, parked.offset_index);
-    std::swap(accumulated_frames_, parked.accumulated_frames);
-    std::swap(noise_index_, parked.noise_index);
-    std::swap(last_view_time_, parked.last_time);
+    std::swap(state_, parked.state);
     is_followed_by_another_ = true;
 }
 

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The part of the frame that brings the scene to the device: triangles, trees, emitters, light lists.
+#include "ref_vkpt/frame/frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace vkpt {
+
+namespace {
+
+// What a map's data looks like to the shaders where there is no map: one list with every emitter.
+struct NoWorld {
+    std::vector<shared::LightList> lists;
+    std::vector<uint32_t> indices;
+    std::vector<shared::BspTreeNode> tree;
+};
+
+NoWorld make_no_world(size_t emitter_count)
+{
+    constexpr int outside = -1;
+    NoWorld result;
+    result.lists.push_back({ 0, 0, 0, uint32_t(emitter_count) });
+    for (uint32_t i = 0; i < emitter_count; i++)
+        result.indices.push_back(i);
+    result.tree.push_back({ glm::vec3(0, 0, 1), 0, outside, outside });
+    return result;
+}
+
+} // namespace
+
+GpuWorld upload_world(const World& world, Uploader& uploader)
+{
+    static uint64_t versions = 0;
+    GpuWorld gpu;
+    gpu.bvh_nodes = uploader.make_buffer(world.bvh().nodes, MemoryKind::acceleration, "world BVH nodes");
+    gpu.bvh_triangles = uploader.make_buffer(world.bvh().triangles, MemoryKind::acceleration, "world BVH triangles");
+    gpu.light_indices = uploader.make_buffer(world.light_lists.static_indices(), MemoryKind::lights, "light lists");
+    gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
+    gpu.version = ++versions;
+    return gpu;
+}
+
+void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world, Motion motion)
+{
+    const CpuTimer timer("cpu upload");
+    static const std::vector<shared::Triangle> no_triangles;
+    static const std::vector<shared::Emitter> no_emitters;
+    const uint32_t slot = graphics_.slot();
+    const MapGeometry* world = scene.world ? &scene.world->models[0] : nullptr;
+    const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
+    const Upload triangles
+        = triangles_.reserve(slot, world ? world->triangles : no_triangles, version, scene.moving.triangle_count());
+    const LightLists* lights = world ? &scene.world->light_lists : nullptr;
+    const bool repeats = lights && lights->has_changed() && motion == Motion::known;
+    const LightLists::Repeated repeated = repeats ? lights->repeat() : LightLists::Repeated();
+    // Lights that have gone stay in the repeated lists: dark.
+    const size_t emitter_count = std::max(
+        scene.emitters.size(), repeats ? repeated.emitter_count - lights->static_emitter_count() : size_t(0));
+    const Upload emitters = emitters_.reserve(slot, world ? world->emitters : no_emitters, version, emitter_count);
+    auto* const end = std::ranges::copy(scene.emitters, emitters.as<shared::Emitter>()).out;
+    std::fill(end, emitters.as<shared::Emitter>() + emitter_count, shared::Emitter {});
+    if (repeats) {
+        out.repeated_lists = uploads_.push(repeated.lists);
+        out.repeated_light_indices = uploads_.push(repeated.dynamic_indices);
+        out.previous_list_lengths = uploads_.push(lights->previous_lengths());
+    }
+    out.triangles = triangles.address;
+    out.emitters = emitters.address;
+    out.materials = uploads_.push(scene.materials);
+    out.lightstyles = uploads_.push(scene.lightstyles);
+    out.trace_stack = graphics_.screen.trace_stack();
+    out.sky = scene.sky;
+    MovingTarget target;
+    target.triangles = triangles.as<shared::Triangle>();
+    out.first_moving = UINT32_MAX;
+    if (motion == Motion::known && scene.moving.triangle_count() > 0) {
+        using Corners = std::array<glm::vec3, 3>;
+        const Upload previous = uploads_.reserve(scene.moving.triangle_count() * sizeof(Corners));
+        target.previous_positions = previous.as<Corners>();
+        out.previous_positions = previous.address;
+        out.first_moving = scene.moving.first_id();
+    }
+    shared::BvhView moving {};
+    if (backend_ == TraceBackend::software)
+        moving = write_moving(scene.moving, target);
+    else
+        fill_structures(out, scene, gpu_world, target);
+
+    if (!world) {
+        const NoWorld none = make_no_world(scene.emitters.size());
+        out.trees[0] = moving;
+        out.tree_count = 1;
+        out.light_lists = uploads_.push(none.lists);
+        out.static_light_indices = out.dynamic_light_indices = uploads_.push(none.indices);
+        out.bsp_tree = uploads_.push(none.tree);
+        out.light_list_count = 1;
+        return;
+    }
+    const Bvh& bvh = scene.world->bvh();
+    out.trees[0]
+        = { gpu_world->bvh_nodes.address(), gpu_world->bvh_triangles.address(), bvh.grid_origin, bvh.grid_scale };
+    out.trees[1] = moving;
+    out.tree_count = scene.moving.triangle_count() > 0 ? 2 : 1;
+    out.static_light_indices = gpu_world->light_indices.address();
+    if (scene.kept_lights.lists.empty()) {
+        write_light_lists(out, *lights);
+    } else {
+        out.light_lists = uploads_.push(scene.kept_lights.lists);
+        out.dynamic_light_indices = uploads_.push(scene.kept_lights.dynamic_indices);
+    }
+    out.bsp_tree = gpu_world->bsp_tree.address();
+    out.light_list_count = uint32_t(lights->lists().size());
+}
+
+// The static indices are the map's. Of the rest, only what has changed is written, unless the frame has several views.
+void Frame::write_light_lists(shared::SceneView& out, const LightLists& lights)
+{
+    if (std::exchange(lists_are_written_, true)) {
+        out.light_lists = uploads_.push(lights.lists());
+        out.dynamic_light_indices = uploads_.push(lights.dynamic_indices());
+        return;
+    }
+    out.light_lists = light_lists_.write(graphics_.slot(), lights.lists());
+    out.dynamic_light_indices = dynamic_light_indices_.write(graphics_.slot(), lights.dynamic_indices());
+}
+
+// What moves, right into the memory that the device reads.
+shared::BvhView Frame::write_moving(const MovingGeometry& moving, MovingTarget target)
+{
+    const CpuTimer timer("cpu bvh");
+    const Upload nodes = uploads_.reserve(moving.node_count() * shared::BVH_NODE_BYTES);
+    // One record even where there is none: its address must be one.
+    const Upload records = uploads_.reserve(std::max<size_t>(moving.triangle_count(), 1) * shared::BVH_TRIANGLE_BYTES);
+    target.nodes = nodes.as<uint32_t>();
+    target.records = records.as<uint32_t>();
+    const Grid grid = moving_writer_.write(moving, target);
+    return { nodes.address, records.address, grid.origin, grid.scale };
+}
+
+void Frame::fill_structures(
+    shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target)
+{
+    const CpuTimer timer("cpu bvh");
+    // Only Mesa's CPU driver depends on the order, and sorting costs time every frame.
+    const bool sorts = graphics_.device.is_cpu;
+    const bool has_world = scene.world && gpu_world;
+    if (has_world && !structures_.holds_world(gpu_world->version)) {
+        const MapGeometry& map = scene.world->models[0];
+        structures_.build_world(group_triangles({ map.triangles, map.masks, map.has_holes, 0 },
+                                    sorts ? TriangleOrder::halves_best : TriangleOrder::as_given),
+            gpu_world->version, graphics_.uploader);
+    }
+    // Read again here, for which memory of the device is slow.
+    std::vector<shared::Triangle> triangles(scene.moving.triangle_count());
+    std::vector<uint32_t> masks(triangles.size());
+    MovingTarget staging { triangles.data(), masks.data() };
+    staging.previous_positions = target.previous_positions;
+    moving_writer_.write(scene.moving, staging);
+    std::ranges::copy(triangles, target.triangles);
+    std::vector<uint8_t> has_holes(triangles.size());
+    for (size_t i = 0; i < has_holes.size(); i++)
+        has_holes[i] = (scene.materials[triangles[i].material].flags & shared::MATERIAL_ALPHA_TEST) != 0;
+    const GroupedTriangles moving = group_triangles({ triangles, masks, has_holes, scene.moving.first_id() },
+        sorts ? TriangleOrder::halves_quick : TriangleOrder::as_given);
+    const AccelerationStructures::View view = structures_.record_view(commands_, moving, has_world);
+    out.structure = view.structure;
+    out.structure_ids[0] = view.ids[0];
+    out.structure_ids[1] = view.ids[1];
+}
+
+double Frame::bytes_per_triangle(const GpuWorld& gpu_world, const World& world) const
+{
+    if (backend_ != TraceBackend::software)
+        return structures_.world_bytes_per_triangle();
+    const size_t count = world.models[0].triangles.size();
+    return count > 0 ? double(gpu_world.bvh_nodes.size() + gpu_world.bvh_triangles.size()) / double(count) : 0;
+}
+
+} // namespace vkpt
