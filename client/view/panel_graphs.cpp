@@ -95,7 +95,7 @@ void draw_error_graph(const State& state)
 {
     double lowest = 1e30, highest = 1e-30;
     for (const SideState& side : state.sides)
-        for (const ErrorFigures& error : side.errors.figures) {
+        for (const analysis::ImageError& error : side.errors.figures) {
             lowest = std::min(lowest, std::max(error.rmse, 1e-6));
             highest = std::max(highest, error.rmse);
         }
@@ -128,7 +128,7 @@ void draw_error_row(const State& state, Side which)
         ImGui::TextDisabled("not measured yet");
         return;
     }
-    const ErrorFigures& error = side.errors.figures.back();
+    const analysis::ImageError& error = side.errors.figures.back();
     ImGui::Text("RMSE %.4g   relative MSE %.4g", error.rmse, error.relative_mse);
 }
 
