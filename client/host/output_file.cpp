@@ -44,13 +44,10 @@ void OutputFile::write(formats::Bytes bytes)
 
 void OutputFile::take(const fs::path& file)
 {
-    errno = 0;
-    std::ifstream from(file, std::ios::binary);
-    std::ofstream to(working_path_, std::ios::binary | std::ios::trunc);
-    to << from.rdbuf();
-    to.close(); // a full disk may show only here
-    if (!from || !to)
-        fail(errno);
+    std::error_code error;
+    fs::copy_file(file, working_path_, fs::copy_options::overwrite_existing, error);
+    if (error)
+        fail(error.value());
 }
 
 void OutputFile::commit()
@@ -64,8 +61,10 @@ void OutputFile::commit()
 
 void OutputFile::fail(int error) const
 {
-    throw Failure(fmt::format("cannot write {}: {}; name a file in a folder that exists and may be written to",
-        path_.string(), error ? std::strerror(error) : "unknown error"));
+    const bool is_full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+    throw Failure(fmt::format("cannot write {}: {}; {}", path_.string(), error ? std::strerror(error) : "unknown error",
+        is_full ? "make room, or name a file in another place"
+                : "name a file in a folder that exists and may be written to"));
 }
 
 } // namespace vkpt::client

@@ -65,9 +65,13 @@ void draw_pass_row(const PassHistory& history, const std::string& name, size_t n
         { corner.x, corner.y + 3 }, { corner.x + height - 6, corner.y + height - 3 }, series_colour(number));
     ImGui::Dummy({ height, height });
     ImGui::SameLine();
-    ImGui::TextUnformatted(name.c_str());
     const std::string figures = fmt::format("{:.2f} ms  {:3.0f} %", median, total > 0 ? 100 * median / total : 0);
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(figures.c_str()).x);
+    const float figures_width = ImGui::CalcTextSize(figures.c_str()).x, width = ImGui::GetContentRegionAvail().x;
+    const ImVec2 text = ImGui::GetCursorScreenPos();
+    ImGui::PushClipRect(text, { text.x + width - figures_width - 4, text.y + height }, true); // long names are cut
+    ImGui::TextUnformatted(name.c_str());
+    ImGui::PopClipRect();
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - figures_width);
     ImGui::TextUnformatted(figures.c_str());
 }
 

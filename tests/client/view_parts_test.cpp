@@ -52,6 +52,15 @@ TEST(FlyCamera, TurnsRoundAboutButNotHeadOver)
     EXPECT_NEAR(camera.yaw, std::remainder(700.0, 360.0), 1e-3);
 }
 
+// A trace's own camera is followed until the user moves it.
+TEST(FlyCamera, StaysWhereNobodyMovesIt)
+{
+    const Camera recorded { { 1, 2, 3 }, 90, 270 }, same = fly(recorded, {}, 320, 0.1f);
+    EXPECT_EQ(same.position, recorded.position);
+    EXPECT_EQ(same.pitch, 90);
+    EXPECT_EQ(same.yaw, 270);
+}
+
 TEST(Split, FitsThePictureIntoTheRoom)
 {
     const Area wide = fit_picture({ 0, 0, 1000, 300 }, { 400, 200 });
