@@ -3,6 +3,7 @@
 
 #include "client/host/errors.hpp"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
@@ -44,10 +45,18 @@ void OutputFile::write(formats::Bytes bytes)
 
 void OutputFile::take(const fs::path& file)
 {
-    std::error_code error;
-    fs::copy_file(file, working_path_, fs::copy_options::overwrite_existing, error);
-    if (error)
-        fail(error.value());
+    // By hand: fs::copy_file calls a full disk an input/output error, operator<< may not notice it.
+    errno = 0;
+    std::ifstream from(file, std::ios::binary);
+    std::ofstream to(working_path_, std::ios::binary | std::ios::trunc);
+    std::array<char, 1 << 16> part;
+    while (from && to) {
+        from.read(part.data(), std::streamsize(part.size()));
+        to.write(part.data(), from.gcount());
+    }
+    to.close();
+    if (!from.eof() || !to)
+        fail(errno);
 }
 
 void OutputFile::commit()

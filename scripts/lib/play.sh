@@ -247,7 +247,6 @@ film_demo() {
         || die "$trace cannot be read"
     capture_path=$cache_dir/vkpt/$capture_folder
     rm -rf "$capture_path"
-    film_start=$SECONDS
     vkpt_program render "$trace" --frames "$film_frames" --size "$use" --seed 0 "${data[@]}" \
         --set pt_capture_dir="$capture_folder" --set pt_capture_every=1 ${given[@]+"${given[@]}"} -o "$capture_path.png" \
         >"$log_dir/film.log" 2>&1 </dev/null &
@@ -271,12 +270,16 @@ take_set_arguments() {
     done
 }
 
-film_frames=0 film_start=0 capture_path=
+film_frames=0 capture_path=
 film_progress() {
     local -a pictures=("$capture_path"/*.png)
     local done=${#pictures[@]} left
-    [[ -e ${pictures[0]} ]] || { echo "starting the renderer"; return; }
-    left=$(((SECONDS - film_start) * (film_frames - done) / done))
+    if [[ ! -e ${pictures[0]} ]]; then
+        echo "starting the renderer"
+        return
+    fi
+    # From the first picture on: before it, the driver compiles.
+    left=$((($(date +%s) - $(stat -c %Y "${pictures[0]}")) * (film_frames - done) / (done > 1 ? done - 1 : 1)))
     printf '%d of %d frames, about %d:%02d left\n' "$done" "$film_frames" $((left / 60)) $((left % 60))
 }
 
