@@ -71,7 +71,8 @@ Json make_figure_data(const Report& report, const Figure& figure)
         for (const FigurePicture& picture : row) {
             const SceneResult& scene = report.scenes[figure.scene];
             const VariantResult* result = find_variant(scene, picture.variant);
-            const bool is_centre = scene.centre_reference && (result ? result->variant.is_filtered() : picture.is_centre);
+            const bool is_centre
+                = scene.centre_reference && (result ? result->variant.is_filtered() : picture.is_centre);
             const Reference& reference = is_centre ? *scene.centre_reference : scene.reference;
             const std::string reference_name = picture_name(figure.scene, is_centre ? centre_reference : "");
             items.push_back({ { "picture", result ? picture_name(figure.scene, picture.variant) : reference_name },

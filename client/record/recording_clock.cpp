@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// recording_clock.so, preloaded into an engine that records: on the engine's own thread time passes with the frames that
-// are recorded, not with the clock on the wall. So console lines over the picture, films and whatever else goes by time
-// come and go as they would for somebody who watches, and each time at the same frame.
+// recording_clock.so, preloaded into an engine that records: on the engine's own thread time passes with the frames
+// that are recorded, not with the clock on the wall. So console lines over the picture, films and whatever else goes by
+// time come and go as they would for somebody who watches, and each time at the same frame.
 #include <atomic>
 #include <cstdint>
 #include <ctime>

@@ -281,8 +281,8 @@ TEST_F(Replay, FollowsTheEngineToOtherMaps)
                       other = "begin_registration other\nregister_model maps/other.bsp\nend_registration\n",
                       two = std::string(frame_at_full_size) + frame_at_full_size;
     const auto replay = [&](const std::string& frame, const std::string& frames) {
-        const ProgramResult result = run({ "render", "maps.rtrace@" + frame, "--size", "800x600", "--frames", frames,
-            "--verbose", "-o", "a.png" });
+        const ProgramResult result = run(
+            { "render", "maps.rtrace@" + frame, "--size", "800x600", "--frames", frames, "--verbose", "-o", "a.png" });
         EXPECT_EQ(result.status, 0) << result.errors;
         return calls_of(result);
     };
