@@ -292,6 +292,7 @@ TEST_F(Replay, FollowsTheEngineToOtherMaps)
     ASSERT_EQ(info.at("maps").size(), 3u);
     EXPECT_EQ(info.at("maps").at(1).at("map"), "other");
     EXPECT_EQ(info.at("maps").at(1).at("frame"), 2);
+    EXPECT_NEAR(info.at("seconds"), 0.3, 1e-6) << "each map has a clock of its own";
 }
 
 TEST_F(Replay, TellsOfOtherFiles)
