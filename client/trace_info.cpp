@@ -76,7 +76,7 @@ Json make_trace_info(const std::filesystem::path& path)
     if (reader.cut_at())
         info["cut_at"] = reader.cut_at();
     info["frames"] = frames;
-    info["seconds"] = frames ? double(reader.time(frames - 1)) - double(reader.time(0)) : 0.0;
+    info["seconds"] = frames ? reader.seconds(frames - 1) : 0.0;
     info["calls"] = reader.totals().calls;
     info["frames_with_2d_only"] = reader.totals().frames - std::min<uint32_t>(reader.totals().frames, uint32_t(frames));
     add_facts(info, reader.facts());

@@ -59,7 +59,7 @@ const PassTime* pass_times(size_t* count)
     if (!m || m->graphics.is_recording())
         return nullptr;
     m->graphics.finish();
-    m->graphics.timer.read_back((m->graphics.slot() + frames_in_flight - 1) % frames_in_flight);
+    m->graphics.timer.read_back_all(m->graphics.slot());
     *count = m->graphics.timer.times().size();
     return m->graphics.timer.times().data();
 }

@@ -171,8 +171,9 @@ struct Extension {
     double (*trace_rays)(const TracedRay* rays, size_t count, const TraceRequest* request, TracedHit* hits);
     // With pt_accumulate 1: the next view's things count instead of the frozen ones, and the average starts anew.
     void (*thaw_scene)();
-    // With pt_times 1: all times since the start or the last forget_times, in order of their first appearance. Waits
-    // for the device, so that the last frame is among them. The arrays live until the next frame begins.
+    // With pt_times 1: all times since the start or the last forget_times, in order of their first appearance; "frame" is
+    // that from one frame's completion to the next one's, of frames with a 3D view. Waits for the device, so that the last
+    // frame is among them. The arrays live until the next frame begins.
     const PassSamples* (*collected_times)(size_t* count);
     void (*forget_times)();
     // What the last view was made of. Valid until the next frame or call. False: no map.

@@ -45,7 +45,6 @@ struct Module {
     PassStatistics pass_statistics; // with pt_times 1
     const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     double first_frame_seconds = 0; // from the start to the end of the first view; 0: there was none
-    std::optional<std::chrono::steady_clock::time_point> last_begin; // of a frame
 };
 
 // nullptr outside of InitContext .. ShutdownContext.

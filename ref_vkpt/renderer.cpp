@@ -337,10 +337,6 @@ void begin_frame(float)
     PassStatistics* const statistics = wanted_statistics();
     m.graphics.timer.collect_into(statistics);
     CpuTimer::collect_into(statistics);
-    const auto now = std::chrono::steady_clock::now();
-    if (statistics && m.last_begin && m.frame_has_view) // loading is another matter
-        statistics->add(whole_frame, std::chrono::duration<double, std::milli>(now - *m.last_begin).count());
-    m.last_begin = now;
     m.frame_has_view = false;
     if (m.graphics.begin_frame())
         m.draw2d.set_output(m.graphics.screen.output());
@@ -402,6 +398,8 @@ void end_frame()
     m.textures.flush_if_needed();
     m.draw2d.record(m.graphics.commands());
     m.graphics.timer.mark(m.graphics.commands(), "2d");
+    if (m.frame_has_view)
+        m.graphics.timer.note_view();
     m.graphics.end_frame();
     // What the engine's server reads as the light on the player: 255 * half the radiance of a white floor, as lightmaps
     // go.

@@ -142,17 +142,14 @@ private:
                 "--ab {}: the module uses {} instead of {}; `vkpt info --cvars` lists the values", name, used, value));
     }
 
-    // A frame's time is that from the last one's to its own return: with frames in flight, the device's pace. The last one
-    // waits for the device. In turns, every frame does: else short turns would measure how fast frames are asked for.
+    // In turns, every frame waits for the device: else a turn would begin with what the other value left in flight.
     void measure(BenchResult& result, int begin, int end)
     {
         host_.extension().forget_times();
         for (int frame = begin; frame < end; frame++) {
-            const Clock::time_point start = Clock::now();
             source_->draw(host_, first_ + frame);
-            if (frame + 1 == end || end - begin < frames_)
+            if (end - begin < frames_)
                 wait();
-            result.frame_ms.push_back(float(milliseconds_since(start)));
         }
         size_t count = 0;
         const PassSamples* samples = host_.extension().collected_times(&count);
@@ -160,7 +157,10 @@ private:
             const std::string_view name = samples[i].name;
             if (name.starts_with(cpu_task))
                 add_samples(result.cpu, name.substr(cpu_task.size()), samples[i]);
-            else if (name != "frame")
+            else if (name == "frame")
+                result.frame_ms.insert(
+                    result.frame_ms.end(), samples[i].milliseconds, samples[i].milliseconds + samples[i].count);
+            else
                 add_samples(result.passes, name, samples[i]);
         }
     }

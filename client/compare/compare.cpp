@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
+#include <numeric>
 #include <unistd.h>
 
 namespace vkpt::client {
@@ -32,10 +33,7 @@ struct CompareOptions {
 // With the time that is left, on a terminal; else a line now and then.
 class ProgressLine {
 public:
-    explicit ProgressLine(std::string title)
-        : title_(std::move(title))
-    {
-    }
+    void set_title(std::string title) { title_ = std::move(title); }
     void show(int done, int total)
     {
         const auto now = std::chrono::steady_clock::now();
@@ -47,7 +45,7 @@ public:
         const double spent = std::chrono::duration<double>(now - start_).count();
         const int left = done > 0 ? int(spent * (total - done) / done) : 0;
         fmt::print(stderr, "{}{}: frame {} of {}, about {}:{:02} left{}", is_terminal ? "\r" : "", title_, done, total,
-            left / 60, left % 60, is_terminal && done < total ? "  " : "\n");
+            left / 60, left % 60, is_terminal && done < total ? "  \033[K" : "\n");
         std::fflush(stderr);
     }
 
@@ -102,15 +100,23 @@ void measure_all(const CompareOptions& options, Report& report)
         for (FigureScene& scene : plan.scenes)
             scene.variants = make_variants(lists, stage->info());
     }
+    std::vector<int> expected; // frames a scene, as if all were of the first one's kind
+    for (const FigureScene& scene : plan.scenes)
+        expected.push_back(count_frames(scene.variants, options.measure, stage->is_still()));
+    int earlier = 0, later = std::accumulate(expected.begin(), expected.end(), 0);
+    ProgressLine line;
     for (size_t i = 0; i < plan.scenes.size(); i++) {
         const std::string& name = plan.scenes[i].scene;
         if (i > 0) {
             stage.reset(); // the refresh API serves one host at a time
             stage = std::make_unique<Stage>(stage_options, name);
         }
-        ProgressLine line(fmt::format("{} ({} of {})", name, i + 1, plan.scenes.size()));
+        line.set_title(fmt::format("{} ({} of {})", name, i + 1, plan.scenes.size()));
+        later -= expected[i];
+        int drawn = 0;
         report.scenes.push_back(measure_scene(*stage, name, plan.scenes[i].variants, options.measure,
-            [&](int done, int total) { line.show(done, total); }));
+            [&](int done, int total) { line.show(earlier + (drawn = done), earlier + total + later); }));
+        earlier += drawn;
         for (const std::string& note : report.scenes.back().notes)
             fmt::print(stderr, "vkpt: {}\n", note);
     }

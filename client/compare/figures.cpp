@@ -49,7 +49,8 @@ public:
             for (const Column& column : columns)
                 row.push_back(use(figure.scene, column.sampler, column.subset, denoiser,
                     column.caption + (denoiser == std::string_view("off") ? "" : ", filtered")));
-            row.push_back({ "", "reference" });
+            const bool is_filtered = denoiser != std::string_view("off");
+            row.push_back({ "", is_filtered ? "reference of pixels' centres" : "reference", is_filtered });
             figure.rows.push_back(std::move(row));
         }
         plan_.figures.push_back(std::move(figure));

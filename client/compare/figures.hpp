@@ -13,6 +13,7 @@ namespace vkpt::client {
 struct FigurePicture {
     std::string variant; // Variant::label(); empty: the reference
     std::string caption; // what the figure calls it
+    bool is_centre = false; // of the reference: that of filtered pictures
 };
 struct Figure {
     std::string title, text;

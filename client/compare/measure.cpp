@@ -18,6 +18,11 @@ namespace {
 constexpr int curve_doublings = 3; // curves reach to `samples` * 8
 constexpr int costly_runs = 4; // curves, flicker and FLIP are taken from as many runs at most
 
+bool measures_costly(int run) { return run < costly_runs; }
+
+// For changes from frame to frame an eighth of the samples will do.
+int flicker_reference_samples(const MeasureOptions& options) { return std::max(options.reference.samples / 8, 1); }
+
 double median(std::vector<double> values)
 {
     if (values.empty())
@@ -52,7 +57,7 @@ public:
                 "frame {} has too few frames before it: filters look back at {} (--warmup) and flicker takes {} "
                 "(--frames); choose FILE.rtrace@{} or later",
                 stage.frame(), options.warmup, options.frames, options.warmup + options.frames - 1));
-        count_frames();
+        total_ = count_frames(variants, options, stage.is_still());
     }
 
     SceneResult measure(const std::string& scene)
@@ -80,22 +85,6 @@ public:
     }
 
 private:
-    bool measures_costly(int run) const { return run < costly_runs; }
-
-    void count_frames()
-    {
-        total_ = options_.reference.samples * (has_filtered() ? 2 : 1) + int(variants_.size());
-        if (!stage_.is_still())
-            total_ += options_.frames * flicker_reference_samples();
-        for (const Variant& variant : variants_)
-            for (int run = 0; run < options_.runs; run++)
-                if (variant.is_filtered())
-                    total_ += options_.warmup + options_.frames;
-                else
-                    total_ += options_.samples * (measures_costly(run) ? 1 << curve_doublings : 1)
-                        + (measures_costly(run) ? options_.frames : 0);
-    }
-
     void advance() { progress_(std::min(++done_, total_), total_); }
 
     FrameTime draw(int frame, Runs* runs)
@@ -113,9 +102,9 @@ private:
     {
         ReferenceOptions options = options_.reference;
         options.samples = samples;
-        const int before = done_;
         Reference reference = make_reference(stage_, frame, part, options, [&] { advance(); });
-        done_ = before + samples; // a cached one drew none
+        if (reference.was_cached)
+            total_ -= samples;
         return reference;
     }
     void make_references()
@@ -130,11 +119,9 @@ private:
         }
         for (int frame = stage_.frame() - options_.frames + 1; frame <= stage_.frame(); frame++)
             flicker_references_.push_back(
-                make_one_reference(frame, PixelPart::centre, flicker_reference_samples()).image);
+                make_one_reference(frame, PixelPart::centre, flicker_reference_samples(options_)).image);
     }
     bool has_filtered() const { return std::ranges::any_of(variants_, &Variant::is_filtered); }
-    // For changes from frame to frame an eighth of the samples will do.
-    int flicker_reference_samples() const { return std::max(options_.reference.samples / 8, 1); }
 
     // One picture of every variant: whatever slows the machine meanwhile slows all of them.
     void run_all(int run)
@@ -254,6 +241,22 @@ private:
 };
 
 } // namespace
+
+int count_frames(const std::vector<Variant>& variants, const MeasureOptions& options, bool is_still)
+{
+    const bool has_filtered = std::ranges::any_of(variants, &Variant::is_filtered);
+    int total = options.reference.samples * (has_filtered ? 2 : 1) + int(variants.size());
+    if (!is_still)
+        total += options.frames * flicker_reference_samples(options);
+    for (const Variant& variant : variants)
+        for (int run = 0; run < options.runs; run++)
+            if (variant.is_filtered())
+                total += options.warmup + options.frames;
+            else
+                total += options.samples * (measures_costly(run) ? 1 << curve_doublings : 1)
+                    + (measures_costly(run) ? options.frames : 0);
+    return total;
+}
 
 double interpolate_curve(const std::vector<CurvePoint>& curve, double samples)
 {

@@ -64,6 +64,9 @@ inline const Reference& reference_of(const SceneResult& scene, const Variant& va
 
 using Progress = std::function<void(int done, int total)>;
 
+// That measure_scene draws; fewer where a reference was kept.
+int count_frames(const std::vector<Variant>& variants, const MeasureOptions& options, bool is_still);
+
 SceneResult measure_scene(Stage& stage, const std::string& scene, const std::vector<Variant>& variants,
     const MeasureOptions& options, const Progress& progress);
 

@@ -31,6 +31,9 @@ std::string encode_base64(formats::Bytes bytes)
     return text;
 }
 
+// The references' labels: this, and nothing.
+constexpr const char* centre_reference = "centre";
+
 std::string picture_name(size_t scene, const std::string& label) { return fmt::format("{}:{}", scene, label); }
 
 std::string make_data_url(const analysis::LinearImage& image, float exposure)
@@ -68,9 +71,13 @@ Json make_figure_data(const Report& report, const Figure& figure)
         for (const FigurePicture& picture : row) {
             const SceneResult& scene = report.scenes[figure.scene];
             const VariantResult* result = find_variant(scene, picture.variant);
-            items.push_back(
-                { { "picture", picture_name(figure.scene, picture.variant) }, { "caption", picture.caption },
-                    { "figures", result ? short_figures(*result) : short_figures(scene.reference) } });
+            const bool is_centre
+                = scene.centre_reference && (result ? result->variant.is_filtered() : picture.is_centre);
+            const Reference& reference = is_centre ? *scene.centre_reference : scene.reference;
+            const std::string reference_name = picture_name(figure.scene, is_centre ? centre_reference : "");
+            items.push_back({ { "picture", result ? picture_name(figure.scene, picture.variant) : reference_name },
+                { "reference", reference_name }, { "caption", picture.caption },
+                { "figures", result ? short_figures(*result) : short_figures(reference) } });
         }
         rows.push_back(std::move(items));
     }
@@ -86,6 +93,9 @@ std::string make_data(const Report& report)
     for (size_t i = 0; i < report.scenes.size(); i++) {
         const SceneResult& scene = report.scenes[i];
         data["pictures"][picture_name(i, "")] = make_data_url(scene.reference.image, scene.exposure);
+        if (scene.centre_reference)
+            data["pictures"][picture_name(i, centre_reference)]
+                = make_data_url(scene.centre_reference->image, scene.exposure);
         for (const VariantResult& result : scene.variants)
             data["pictures"][picture_name(i, result.variant.label())] = make_data_url(result.picture, scene.exposure);
     }
@@ -206,8 +216,9 @@ std::string make_table_row(const SceneResult& scene, size_t number, const Varian
 {
     const std::string label = escape_markup(result.variant.label());
     std::string row = fmt::format(
-        R"(<tr><td><input type="checkbox" aria-label="show {0}" data-scene="{1}" data-picture="{1}:{0}" data-caption="{0}" data-figures="{2}"></td>)",
-        label, number, escape_markup(short_figures(result)));
+        R"(<tr><td><input type="checkbox" aria-label="show {0}" data-scene="{1}" data-picture="{1}:{0}" data-reference="{1}:{3}" data-caption="{0}" data-figures="{2}"></td>)",
+        label, number, escape_markup(short_figures(result)),
+        scene.centre_reference && result.variant.is_filtered() ? centre_reference : "");
     for (const Column& column : columns) {
         Cell cell = column.make(scene, result);
         if (column.lowest_is_best && !cell.text.empty()

@@ -30,7 +30,7 @@ struct Reference {
 inline constexpr int block_side = 16;
 
 struct ReferenceOptions {
-    int samples = 1024;
+    int samples = 512;
     std::string sampler; // empty: a good one that the module has
     bool use_cache = true;
     std::filesystem::path cache_folder;

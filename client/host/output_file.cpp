@@ -3,6 +3,7 @@
 
 #include "client/host/errors.hpp"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
@@ -44,12 +45,17 @@ void OutputFile::write(formats::Bytes bytes)
 
 void OutputFile::take(const fs::path& file)
 {
+    // By hand: fs::copy_file calls a full disk an input/output error, operator<< may not notice it.
     errno = 0;
     std::ifstream from(file, std::ios::binary);
     std::ofstream to(working_path_, std::ios::binary | std::ios::trunc);
-    to << from.rdbuf();
-    to.close(); // a full disk may show only here
-    if (!from || !to)
+    std::array<char, 1 << 16> part;
+    while (from && to) {
+        from.read(part.data(), std::streamsize(part.size()));
+        to.write(part.data(), from.gcount());
+    }
+    to.close();
+    if (!from.eof() || !to)
         fail(errno);
 }
 
@@ -64,8 +70,10 @@ void OutputFile::commit()
 
 void OutputFile::fail(int error) const
 {
-    throw Failure(fmt::format("cannot write {}: {}; name a file in a folder that exists and may be written to",
-        path_.string(), error ? std::strerror(error) : "unknown error"));
+    const bool is_full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+    throw Failure(fmt::format("cannot write {}: {}; {}", path_.string(), error ? std::strerror(error) : "unknown error",
+        is_full ? "make room, or name a file in another place"
+                : "name a file in a folder that exists and may be written to"));
 }
 
 } // namespace vkpt::client

@@ -96,7 +96,7 @@ void TraceFrames::check_files(FileSystem& files)
         fmt::join(others, ", "), count > named ? " ..." : ""));
 }
 
-double TraceFrames::seconds(int frame) const { return double(reader_.time(size_t(frame))) - double(reader_.time(0)); }
+double TraceFrames::seconds(int frame) const { return reader_.seconds(size_t(frame)); }
 
 Camera TraceFrames::camera(int frame) const
 {

@@ -49,11 +49,14 @@ fs::path find_engine(const fs::path& wanted)
         + "\nInstall the package yamagi-quake2, or name the program with --engine PATH.");
 }
 
-fs::path find_record_module()
+// What the engine runs with, beside this program.
+constexpr const char *record_module = "ref_record.so", *clock_library = "recording_clock.so";
+
+fs::path find_beside(const char* name)
 {
-    const fs::path place = fs::read_symlink("/proc/self/exe").parent_path() / "ref_record.so";
+    const fs::path place = fs::read_symlink("/proc/self/exe").parent_path() / name;
     if (!fs::exists(place))
-        throw Failure(fmt::format("no {}: build the target ref_record", place.string()));
+        throw Failure(fmt::format("no {}: build the target vkpt", place.string()));
     return place;
 }
 
@@ -137,8 +140,8 @@ std::string make_settings(const EngineRunOptions& options)
     set("s_openal", "0");
     set("s_sdldriver", "dummy");
     set("vid_fullscreen", "0");
-    set("cl_predict", "0"); // its smoothing of steps follows the clock on the wall
-    set("con_notifytime", "-1"); // so do console lines over the picture
+    set("cl_predict", "0"); // a demo has no commands of the player's to predict from
+    set("busywait", "0"); // it waits for the clock
     set("nextdemo", "quit");
     set("record_demo", options.demo);
     for (const auto& [name, value] : options.settings)
@@ -216,7 +219,8 @@ void EngineRun::make_folder(const EngineRunOptions& options)
     trace_ = home_ / "out.rtrace";
     fs::copy_file(engine_, folder_ / "quake2");
     fs::permissions(folder_ / "quake2", fs::perms(0755));
-    fs::copy_file(find_record_module(), folder_ / "ref_record.so");
+    for (const char* file : { record_module, clock_library })
+        fs::copy_file(find_beside(file), folder_ / file);
     for (const std::string& game : { std::string("baseq2"), options.game }) {
         if (game.empty() || fs::exists(folder_ / game))
             continue;
@@ -280,6 +284,7 @@ int EngineRun::start(const EngineRunOptions& options) const
     setenv("SDL_VIDEO_DRIVER", "dummy", 1); // SDL3's name for it
     setenv("SDL_AUDIODRIVER", "dummy", 1);
     setenv("VKPT_TRACE", trace_.c_str(), 1);
+    setenv("LD_PRELOAD", (folder_ / clock_library).c_str(), 1);
     if ((changes_user_ && !become(user_.id, user_.group)) || chdir(folder_.c_str()) != 0)
         _exit(127);
     prctl(PR_SET_PDEATHSIG, SIGKILL); // after the change of the user, which resets it

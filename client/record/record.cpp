@@ -126,7 +126,7 @@ void run_record(const RecordOptions& options)
         throw Failure(fmt::format("the engine showed no frame of {}", options.demo));
     output.take(run.trace());
     output.commit();
-    const double shown = double(reader.time(frames - 1)) - double(reader.time(0));
+    const double shown = reader.seconds(frames - 1);
     fmt::print("{}: {} frames, {:.1f} s, {:.0f} kB ({:.1f} kB a second), recorded in {:.1f} s\n", options.output,
         frames, shown, double(reader.file_bytes()) / 1000, double(reader.file_bytes()) / 1000 / std::max(shown, 1e-3),
         seconds);

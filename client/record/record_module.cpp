@@ -4,7 +4,9 @@
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/renderer.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <dlfcn.h>
 #include <memory>
 #include <system_error>
 
@@ -42,6 +44,14 @@ Call make_call(CallKind kind, std::string_view name = "", std::initializer_list<
 void write(Call call)
 {
     with_trace([&](Recorder& r) { r.write(std::move(call)); });
+}
+
+// `vkpt record` preloads recording_clock.so; without it, time is the wall's. The engine's step is whole milliseconds.
+void advance_clock()
+{
+    static auto* const advance = reinterpret_cast<void (*)(int64_t)>(dlsym(RTLD_DEFAULT, "vkpt_advance_clock"));
+    if (advance)
+        advance(int64_t(engine::get_cvar("fixedtime", "0", engine::CVAR_NONE)->number) / 1000 * 1000);
 }
 
 engine::VideoSize wanted_size()
@@ -127,8 +137,8 @@ void end_registration() { write(make_call(CallKind::end_registration)); }
 
 void begin_frame(float camera_separation)
 {
-    with_trace([](Recorder& r) { r.note_settings(); });
-    write(make_call(CallKind::begin_frame, "", {}, { camera_separation }));
+    advance_clock();
+    with_trace([&](Recorder& r) { r.begin_frame(camera_separation); });
 }
 
 void render_view(const engine::RefDef& refdef)
@@ -136,7 +146,10 @@ void render_view(const engine::RefDef& refdef)
     with_trace([&](Recorder& r) { r.write_view(refdef); });
 }
 
-void end_frame() { write(make_call(CallKind::end_frame)); }
+void end_frame()
+{
+    with_trace([](Recorder& r) { r.end_frame(); });
+}
 
 bool end_world_renderpass()
 {

@@ -72,13 +72,38 @@ void Recorder::note_settings()
     }
 }
 
-// Before the first view, the engine shows its console with the time of day: left out, so that recording a demo again
-// makes the same file.
+// Frames of 2D alone before the first view show the engine's console with the paths of this run: their drawing is left
+// out, so that recording a demo again makes the same file. Whether a frame is one of them is known at its end.
 void Recorder::write(Call call)
 {
-    const bool is_drawing = call.kind >= CallKind::draw_picture && call.kind <= CallKind::draw_raw;
-    if (!is_drawing || totals().views > 0)
+    if (totals().views > 0)
         writer_.write(std::move(call));
+    else
+        start_.push_back(std::move(call));
+}
+
+void Recorder::write_start(bool with_drawings)
+{
+    for (Call& call : start_)
+        if (const bool is_drawing = call.kind >= CallKind::draw_picture && call.kind <= CallKind::draw_raw;
+            with_drawings || !is_drawing)
+            writer_.write(std::move(call));
+    start_.clear();
+}
+
+void Recorder::begin_frame(float camera_separation)
+{
+    note_settings();
+    write_start(false);
+    Call call = make_call(CallKind::begin_frame, "");
+    call.reals[0] = camera_separation;
+    write(std::move(call));
+}
+
+void Recorder::end_frame()
+{
+    write_start(false);
+    writer_.write(make_call(CallKind::end_frame, ""));
 }
 
 void Recorder::write_view(const engine::RefDef& from)
@@ -98,10 +123,15 @@ void Recorder::write_view(const engine::RefDef& from)
     view.has_area_bits = from.area_bits != nullptr;
     if (from.area_bits)
         std::copy_n(from.area_bits, trace::max_area_bytes, view.area_bits.begin());
+    write_start(true);
     writer_.write(view);
 }
 
-void Recorder::finish() { writer_.finish(); }
+void Recorder::finish()
+{
+    write_start(false);
+    writer_.finish();
+}
 
 // Every file that is read leaves its name, size and hash in the trace, once.
 std::optional<std::vector<std::byte>> Recorder::load_file(const std::string& path)

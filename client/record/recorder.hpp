@@ -19,9 +19,9 @@ public:
     explicit Recorder(const std::string& trace_path);
 
     void note_start(int width, int height);
-    // A frame begins: settings may have changed.
-    void note_settings();
     void write(trace::Call call);
+    void begin_frame(float camera_separation);
+    void end_frame();
     void write_view(const engine::RefDef& refdef);
     void finish();
     const trace::TraceTotals& totals() const { return writer_.totals(); }
@@ -38,13 +38,17 @@ public:
     static void* picture_handle(const PictureSize& size);
 
 private:
+    void note_settings();
     std::optional<std::vector<std::byte>> load_file(const std::string& path);
     bool is_usable_model(const std::string& name);
     uint32_t number_picture(std::string_view name, TextureUse use);
     static void* to_handle(uint32_t number);
     static uint32_t to_number(const void* handle);
 
+    void write_start(bool with_drawings);
+
     trace::TraceWriter writer_;
+    std::vector<trace::Call> start_; // of a frame that may be the first one with a view
     PictureFiles pictures_;
     bool retexturing_;
     std::set<std::string> noted_files_;

@@ -33,7 +33,7 @@ enum class CallKind : uint8_t {
 
     find_picture, // name; flag: the engine got a handle
     picture_size, // name, numbers: the width and height that the engine got
-    // Drawing before the first view is left out.
+    // Drawing in frames before the first one with a view is left out.
     draw_picture, // name, numbers: x, y; reals: scale, tint; flag: tinted
     draw_stretched, // name, numbers: x, y, width, height
     draw_character, // numbers: x, y, code; real: scale

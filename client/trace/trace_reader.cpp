@@ -205,6 +205,14 @@ uint32_t count_views(const std::filesystem::path& path)
     return views;
 }
 
+double TraceReader::seconds(size_t frame) const
+{
+    double sum = 0;
+    for (size_t i = 1; i <= frame; i++)
+        sum += std::max(double(times_[i]) - double(times_[i - 1]), 0.0);
+    return sum;
+}
+
 const Frame& TraceReader::frame(size_t number)
 {
     const auto after = std::ranges::upper_bound(chunks_, number, {}, &Chunk::first_frame);

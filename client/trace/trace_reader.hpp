@@ -35,6 +35,8 @@ public:
     size_t frame_count() const { return times_.size(); }
     // Engine's clock of the frame's first view, in seconds.
     float time(size_t frame) const { return times_[frame]; }
+    // Since the first frame. The engine's clock starts anew with a map: what that took is not known and does not count.
+    double seconds(size_t frame) const;
     const Frame& frame(size_t number); // valid until the next call
 
     // All of them in order.

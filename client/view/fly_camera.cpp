@@ -28,6 +28,8 @@ glm::vec3 right_of(const Camera& camera)
 
 Camera fly(const Camera& camera, const FlyInput& input, float speed, float seconds)
 {
+    if (input.move == glm::vec3(0) && input.yaw == 0 && input.pitch == 0)
+        return camera;
     Camera result = camera;
     result.pitch = std::clamp(camera.pitch + input.pitch, -steepest_pitch, steepest_pitch);
     result.yaw = std::remainder(camera.yaw + input.yaw, 360.0f);

@@ -18,7 +18,8 @@ glm::vec3 forward_of(const Camera& camera);
 glm::vec3 right_of(const Camera& camera);
 
 // The camera `seconds` later. Diagonal movement is no faster; the pitch stops short of straight up and down, the yaw
-// stays within -180 to 180.
+// stays within -180 to 180. Without input it is the same, also where its angles lie outside of these, as recorded ones
+// may.
 Camera fly(const Camera& camera, const FlyInput& input, float speed, float seconds);
 
 } // namespace vkpt::client::view

@@ -73,7 +73,7 @@ double round_up(double value)
     return 10 * power;
 }
 
-void ErrorHistory::add(const ErrorFigures& error)
+void ErrorHistory::add(const analysis::ImageError& error)
 {
     figures.push_back(error);
     if (figures.size() > kept_frames)

@@ -35,8 +35,8 @@ double round_up(double value);
 
 // The last errors against the reference, and how many frames that held.
 struct ErrorHistory {
-    std::deque<ErrorFigures> figures;
-    void add(const ErrorFigures& error);
+    std::deque<analysis::ImageError> figures;
+    void add(const analysis::ImageError& error);
 };
 
 } // namespace vkpt::client::view

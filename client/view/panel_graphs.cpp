@@ -65,9 +65,13 @@ void draw_pass_row(const PassHistory& history, const std::string& name, size_t n
         { corner.x, corner.y + 3 }, { corner.x + height - 6, corner.y + height - 3 }, series_colour(number));
     ImGui::Dummy({ height, height });
     ImGui::SameLine();
-    ImGui::TextUnformatted(name.c_str());
     const std::string figures = fmt::format("{:.2f} ms  {:3.0f} %", median, total > 0 ? 100 * median / total : 0);
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(figures.c_str()).x);
+    const float figures_width = ImGui::CalcTextSize(figures.c_str()).x, width = ImGui::GetContentRegionAvail().x;
+    const ImVec2 text = ImGui::GetCursorScreenPos();
+    ImGui::PushClipRect(text, { text.x + width - figures_width - 4, text.y + height }, true); // long names are cut
+    ImGui::TextUnformatted(name.c_str());
+    ImGui::PopClipRect();
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - figures_width);
     ImGui::TextUnformatted(figures.c_str());
 }
 
@@ -95,7 +99,7 @@ void draw_error_graph(const State& state)
 {
     double lowest = 1e30, highest = 1e-30;
     for (const SideState& side : state.sides)
-        for (const ErrorFigures& error : side.errors.figures) {
+        for (const analysis::ImageError& error : side.errors.figures) {
             lowest = std::min(lowest, std::max(error.rmse, 1e-6));
             highest = std::max(highest, error.rmse);
         }
@@ -128,7 +132,7 @@ void draw_error_row(const State& state, Side which)
         ImGui::TextDisabled("not measured yet");
         return;
     }
-    const ErrorFigures& error = side.errors.figures.back();
+    const analysis::ImageError& error = side.errors.figures.back();
     ImGui::Text("RMSE %.4g   relative MSE %.4g", error.rmse, error.relative_mse);
 }
 

@@ -101,20 +101,22 @@ private:
             result.passes.push_back({ times[i].name, times[i].milliseconds });
     }
 
-    std::vector<float> read_radiance() const
+    // Nothing: the frame had no 3D view.
+    std::optional<analysis::LinearImage> read_radiance() const
     {
         const ImageSize size = extension_.frame_size();
-        std::vector<float> radiance(3 * size_t(size.width) * size_t(size.height));
-        if (!extension_.capture_radiance(radiance.data()))
-            radiance.clear();
-        return radiance;
+        analysis::LinearImage image = analysis::make_image(size.width, size.height);
+        if (!extension_.capture_radiance(image.rgb.data()))
+            return std::nullopt;
+        return image;
     }
 
     void update_reference(const RenderRequest& request)
     {
         if (request.starts_anew)
             reference_.restart();
-        reference_.update(read_radiance(), extension_.accumulated_frames());
+        if (auto average = read_radiance())
+            reference_.update(std::move(*average), extension_.accumulated_frames());
     }
 
     void capture(RenderedFrame& result, const RenderRequest& request) const
@@ -124,10 +126,21 @@ private:
             = { size.width, size.height, std::vector<formats::Rgba8>(size_t(size.width) * size_t(size.height)) };
         if (!extension_.capture_display(&result.picture.pixels.data()->r))
             throw Failure("the module has no finished frame to show");
-        if (request.compares && reference_.frames() > 0)
-            result.error = measure_error(read_radiance(), reference_.average());
+        if (request.compares)
+            result.error = compare();
         if (request.inspected)
             result.inspection = inspect(*request.inspected, request.settings);
+    }
+
+    // Nothing: no reference yet, or one of another size.
+    std::optional<analysis::ImageError> compare() const
+    {
+        const analysis::LinearImage& reference = reference_.average();
+        const auto picture = read_radiance();
+        if (reference_.frames() == 0 || !picture || picture->width != reference.width
+            || picture->height != reference.height)
+            return std::nullopt;
+        return analysis::measure_error(reference, *picture);
     }
 
     std::optional<Inspection> inspect(glm::ivec2 pixel, const Settings& settings) const

@@ -2,6 +2,7 @@
 // The module on a thread of its own, so that the window answers while a frame takes long. One request at a time.
 #pragma once
 
+#include "client/analysis/error.hpp"
 #include "client/host/frame_source.hpp"
 #include "client/view/error.hpp"
 #include "client/view/settings.hpp"
@@ -52,7 +53,7 @@ struct RenderedFrame {
     std::vector<PassRow> passes;
     uint32_t averaged_frames = 0;
     std::string backend;
-    std::optional<ErrorFigures> error;
+    std::optional<analysis::ImageError> error;
     uint32_t reference_frames = 0;
     std::optional<double> reference_rmse; // of the reference itself
     std::optional<Inspection> inspection;

@@ -139,6 +139,7 @@ void Viewer::handle_mouse(const SDL_Event& event)
         input.pitch = degrees_per_pixel * float(event.motion.yrel);
         state_.camera = fly(state_.camera, input, 0, 0);
         state_.has_flown = true;
+        state_.marked.reset();
         last_camera_change_ = Clock::now();
     }
 }

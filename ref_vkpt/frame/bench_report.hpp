@@ -11,7 +11,7 @@
 
 namespace vkpt {
 
-// What PassStatistics call the time from one frame's begin to the next one's, and what the names of the CPU's tasks
+// What PassStatistics call the time from one frame's completion to the next one's, and what the names of the CPU's tasks
 // begin with.
 inline constexpr const char* whole_frame = "frame";
 inline constexpr std::string_view cpu_task = "cpu ";

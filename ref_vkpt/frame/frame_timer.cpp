@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/frame_timer.hpp"
 
+#include "ref_vkpt/frame/bench_report.hpp"
+
 #include <algorithm>
 #include <string_view>
 
@@ -27,6 +29,11 @@ FrameTimer::~FrameTimer()
         vkDestroyQueryPool(device_.handle, slot.pool, nullptr);
 }
 
+double FrameTimer::to_milliseconds(uint64_t ticks) const
+{
+    return double(ticks) * double(device_.properties.limits.timestampPeriod) * 1e-6;
+}
+
 void FrameTimer::read_back(uint32_t frame_slot)
 {
     Slot& slot = slots_[frame_slot];
@@ -37,27 +44,38 @@ void FrameTimer::read_back(uint32_t frame_slot)
         stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
     if (result == VK_SUCCESS) {
         times_.clear();
-        const double nanoseconds = device_.properties.limits.timestampPeriod;
         for (size_t i = 0; i < slot.names.size(); i++) {
             const std::string_view name = slot.names[i];
-            const double milliseconds = double(stamps[i + 1] - stamps[i]) * nanoseconds * 1e-6;
+            const double milliseconds = to_milliseconds(stamps[i + 1] - stamps[i]);
             const auto row = std::ranges::find_if(times_, [&](const PassTime& time) { return name == time.name; });
             if (row != times_.end())
                 row->milliseconds += milliseconds;
             else
                 times_.push_back({ slot.names[i], milliseconds });
         }
-        if (statistics_)
-            for (const PassTime& time : times_)
-                statistics_->add(time.name, time.milliseconds);
+        collect(slot, stamps);
     }
     slot.names.clear();
+}
+
+// With frames in flight the host returns from every other frame at once: only completions are evenly spaced. Before the
+// first view, and after a frame of 2D alone (loading), there is nothing to count from but the frame's own begin.
+void FrameTimer::collect(const Slot& slot, const std::vector<uint64_t>& stamps)
+{
+    if (statistics_) {
+        if (slot.has_view)
+            statistics_->add(whole_frame, to_milliseconds(stamps.back() - last_end_.value_or(stamps.front())));
+        for (const PassTime& time : times_)
+            statistics_->add(time.name, time.milliseconds);
+    }
+    last_end_ = slot.has_view ? std::optional(stamps.back()) : std::nullopt;
 }
 
 void FrameTimer::begin_frame(VkCommandBuffer commands, uint32_t frame_slot)
 {
     read_back(frame_slot);
     slot_ = frame_slot;
+    slots_[slot_].has_view = false;
     vkCmdResetQueryPool(commands, slots_[slot_].pool, 0, max_marks);
     vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, slots_[slot_].pool, 0);
 }

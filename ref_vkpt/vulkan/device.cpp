@@ -23,7 +23,7 @@ const char* result_name(VkResult result)
     case VK_ERROR_OUT_OF_HOST_MEMORY:
         return "out of host memory";
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-        return "out of device memory";
+        return "out of device memory, a smaller picture needs less";
     case VK_ERROR_DEVICE_LOST:
         return "device lost";
     case VK_ERROR_INITIALIZATION_FAILED:

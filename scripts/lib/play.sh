@@ -5,7 +5,7 @@
 
 own_map=vkpt1
 own_demo=vkpt1.dm2
-capture_folder=capture # in the engine's writable game folder
+capture_folder=capture # in the folder that vkpt's module may write to
 
 # --- data ---------------------------------------------------------------------------------------------------------
 
@@ -152,11 +152,7 @@ count_demo_blocks() {
         print $count' "$1"
 }
 
-demo_progress() {
-    local -a pictures=("$home_dir/.yq2/$game_name/$capture_folder"/*.png)
-    [[ -e ${pictures[0]} ]] && echo "${#pictures[@]} of about $expected_pictures pictures" && return
-    last_line "$log_dir/engine.log"
-}
+demo_progress() { last_line "$log_dir/engine.log"; }
 
 # The engine stays up after a demo that it cannot open or a map that it lacks: end it then.
 stop_on_error() {
@@ -170,11 +166,10 @@ stop_on_error() {
 }
 
 # run_demo TITLE ARGUMENTS...: the demo through timedemo to its end, watched.
-expected_pictures=0
 run_demo() {
     local title=$1 status=0 watcher reason
     shift
-    rm -rf "$(console_log)" "${home_dir:?}/.yq2/$game_name/$capture_folder"
+    rm -f "$(console_log)"
     (exec_engine "$data_dir" ${common_arguments[@]+"${common_arguments[@]}"} +set timedemo 1 +set cl_predict 0 +set nextdemo quit \
         +set pt_times 1 "$@" ${engine_arguments[@]+"${engine_arguments[@]}"} +demomap "$demo_name") >"$log_dir/engine.log" 2>&1 </dev/null &
     engine_pid=$!
@@ -206,39 +201,120 @@ play_timedemo() {
     print_figures
 }
 
+# Without a display: the engine plays the demo once, in no time, for a trace of it; `vkpt` replays that through the module.
+# A timedemo goes through the engine itself, in a virtual display.
 play_headless() {
-    local every=1 use=${size:-640x360} wanted=${VKPT_PICTURES:-24}
-    local -a capture=()
+    local use=${size:-640x360}
     size=$use
     fullscreen=no
-    build_common_arguments "$use"
-    start_xvfb "${use%x*}" "${use#*x}"
     if [[ -n $map_name ]]; then
         die "--map needs a display; without one only demos are played (--timedemo DEMO)"
     fi
-    choose_demo
-    if [[ $timedemo == no ]]; then
-        every=$(((demo_blocks > 0 ? demo_blocks : 600) / wanted))
-        ((every > 0)) || every=1
-        expected_pictures=$(((demo_blocks + every - 1) / every))
-        capture=(+set pt_capture_dir "$capture_folder" +set pt_capture_every "$every")
-    fi
-    run_demo "Playing $demo_name in a virtual display, $use" +set s_openal 0 +set s_sdldriver dummy ${capture[@]+"${capture[@]}"}
     if [[ $timedemo == yes ]]; then
+        build_common_arguments "$use"
+        start_xvfb "${use%x*}" "${use#*x}"
+        choose_demo
+        run_demo "Playing $demo_name in a virtual display, $use" +set s_openal 0 +set s_sdldriver dummy
         print_figures
     else
-        collect_pictures "$out_dir"
+        film_demo "$use"
     fi
 }
 
-# Moves the captured frames to OUT and makes the contact sheet of them.
+# vkpt_program COMMAND...: with the caches of every run.
+vkpt_program() {
+    XDG_CACHE_HOME=$cache_dir VKPT_CACHE_DIR=$cache_dir "$build_dir/bin/vkpt" "$@"
+}
+
+# A tenth of a second a frame is what a CPU can draw in minutes; a GPU is given three times as many.
+film_rate() { if has_raytracing_gpu; then echo 30; else echo 10; fi; }
+
+# film_demo WxH: every frame of the demo as a picture, some of them, a contact sheet and a film to $out_dir.
+film_demo() {
+    local use=$1 rate mode=() trace=$home_dir/demo.rtrace setting
+    local -a data=(--basedir "$data_dir" --game "$game_name") given=()
+    take_set_arguments ${engine_arguments[@]+"${engine_arguments[@]}"}
+    for setting in ${settings[@]+"${settings[@]}"}; do
+        given+=(--set "$setting")
+    done
+    choose_demo
+    rate=$(film_rate)
+    if ((rate == 10)); then mode=(--timedemo); else mode=(--rate "$rate"); fi
+    rm -f "$trace"
+    run_step record "Recording $demo_name by the engine" vkpt_program record "${demo:-$demo_name}" "${mode[@]}" \
+        --engine "$(find_engine)" --size "$use" "${data[@]}" ${given[@]+"${given[@]}"} -o "$trace" || exit 1
+    film_frames=$(vkpt_program info --json "$trace" | perl -MJSON::PP -e 'local $/; print decode_json(<STDIN>)->{frames}') \
+        || die "$trace cannot be read"
+    capture_path=$cache_dir/vkpt/$capture_folder
+    rm -rf "$capture_path"
+    vkpt_program render "$trace" --frames "$film_frames" --size "$use" --seed 0 "${data[@]}" \
+        --set pt_capture_dir="$capture_folder" --set pt_capture_every=1 ${given[@]+"${given[@]}"} -o "$capture_path.png" \
+        >"$log_dir/film.log" 2>&1 </dev/null &
+    engine_pid=$!
+    if ! watch_step "$engine_pid" "Rendering $film_frames frames of $demo_name, $use" film_progress; then
+        tail -n 5 "$log_dir/film.log" >&2
+        die "the demo could not be replayed"
+    fi
+    engine_pid=
+    rm -f "$capture_path.png"
+    collect_pictures "$out_dir" "$rate"
+    rm -rf "$capture_path"
+}
+
+# What is left of the command line: only +set NAME VALUE means something without the engine's window.
+take_set_arguments() {
+    while (($#)); do
+        [[ $1 == +set && $# -ge 3 ]] || die_usage "without a display, ENGINE ARGUMENT is +set NAME VALUE, not '$1'"
+        settings+=("$2=$3")
+        shift 3
+    done
+}
+
+film_frames=0 capture_path=
+film_progress() {
+    local -a pictures=("$capture_path"/*.png)
+    local done=${#pictures[@]} left
+    if [[ ! -e ${pictures[0]} ]]; then
+        echo "starting the renderer"
+        return
+    fi
+    # From the first picture on: before it, the driver compiles.
+    left=$((($(date +%s) - $(stat -c %Y "${pictures[0]}")) * (film_frames - done) / (done > 1 ? done - 1 : 1)))
+    printf '%d of %d frames, about %d:%02d left\n' "$done" "$film_frames" $((left / 60)) $((left % 60))
+}
+
+# collect_pictures OUT RATE: some of the frames, the contact sheet of them, and where ffmpeg is there, a film of all.
 collect_pictures() {
-    local out=$1
-    local -a pictures=("$home_dir/.yq2/$game_name/$capture_folder"/*.png)
-    [[ -e ${pictures[0]} ]] || die "the module wrote no pictures; the engine's console is in $(console_log)"
-    mkdir -p "$out" && rm -f "$out"/frame*.png "$out/contact_sheet.png"
-    cp --no-preserve=ownership "${pictures[@]}" "$out/" || die "cannot write to $out"
-    rm -rf "${home_dir:?}/.yq2/$game_name/$capture_folder"
+    local out=$1 rate=$2 wanted=${VKPT_PICTURES:-24} i every made
+    local -a pictures=("$capture_path"/frame*.png) chosen=()
+    [[ -e ${pictures[0]} ]] || { tail -n 5 "$log_dir/film.log" >&2; die "the module wrote no pictures"; }
+    every=$((${#pictures[@]} / wanted))
+    ((every > 0)) || every=1
+    for ((i = 0; i < ${#pictures[@]}; i += every)); do
+        chosen+=("${pictures[i]}")
+    done
+    mkdir -p "$out" && rm -f "$out"/frame*.png "$out/contact_sheet.png" "$out/demo.mp4"
+    cp --no-preserve=ownership "${chosen[@]}" "$out/" || die "cannot write to $out"
     "$build_dir/scripts/contact_sheet" "$out/contact_sheet.png" "$out"/frame*.png || die "the contact sheet could not be made"
-    say "${#pictures[@]} pictures and contact_sheet.png are in $out"
+    made="${#chosen[@]} pictures and contact_sheet.png"
+    if ! has ffmpeg; then
+        note "no ffmpeg, so no film: install it (apt install ffmpeg) and play again"
+    elif make_film "$out/demo.mp4" "$rate"; then
+        made="${#chosen[@]} pictures, contact_sheet.png and demo.mp4"
+    else
+        warn "ffmpeg made no film; what it said is in $log_dir/ffmpeg.log"
+    fi
+    say "$made are in $out"
+}
+
+# make_film FILE RATE: H.264 where ffmpeg can write it. The format wants even sizes.
+make_film() {
+    local file=$1 rate=$2
+    local -a codec=(-c:v mpeg4 -q:v 2)
+    [[ $(ffmpeg -hide_banner -encoders 2>/dev/null) == *libx264* ]] && codec=(-c:v libx264 -crf 18)
+    run_step ffmpeg "Writing ${file##*/}" ffmpeg -hide_banner -y -framerate "$rate" -i "$capture_path/frame%06d.png" \
+        -vf "pad=ceil(iw/2)*2:ceil(ih/2)*2" "${codec[@]}" -pix_fmt yuv420p -movflags +faststart "$file.part.mp4" \
+        && mv "$file.part.mp4" "$file" && return 0
+    rm -f "$file.part.mp4"
+    return 1
 }

@@ -296,8 +296,8 @@ TEST_F(Cli, BenchHasItsKeys)
     EXPECT_EQ(json.at("settings").at("pt_bounces"), "0");
     EXPECT_EQ(json.at("device"), "a device of paper");
     for (const char* key : { "median", "p5", "p95" })
-        EXPECT_GT(json.at("frame_ms").at(key), 0) << key;
-    EXPECT_LE(json.at("frame_ms").at("p5"), json.at("frame_ms").at("p95"));
+        EXPECT_EQ(json.at("frame_ms").at(key), 4) << key;
+    EXPECT_EQ(json.at("frame_ms").at("samples").size(), 40u);
     EXPECT_EQ(json.at("passes").at(0).at("name"), "rays");
     EXPECT_EQ(json.at("passes").at(0).at("median_ms"), 2);
     EXPECT_EQ(json.at("passes").at(0).at("p95_ms"), 2);

@@ -6,9 +6,11 @@
 #include "client/host/scene.hpp"
 #include "tests/client/run_program.hpp"
 
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace vkpt::tests {
 namespace {
@@ -181,6 +183,31 @@ TEST(OutputFile, AppearsOnlyWhenWhole)
     EXPECT_EQ(folder.names(), std::vector<std::string> { "a.png" });
     EXPECT_EQ(folder.read("a.png"), "ab");
     EXPECT_THROW(OutputFile(folder.path() / "none" / "a.png"), Failure);
+}
+
+// A limit on the size of files takes the place of a full disk.
+TEST(OutputFile, LeavesNothingOnAFullDisk)
+{
+    const ScratchFolder folder;
+    const std::string text(100'000, 'x');
+    folder.write("from", text);
+    rlimit before {};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const auto on_excess = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit tight { 40'000, before.rlim_max };
+    setrlimit(RLIMIT_FSIZE, &tight);
+    for (const bool takes : { false, true }) {
+        OutputFile file(folder.path() / "a.rtrace");
+        try {
+            takes ? file.take(folder.path() / "from") : file.write(std::as_bytes(std::span(text)));
+            ADD_FAILURE() << "nothing was said";
+        } catch (const Failure& failure) {
+            EXPECT_NE(std::string(failure.what()).find("make room"), std::string::npos) << failure.what();
+        }
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, on_excess);
+    EXPECT_EQ(folder.names(), std::vector<std::string> { "from" });
 }
 
 } // namespace

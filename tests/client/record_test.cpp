@@ -36,7 +36,7 @@ public:
         setenv("VKPT_TRACE", trace.c_str(), 1);
         formats::Bsp bsp = samples::make_bsp();
         bsp.entity_text = entities;
-        engine.files["maps/sample.bsp"] = to_text(formats::write_bsp(bsp));
+        engine.files["maps/sample.bsp"] = engine.files["maps/other.bsp"] = to_text(formats::write_bsp(bsp));
         engine.files["models/thing.md2"] = to_text(formats::write_md2(samples::make_md2()));
         engine.files["models/broken.md2"] = "IDP2 and no more";
         engine.files["pics/num_0.pcx"] = to_text(formats::write_pcx(samples::make_indexed_image(16, 24)));
@@ -147,6 +147,41 @@ TEST(Record, WritesWhatTheEngineAsked)
         EXPECT_EQ(std::count(files.begin(), files.end(), name), 1) << name;
 }
 
+// What comes before the first 3D view: whole frames of 2D show the engine's console and are left out, what is drawn in
+// the view's own frame is not.
+TEST(Record, KeepsAllOfTheFirstViewsFrame)
+{
+    const ScratchFolder folder;
+    {
+        RecordModule module(folder.path() / "a.rtrace");
+        ASSERT_TRUE(module.api.init());
+        const auto draw_console = [&] {
+            module.api.begin_frame(0);
+            module.api.draw_char_scaled(1, 2, '5', 1);
+            module.api.end_frame();
+        };
+        draw_console();
+        module.api.begin_frame(0);
+        module.api.draw_tile_clear(0, 0, 800, 20, "backtile");
+        engine::RefDef refdef {};
+        module.api.render_frame(&refdef);
+        module.api.end_frame();
+        draw_console();
+        module.api.shutdown();
+    }
+    trace::TraceReader reader(folder.path() / "a.rtrace");
+    EXPECT_EQ(reader.totals().frames, 3u);
+    ASSERT_EQ(reader.frame_count(), 1u);
+    std::vector<CallKind> kinds;
+    for (const trace::Call& call : reader.frame(0).calls)
+        kinds.push_back(call.kind);
+    EXPECT_EQ(kinds,
+        (std::vector<CallKind> {
+            CallKind::begin_frame, CallKind::draw_tiled, CallKind::render_view, CallKind::end_frame }));
+    // begin and end of three frames, the screen, three settings, a tile, a view and the last console's character
+    EXPECT_EQ(reader.totals().calls - uint32_t(reader.facts().size()), 6u + 3 + 1 + 1 + 1);
+}
+
 TEST(Record, RefusesWithoutAFileAndEndsTheEngineOnAFullDisk)
 {
     const ScratchFolder folder;
@@ -218,6 +253,46 @@ TEST_F(Replay, FitsAnotherSize)
         std::string(registration)
             + "begin_frame 0\nrender_view 400 300 0 0 46 0 0 1\ndraw_picture 5 10 num_0 1 -1\n"
               "draw_character 15 20 65 0.5\ndraw_fill 0 295 400 5 7\nend_frame\nshutdown\n");
+}
+
+// From one map to another and back, with a model that only one of them has.
+TEST_F(Replay, FollowsTheEngineToOtherMaps)
+{
+    write_sample_map(folder, "other", entities);
+    {
+        RecordModule module(folder.path() / "maps.rtrace");
+        ASSERT_TRUE(module.api.init());
+        for (const std::string map : { "sample", "other", "sample" }) {
+            module.api.begin_registration(map.c_str());
+            void* const thing = map == "sample" ? module.api.register_model("models/thing.md2") : nullptr;
+            module.api.register_model(("maps/" + map + ".bsp").c_str());
+            module.api.end_registration();
+            module.api.begin_frame(0); // the loading plaque
+            module.api.draw_char_scaled(1, 2, 'L', 1);
+            module.api.end_frame();
+            module.draw(1, thing, nullptr);
+            module.draw(1.1f, thing, nullptr);
+        }
+        module.api.shutdown();
+    }
+    const std::string start = "init\nprepare_for_window\ninit_context false\n",
+                      sample = "begin_registration sample\nregister_model models/thing.md2\n"
+                               "register_model maps/sample.bsp\nend_registration\n",
+                      other = "begin_registration other\nregister_model maps/other.bsp\nend_registration\n",
+                      two = std::string(frame_at_full_size) + frame_at_full_size;
+    const auto replay = [&](const std::string& frame, const std::string& frames) {
+        const ProgramResult result = run(
+            { "render", "maps.rtrace@" + frame, "--size", "800x600", "--frames", frames, "--verbose", "-o", "a.png" });
+        EXPECT_EQ(result.status, 0) << result.errors;
+        return calls_of(result);
+    };
+    EXPECT_EQ(replay("0", "6"), start + sample + two + other + two + sample + two + "shutdown\n");
+    EXPECT_EQ(replay("3", "2"), start + other + frame_at_full_size + sample + frame_at_full_size + "shutdown\n");
+    const nlohmann::json info = nlohmann::json::parse(run({ "info", "maps.rtrace", "--json" }).output);
+    ASSERT_EQ(info.at("maps").size(), 3u);
+    EXPECT_EQ(info.at("maps").at(1).at("map"), "other");
+    EXPECT_EQ(info.at("maps").at(1).at("frame"), 2);
+    EXPECT_NEAR(info.at("seconds"), 0.3, 1e-6) << "each map has a clock of its own";
 }
 
 TEST_F(Replay, TellsOfOtherFiles)

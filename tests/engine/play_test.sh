@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# ./play without a display: pictures and a contact sheet, quickly a second time, and clear words for wrong use.
+# ./play without a display: pictures, a contact sheet and where ffmpeg is there a film, quickly a second time, and clear words for wrong use.
 #   play_test.sh BUILD_DIR
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/../.." && pwd)
@@ -31,6 +31,9 @@ expect 0 'contact_sheet.png' play --size 160x90 --out "$folder/out"
 pictures=$(find "$folder/out" -name 'frame*.png' | wc -l)
 ((pictures >= 5 && pictures <= 13)) || fail "$pictures pictures instead of about 6"
 [[ -s $folder/out/contact_sheet.png ]] || fail "no contact sheet"
+if command -v ffmpeg >/dev/null; then
+    [[ -s $folder/out/demo.mp4 ]] || fail "no film"
+fi
 expect 0 'Engine: +[0-9]+ frames, .* fps' play --size 160x90 --timedemo
 expect 0 'Pass: +' play --size 160x90 --timedemo --set pt_bounces=0 --set pt_bench_json=bench.json
 # The keys that `vkpt bench --json` has, too.

@@ -54,12 +54,11 @@
         async fill() {
             const order = this.order = {};
             const rows = this.figure.rows, columns = Math.max(1, ...rows.map(row => row.length));
-            const reference = await load(this.figure.scene + ":");
             const cells = [];
             for (const row of rows)
                 for (const item of row) {
                     const image = await load(item.picture);
-                    cells.push({ item, image: this.showsDifference ? difference(image, reference) : image });
+                    cells.push({ item, image: this.showsDifference ? difference(image, await load(item.reference)) : image });
                 }
             if (this.order !== order)
                 return; // filled anew meanwhile
@@ -275,7 +274,7 @@
         box.addEventListener("change", () => {
             const reference = shown().pop();
             if (box.checked)
-                shown().push({ picture: box.dataset.picture, caption: box.dataset.caption, figures: box.dataset.figures });
+                shown().push({ ...box.dataset });
             else
                 viewer.figure.rows[0] = shown().filter(item => item.picture !== box.dataset.picture);
             shown().push(reference);
