@@ -20,7 +20,7 @@ void compose_pixel(uvec2 pixel, uint index)
     vec3 radiance = load_emitted(index);
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0)
-        radiance += unpack_half3(load_throughput(index)) * reflected_light(index, primary.surface);
+        radiance += unpack_light3(load_throughput(index)) * reflected_light(index, primary.surface);
     // One broken path must not blacken a pixel for ever.
     if (is_broken(radiance)) {
         count_broken_pixel();

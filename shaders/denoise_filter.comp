@@ -3,17 +3,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One level of the edge-avoiding a-trous filter (Dammertz et al. 2010), both lobes at once: 3 x 3 taps, `step` pixels apart. Taps
 // count by how well they lie on the pixel's plane, by their normal, and by how far their luminance is off in deviations.
+// Written for CPU drivers, too: no branch, loop or division per tap but one.
 #include "lib/frame.glsl"
 #include "lib/denoise.glsl"
 
 layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer FilteredBuffer { uvec4 v[]; };
 
 // Luminance differences of this many deviations count for 1 / e.
 const float deviations = 1.5;
 // Relative to the luminance: what is below cannot be seen, and half floats end there.
 const float least_deviation = 2e-3;
+// (1 + luminance_fall)^2 = e
+const float luminance_fall = 0.6487;
 
+// Normals farther apart do not mix; nearer ones count for this cosine's 32nd power.
+const float least_cosine = 0.8;
+// Metals and other materials, which have no diffuse light or specular light of another colour, do not mix.
+const float most_material_difference = 0.9;
 // Specular light does not mix where roughness differs by twice the inverse of this.
 const float roughness_stop = 16.0;
 
@@ -21,101 +27,126 @@ const float roughness_stop = 16.0;
 struct Sums {
     vec3 light;
     float weight;
-    float variance;      // of the sum
-    float luminance;
-    float luminance2;
+    float variance; // of the sum
+    float square;   // of the luminances
 };
 
-void add_tap(inout Sums sums, vec3 light, float deviation, float weight)
+void add_tap(inout Sums sums, vec3 light, float l, float deviation, float weight)
 {
-    float l = luminance(light);
+    float known = is_known(deviation) ? deviation * weight : 0.0, weighted = l * weight;
     sums.light += light * weight;
     sums.weight += weight;
-    float known = max(weight * deviation, 0.0);
     sums.variance += known * known;
-    sums.luminance += l * weight;
-    sums.luminance2 += l * l * weight;
+    sums.square += l * weighted;
 }
 
-Sums first_tap(vec3 light, float deviation, float weight)
+// Square of the difference of luminances that counts little less than none. Deviations of pixel and tap count: were it the
+// pixel's own alone, the few bright samples of a rare path would be turned away by their neighbours, whose history has not met
+// such a path yet, and their light would be lost.
+float allowed_square(float deviation) { return deviations * deviations * deviation * deviation; }
+
+float least_square(float l)
 {
-    Sums sums = Sums(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
-    add_tap(sums, light, deviation, weight);
-    return sums;
+    float least = least_deviation * l + 1e-6;
+    return least * least;
 }
 
-// How far two luminances are apart, in what their deviations allow for; 0 where either is unknown, and every tap on the surface
-// counts. Both deviations count: were it the pixel's own alone, the few bright samples of a rare path would be turned away by
-// their neighbours, whose history has not met such a path yet, and their light would be lost.
-float distance_in_deviations(float l, float deviation, float other, float other_deviation)
+struct Pixel {
+    vec3 normal;    // as Taps.normal, over 127^2
+    float material; // as Taps.normal
+    float depth;
+    vec2 slope;     // per step
+    float diffuse_luminance, specular_luminance;
+    float diffuse_allowed, specular_allowed;
+    float specular_fall; // what a specular tap a step away counts for
+};
+
+// The guide's normal and material, times 127.
+vec4 guide_bytes(uint bits)
 {
-    if (!is_known(deviation) || !is_known(other_deviation))
-        return 0.0;
-    float allowed = deviations * sqrt(deviation * deviation + other_deviation * other_deviation);
-    return abs(other - l) / (allowed + least_deviation * l + 1e-6);
+    ivec4 bytes = ivec4(uvec4(bits) << uvec4(24u, 16u, 8u, 0u)) >> 24;
+    return vec4(bytes);
 }
 
-float filtered_deviation(Sums sums, float deviation, float taps)
+void add_neighbour(inout Sums diffuse, inout Sums specular, Pixel pixel, uint there, vec2 way, float kernel)
 {
-    if (is_known(deviation))
-        return sqrt(sums.variance) / sums.weight;
-    float mean = sums.luminance / sums.weight;
-    return sqrt(max(sums.luminance2 / sums.weight - mean * mean, 0.0) / taps);
+    uvec2 guide = load_guide(there);
+    FilteredLight light = unpack_filtered(load_element(push.source, there, uvec4(0u)));
+    // As plane_distance and plane_tolerance, without their division.
+    float depth = guide_depth(guide), foretold = depth * (1.0 + dot(pixel.slope, way));
+    float tolerance = depth * (0.008 + 0.25 * dot(abs(pixel.slope), abs(way)));
+    vec4 kind = guide_bytes(guide.x);
+    float cosine = dot(pixel.normal, kind.xyz), difference = abs(pixel.material - kind.w) * (1.0 / 127.0);
+    float cosine2 = cosine * cosine, cosine4 = cosine2 * cosine2, cosine8 = cosine4 * cosine4, cosine16 = cosine8 * cosine8;
+    bool same = abs(pixel.depth - foretold) < tolerance && cosine > least_cosine && difference < most_material_difference;
+    float weight = same ? kernel * cosine16 * cosine16 : 0.0;
+    float alike = 1.0 - roughness_stop * difference;
+
+    // For either lobe 1 / (1 + luminance_fall x^2)^2, with x the difference in what is allowed; a division for both.
+    float diffuse_luminance = luminance(light.diffuse), specular_luminance = luminance(light.specular);
+    vec2 off = vec2(diffuse_luminance - pixel.diffuse_luminance, specular_luminance - pixel.specular_luminance);
+    vec2 allowed = vec2(pixel.diffuse_allowed + allowed_square(light.diffuse_deviation),
+        pixel.specular_allowed + allowed_square(light.specular_deviation));
+    vec2 all = allowed + luminance_fall * off * off;
+    vec2 share = allowed * all.yx * (1.0 / (all.x * all.y));
+    share *= share * weight;
+    float fall = way.x != 0.0 && way.y != 0.0 ? pixel.specular_fall * pixel.specular_fall : pixel.specular_fall;
+    add_tap(diffuse, light.diffuse, diffuse_luminance, light.diffuse_deviation, share.x);
+    add_tap(specular, light.specular, specular_luminance, light.specular_deviation, alike > 0.0 ? share.y * fall * alike : 0.0);
+}
+
+float filtered_deviation(Sums sums, float deviation)
+{
+    const float taps = 9.0;
+    float scale = 1.0 / sums.weight, mean = luminance(sums.light) * scale;
+    float measured = max(sums.square * scale - mean * mean, 0.0) / taps;
+    return sqrt(is_known(deviation) ? sums.variance * scale * scale : measured);
 }
 
 void filter_pixel(uvec2 pixel, uint index)
 {
-    FilteredBuffer source = FilteredBuffer(push.source);
     uvec2 guide = load_guide(index);
-    uvec4 bits = source.v[index];
+    uvec4 bits = load_element(push.source, index, uvec4(0u));
     float depth = guide_depth(guide);
     if (depth <= 0.0) {
-        FilteredBuffer(push.target).v[index] = bits;
+        store_element(push.target, index, bits);
         return;
     }
-    vec4 kind = unpackSnorm4x8(guide.x); // normal, material
-    vec2 slope = unpackHalf2x16(load_slope(index));
-    FilteredLight centre = unpack_filtered(bits);
-    float diffuse_luminance = luminance(centre.diffuse), specular_luminance = luminance(centre.specular);
-    const float centre_weight = 0.25;
-    Sums diffuse = first_tap(centre.diffuse, centre.diffuse_deviation, centre_weight);
-    Sums specular = first_tap(centre.specular, centre.specular_deviation, centre_weight);
-    float nearest = float(push.step);
-    float reach = load_specular_reach(index);
-    float specular_fall = 1.0 / (reach * reach);
-    [[dont_unroll]] for (uint tap = 0u; tap < 9u; tap++) {
-        ivec2 way = ivec2(tap % 3u, tap / 3u) - 1;
-        ivec2 place = ivec2(pixel) + way * int(push.step);
-        if (tap == 4u || any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, ivec2(frame.size))))
-            continue;
-        uint there = uint(place.y) * frame.size.x + uint(place.x);
-        uvec2 other = load_guide(there);
-        vec2 pixels = vec2(way) * nearest;
-        float distance = plane_distance(depth, slope, pixels, guide_depth(other));
-        vec4 other_kind = unpackSnorm4x8(other.x);
-        float cosine = max(dot(kind.xyz, other_kind.xyz), 0.0);
-        float cosine2 = cosine * cosine, cosine4 = cosine2 * cosine2, cosine8 = cosine4 * cosine4, cosine16 = cosine8 * cosine8;
-        float kernel = way.x == 0 || way.y == 0 ? 0.125 : 0.0625;
-        float weight = distance < plane_tolerance(slope, pixels) ? kernel * cosine16 * cosine16 : 0.0;
-        // A metal has no diffuse light, and specular light of another colour; other roughnesses reflect other things.
-        float difference = abs(kind.w - other_kind.w);
-        if (weight < 1e-3 || difference > 0.9)
-            continue;
-        FilteredLight light = unpack_filtered(source.v[there]);
-        float diffuse_distance = distance_in_deviations(
-            diffuse_luminance, centre.diffuse_deviation, luminance(light.diffuse), light.diffuse_deviation);
-        float specular_distance = distance_in_deviations(specular_luminance, centre.specular_deviation,
-                                      luminance(light.specular), light.specular_deviation)
-            + dot(pixels, pixels) * specular_fall;
-        add_tap(diffuse, light.diffuse, light.diffuse_deviation, weight * exp(-diffuse_distance));
-        add_tap(specular, light.specular, light.specular_deviation, weight * exp(-specular_distance) * max(1.0 - roughness_stop * difference, 0.0));
-    }
+    FilteredLight light = unpack_filtered(bits);
+    vec4 kind = guide_bytes(guide.x);
+    float far = float(push.step), reach = load_specular_reach(index), far_in_reach = far / reach;
+    Pixel centre;
+    centre.normal = kind.xyz * (1.0 / (127.0 * 127.0));
+    centre.material = kind.w;
+    centre.depth = depth;
+    centre.slope = unpackHalf2x16(load_slope(index)) * far;
+    centre.diffuse_luminance = luminance(light.diffuse);
+    centre.specular_luminance = luminance(light.specular);
+    centre.diffuse_allowed = allowed_square(light.diffuse_deviation) + least_square(centre.diffuse_luminance);
+    centre.specular_allowed = allowed_square(light.specular_deviation) + least_square(centre.specular_luminance);
+    centre.specular_fall = exp(-far_in_reach * far_in_reach);
+
+    // Taps beyond the edge do not count; they read the pixel at the edge.
+    uvec2 last = frame.size - 1u, before = mix(uvec2(0u), pixel - push.step, greaterThanEqual(pixel, uvec2(push.step)));
+    uvec2 after = min(pixel + push.step, last);
+    uint columns[3] = uint[](before.x, pixel.x, after.x);
+    uint rows[3] = uint[](before.y * frame.size.x, index - pixel.x, after.y * frame.size.x);
+    float across[3] = float[](pixel.x >= push.step ? 0.25 : 0.0, 0.5, pixel.x + push.step <= last.x ? 0.25 : 0.0);
+    float down[3] = float[](pixel.y >= push.step ? 0.25 : 0.0, 0.5, pixel.y + push.step <= last.y ? 0.25 : 0.0);
+
+    Sums diffuse = Sums(vec3(0.0), 0.0, 0.0, 0.0), specular = diffuse;
+    add_tap(diffuse, light.diffuse, centre.diffuse_luminance, light.diffuse_deviation, 0.25);
+    add_tap(specular, light.specular, centre.specular_luminance, light.specular_deviation, 0.25);
+    [[unroll]] for (int y = 0; y < 3; y++)
+        [[unroll]] for (int x = 0; x < 3; x++)
+            if (x != 1 || y != 1)
+                add_neighbour(diffuse, specular, centre, rows[y] + columns[x], vec2(x - 1, y - 1), across[x] * down[y]);
     FilteredLight result;
     result.diffuse = diffuse.light / diffuse.weight;
     result.specular = specular.light / specular.weight;
-    result.diffuse_deviation = filtered_deviation(diffuse, centre.diffuse_deviation, 9.0);
-    result.specular_deviation = filtered_deviation(specular, centre.specular_deviation, 9.0);
-    FilteredBuffer(push.target).v[index] = pack_filtered(result);
+    result.diffuse_deviation = filtered_deviation(diffuse, light.diffuse_deviation);
+    result.specular_deviation = filtered_deviation(specular, light.specular_deviation);
+    store_element(push.target, index, pack_filtered(result));
 }
 
 VKPT_RUN_OVER_PIXELS(filter_pixel)

@@ -30,7 +30,7 @@ vec4 catmull_rom(float t)
 }
 
 uvec2 load_old(vec2 pixel) { return load_previous_resolved(uint(pixel.y) * frame.resolved_size.x + uint(pixel.x)); }
-vec3 old_colour(vec2 pixel, float scale) { return compress(unpack_half3(load_old(pixel)), scale); }
+vec3 old_colour(vec2 pixel, float scale) { return compress(unpack_light3(load_old(pixel)), scale); }
 
 // At a place whose whole numbers are pixels: bicubic, so that a moving picture does not blur.
 vec3 sample_history(vec2 place, float scale)
@@ -97,12 +97,12 @@ void resolve_pixel(uvec2 pixel, uint index)
     if ((frame.flags & FRAME_HISTORY) != 0u && on_screen) {
         vec3 reach = now.deviation * most_deviations;
         vec3 old = clamp(sample_history(place, scale), now.mean - reach, now.mean + reach);
-        frames += unpackHalf2x16(load_old(floor(place + 0.5)).y).y;
+        frames += unpack_light2(load_old(floor(place + 0.5)).y).y;
         result = mix(old, now.here, now.certainty / max(frames, 1e-3));
         frames = min(frames, most_frames - 1.0);
     }
-    vec3 radiance = min(expand(result, scale), 60000.0); // half floats end soon after
-    store_resolved(index, pack_half3(radiance) | uvec2(0u, packHalf2x16(vec2(0.0, frames))));
+    vec3 radiance = min(expand(result, scale), 60000.0); // 16 bits end soon after
+    store_resolved(index, uvec2(pack_light2(radiance.xy), pack_light2(vec2(radiance.z, frames))));
     store_accumulated(index, radiance);
 }
 

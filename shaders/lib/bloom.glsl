@@ -7,12 +7,10 @@
 #include "frame.glsl"
 #include "packing.glsl"
 
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer BloomBuffer { uvec2 v[]; };
-
 vec3 load_bloom_level(uint64_t level, uvec2 size, ivec2 pixel)
 {
     uvec2 at = uvec2(clamp(pixel, ivec2(0), ivec2(size) - 1));
-    return unpack_half3(BloomBuffer(level).v[at.y * size.x + at.x]);
+    return unpack_light3(load_element(level, at.y * size.x + at.x, uvec2(0u)));
 }
 
 // Bilinear; `place`: (0, 0) to (1, 1) over the level.

@@ -79,6 +79,14 @@ uvec2 pixel_in_tile(uint lane)
 
 #else
 
+// Where tile `tile` of rows of `across` stands. By floats, which are exact enough below a million tiles: CPU drivers divide
+// integers lane by lane.
+uvec2 place_of_tile(uint tile, uint across)
+{
+    uint row = uint((float(tile) + 0.5) / float(across));
+    return uvec2(tile - row * across, row);
+}
+
 // Workgroups walk several tiles because starting one costs the CPU driver as much as a cheap pixel pass.
 #define VKPT_RUN_OVER(size_, run)                                                                                      \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
@@ -87,7 +95,7 @@ uvec2 pixel_in_tile(uint lane)
         uvec2 size = size_, tiles = (size + 7u) / 8u;                                                                  \
         [[dont_unroll]] for (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {                                            \
             uint tile = gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP + i;                                                  \
-            uvec2 pixel = uvec2(tile % tiles.x, tile / tiles.x) * 8u + pixel_in_tile(gl_LocalInvocationIndex);         \
+            uvec2 pixel = place_of_tile(tile, tiles.x) * 8u + pixel_in_tile(gl_LocalInvocationIndex);                 \
             if (tile < tiles.x * tiles.y && all(lessThan(pixel, size)))                                                \
                 run(pixel, pixel.y * size.x + pixel.x);                                                                \
         }                                                                                                              \
