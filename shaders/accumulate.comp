@@ -26,9 +26,11 @@ void compose_pixel(uvec2 pixel, uint index)
         count_broken_pixel();
         radiance = vec3(0.0);
     }
-    store_radiance(index, radiance);
-    if ((frame.flags & FRAME_ANTIALIASED) != 0u)
+    if ((frame.flags & FRAME_ANTIALIASED) != 0u) {
+        store_composed(index, pack_light3(radiance));
         return; // temporal_antialiasing stores `accumulated`, perhaps at another size
+    }
+    store_radiance(index, radiance);
     float share = 1.0 / float(frame.accumulated_frames + 1u);
     vec3 before = frame.accumulated_frames > 0u ? load_accumulated(index) : vec3(0.0);
     store_accumulated(index, before + (radiance - before) * share);

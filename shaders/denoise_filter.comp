@@ -52,21 +52,14 @@ float least_square(float l)
 }
 
 struct Pixel {
-    vec3 normal;    // as Taps.normal, over 127^2
-    float material; // as Taps.normal
+    vec3 normal;    // of guide_bytes, over 127^2
+    float material; // of guide_bytes
     float depth;
     vec2 slope;     // per step
     float diffuse_luminance, specular_luminance;
     float diffuse_allowed, specular_allowed;
     float specular_fall; // what a specular tap a step away counts for
 };
-
-// The guide's normal and material, times 127.
-vec4 guide_bytes(uint bits)
-{
-    ivec4 bytes = ivec4(uvec4(bits) << uvec4(24u, 16u, 8u, 0u)) >> 24;
-    return vec4(bytes);
-}
 
 void add_neighbour(inout Sums diffuse, inout Sums specular, Pixel pixel, uint there, vec2 way, float kernel)
 {
@@ -114,7 +107,7 @@ void filter_pixel(uvec2 pixel, uint index)
     }
     FilteredLight light = unpack_filtered(bits);
     vec4 kind = guide_bytes(guide.x);
-    float far = float(push.step), reach = load_specular_reach(index), far_in_reach = far / reach;
+    float far = float(push.step), reach = unpack_moments(load_moments(index)).specular_reach, far_in_reach = far / reach;
     Pixel centre;
     centre.normal = kind.xyz * (1.0 / (127.0 * 127.0));
     centre.material = kind.w;

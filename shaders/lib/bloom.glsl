@@ -17,7 +17,7 @@ vec3 load_bloom_level(uint64_t level, uvec2 size, ivec2 pixel)
 vec3 sample_bloom_level(uint64_t level, uvec2 size, vec2 place)
 {
     vec2 at = place * vec2(size) - 0.5, corner = floor(at), part = at - corner;
-    ivec2 first = ivec2(corner);
+    ivec2 first = whole_to_int(corner);
     return mix(mix(load_bloom_level(level, size, first), load_bloom_level(level, size, first + ivec2(1, 0)), part.x),
         mix(load_bloom_level(level, size, first + ivec2(0, 1)), load_bloom_level(level, size, first + ivec2(1)), part.x), part.y);
 }

@@ -72,22 +72,23 @@ struct Moments {
     vec2 specular;
     vec2 frames; // how many the light's average is worth: diffuse, specular
     float reflected_distance; // average, to what the specular lobe shows; 0: unknown
+    float specular_reach; // pixels that the specular filter may reach
 };
 
 // Frames are kept in 8 bits each: up to 36 of them, in sevenths.
 const float frame_parts = 7.0;
 
-uvec3 pack_moments(Moments m)
+uvec4 pack_moments(Moments m)
 {
-    uvec2 frames = min(uvec2(m.frames * frame_parts + 0.5), 255u);
-    return uvec3(pack_light2(m.diffuse), pack_light2(m.specular),
-        light16_bits(m.reflected_distance) | (frames.x << 16u) | (frames.y << 24u));
+    ivec2 frames = min(whole_to_int(floor(m.frames * frame_parts + 0.5)), 255);
+    return uvec4(pack_light2(m.diffuse), pack_light2(m.specular),
+        light16_bits(m.reflected_distance) | (uint(frames.x) << 16u) | (uint(frames.y) << 24u), floatBitsToUint(m.specular_reach));
 }
 
-Moments unpack_moments(uvec3 bits)
+Moments unpack_moments(uvec4 bits)
 {
-    return Moments(unpack_light2(bits.x), unpack_light2(bits.y), vec2((bits.z >> 16u) & 255u, bits.z >> 24u) / frame_parts,
-        unpack_light2(bits.z).x);
+    return Moments(unpack_light2(bits.x), unpack_light2(bits.y), vec2((bits.z >> 16u) & 255u, bits.z >> 24u) * (1.0 / frame_parts),
+        unpack_light2(bits.z).x, uintBitsToFloat(bits.w));
 }
 
 #endif
