@@ -79,6 +79,13 @@ struct FilterPush {
     uint level;      // from 0
 };
 
+// What denoise_spread.comp is told (push constants).
+struct SpreadPush {
+    uint64_t source; // of the type of the buffer `filtered`
+    uint64_t target;
+    ivec2 way;       // pixels to the first tap
+};
+
 // What inspect_pixel.comp is told (push constants).
 struct InspectPush {
     uint64_t surface;
