@@ -85,7 +85,7 @@ void make_scene(Options& options, const tests::GameFolder& folder)
         map.add(rectangle({ 195, float(i) * 60 - 150, 60 }, { 0, 0, 30 }, { 0, 20, 0 }), lamp);
     folder.add_map(options.scene, map.finish());
     options.base_folder = folder.path().string();
-    options.map = "maps/" + options.scene + ".bsp";
+    options.map = "maps/" + options.scene + ".bsp@0,0,60,0,0";
     options.settings.emplace_back("pt_bounces=0");
     options.settings.emplace_back(near ? "pt_roughness_default=1" : "pt_roughness_default=0.2");
     options.settings.emplace_back(near ? "pt_light_point=area" : "pt_metallic_default=1");
