@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // vkpt_denoiser_bench: how far the filtered picture is from the converged one, at rest and in motion, and what each
 // pass costs. Prints a table in Markdown, for docs/denoiser.md.
+#include "client/analysis/error.hpp"
+#include "client/analysis/flip.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/scene.hpp"
 #include "formats/image.hpp"
+#include "tests/module/game_folder.hpp"
+#include "tests/module/map_builder.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -25,13 +29,16 @@ constexpr float frame_seconds = 1.0f / 60;
 struct Options {
     std::string base_folder, map = "maps/vkpt1.bsp", pictures, journey, cache = "denoiser_bench_cache";
     int width = 480, height = 270, frames = 48, samples = 400, checks = 1, spacing = 5;
-    std::vector<std::string> modes { "off", "temporal", "svgf", "asvgf", "asvgf+taa" }, settings;
+    std::vector<std::string> modes { "off", "temporal", "svgf", "asvgf", "asvgf+taa" }, settings, samplers { "subset" };
+    std::string scene; // "near", "glossy": made for MIS; else the map
     bool times = false;
 };
 
 struct Journey {
     const char* name;
     client::Camera from, to; // to: a second later
+
+    bool is_at_rest() const { return from.position == to.position && from.yaw == to.yaw && from.pitch == to.pitch; }
 };
 // Through our map's halls.
 const Journey journeys[] = {
@@ -39,6 +46,50 @@ const Journey journeys[] = {
     { "hall, running and turning", { { -60, -440, 54 }, 0, 70 }, { { 200, -300, 54 }, 4, 130 } },
     { "upper floor, turning", { { 0, 352, 150 }, 8, 250 }, { { 60, 340, 150 }, 8, 330 } },
 };
+
+const Journey near_journeys[] = {
+    { "long lamps above the floor, at rest", { { 0, -150, 40 }, 15, 90 }, { { 0, -150, 40 }, 15, 90 } },
+    { "long lamps above the floor, in motion", { { -60, -160, 40 }, 15, 75 }, { { 120, -130, 45 }, 13, 120 } },
+};
+const Journey glossy_journeys[] = {
+    { "brushed metal, at rest", { { -150, 0, 60 }, 15, 0 }, { { -150, 0, 60 }, 15, 0 } },
+    { "brushed metal, in motion", { { -160, -60, 60 }, 15, 15 }, { { -110, 120, 70 }, 13, -30 } },
+};
+
+std::span<const Journey> journeys_of(const std::string& scene)
+{
+    if (scene == "near")
+        return near_journeys;
+    if (scene == "glossy")
+        return glossy_journeys;
+    return journeys;
+}
+
+// The scenes for which MIS was made, as in tests/module/sampler_error_test.cpp: direct light only.
+void make_scene(Options& options, const tests::GameFolder& folder)
+{
+    using tests::rectangle;
+    folder.add_wall("wall", 170);
+    folder.add_wall("lamp", tests::white_index);
+    tests::MapBuilder map;
+    map.add_room({ -200, -200, 0 }, { 200, 200, 160 }, map.add_material("wall"));
+    const uint16_t lamp = map.add_material("lamp", 0, 300), far_lamp = map.add_material("lamp", 0, 900);
+    const bool near = options.scene == "near";
+    for (const float y : { -40.0f, 40.0f })
+        if (near)
+            map.add(rectangle({ 0, y, 3 }, { 0, 6, 0 }, { 120, 0, 0 }), lamp);
+    for (int i = 0; near && i < 16; i++)
+        map.add(
+            rectangle({ float(i % 4) * 80 - 120, float(i / 4) * 80 - 120, 150 }, { 0, 5, 0 }, { 5, 0, 0 }), far_lamp);
+    for (int i = 0; !near && i < 6; i++)
+        map.add(rectangle({ 195, float(i) * 60 - 150, 60 }, { 0, 0, 30 }, { 0, 20, 0 }), lamp);
+    folder.add_map(options.scene, map.finish());
+    options.base_folder = folder.path().string();
+    options.map = "maps/" + options.scene + ".bsp@0,0,60,0,0";
+    options.settings.emplace_back("pt_bounces=0");
+    options.settings.emplace_back(near ? "pt_roughness_default=1" : "pt_roughness_default=0.2");
+    options.settings.emplace_back(near ? "pt_light_point=area" : "pt_metallic_default=1");
+}
 
 client::Camera camera_at(const Journey& journey, float seconds)
 {
@@ -125,7 +176,9 @@ Picture make_reference(const Options& options, const Journey& journey, int frame
     const auto bytes = std::streamsize(picture.size() * sizeof(float));
     if (std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(picture.data()), bytes))
         return picture;
-    Run run(options, { { "pt_accumulate", "1" } });
+    // In the scenes made for MIS it converges soonest.
+    Run run(options,
+        { { "pt_accumulate", "1" }, { "pt_light_sampler", options.scene.empty() ? "subset" : "subset_mis" } });
     for (int i = 0; i < options.samples; i++)
         run.draw(camera_at(journey, frame_time(frame)), frame_time(frame));
     picture = run.radiance();
@@ -159,8 +212,21 @@ void save_error_map(const Options& options, const Picture& picture, const Pictur
         .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
 }
 
+// FLIP of x / (1 + x).
+double flip_error(const Options& options, const Picture& picture, const Picture& reference)
+{
+    const auto display = [&](const Picture& radiance) {
+        analysis::LinearImage image = analysis::make_image(options.width, options.height);
+        std::ranges::transform(radiance, image.rgb.begin(), [](float x) { return x / (1 + x); });
+        image.is_display = true;
+        return image;
+    };
+    return analysis::mean_flip(analysis::measure_flip(display(reference), display(picture)));
+}
+
 struct Errors {
-    double error = 0;
+    double error = 0, flip = 0;
+    double flicker = -1; // at rest: root mean square change from frame to frame, by the reference's mean
     std::map<std::string, std::vector<double>> milliseconds;
 };
 
@@ -172,15 +238,23 @@ Errors measure(
     Run run(options,
         { { "flt_denoiser", mode.substr(0, plus) }, { "flt_taa", antialiasing == "taa" ? "on" : antialiasing } });
     Errors errors;
+    std::vector<analysis::LinearImage> last;
     for (int frame = 0; frame < options.frames; frame++) {
         run.draw(camera_at(journey, frame_time(frame)), frame_time(frame));
         size_t count = 0;
         const PassTime* times = run.extension().pass_times(&count);
         for (size_t i = 0; frame > 4 && i < count; i++)
             errors.milliseconds[times[i].name].push_back(times[i].milliseconds);
+        if (journey.is_at_rest() && !references.empty() && frame >= references.begin()->first)
+            last.push_back({ options.width, options.height, run.radiance() });
         if (!is_checked(options, frame))
             continue;
         errors.error += relative_error(run.radiance(), references.at(frame)) / options.checks;
+        errors.flip += flip_error(options, run.radiance(), references.at(frame)) / options.checks;
+    }
+    if (last.size() > 1) {
+        const analysis::LinearImage reference { options.width, options.height, references.begin()->second };
+        errors.flicker = analysis::measure_flicker({ &reference, 1 }, last);
     }
     if (!options.pictures.empty()) {
         std::string name = fmt::format("{}/{}_{}.png", options.pictures, journey.name, mode);
@@ -209,27 +283,38 @@ void print_times(const std::string& mode, const Errors& errors)
         fmt::print("| {} | {:.2f} ms | {:.1f} % |\n", name, median(values), 100 * median(values) / total);
 }
 
+// Error, FLIP and flicker (at rest).
+void print_errors(const Errors& errors)
+{
+    fmt::print(" {:.4f}, {:.3f}", errors.error, errors.flip);
+    if (errors.flicker >= 0)
+        fmt::print(", {:.3f}", errors.flicker);
+    fmt::print(" |");
+    std::fflush(stdout);
+}
+
 void run_bench(const Options& options)
 {
     std::map<std::string, Errors> last;
-    fmt::print("| journey |");
+    fmt::print("| journey | sampler |");
     for (const std::string& mode : options.modes)
         fmt::print(" {} |", mode);
     fmt::print("\n");
-    for (const Journey& journey : journeys) {
+    for (const Journey& journey : journeys_of(options.scene)) {
         if (!options.journey.empty() && std::string(journey.name).find(options.journey) == std::string::npos)
             continue;
         std::map<int, Picture> references;
         for (int frame = 0; frame < options.frames; frame++)
             if (is_checked(options, frame))
                 references[frame] = make_reference(options, journey, frame);
-        fmt::print("| {} |", journey.name);
-        for (const std::string& mode : options.modes) {
-            last[mode] = measure(options, journey, references, mode);
-            fmt::print(" {:.4f} |", last[mode].error);
-            std::fflush(stdout);
+        for (const std::string& sampler : options.samplers) {
+            fmt::print("| {} | `{}` |", journey.name, sampler);
+            Options here = options;
+            here.settings.push_back("pt_light_sampler=" + sampler);
+            for (const std::string& mode : options.modes)
+                print_errors(last[mode] = measure(here, journey, references, mode));
+            fmt::print("\n");
         }
-        fmt::print("\n");
     }
     for (const std::string& mode : options.modes)
         if (options.times)
@@ -242,7 +327,12 @@ int main(int argc, char** argv)
 {
     Options options;
     CLI::App program("Error and cost of the denoiser");
-    program.add_option("--basedir", options.base_folder, "Folder that holds baseq2")->required();
+    program.add_option("--basedir", options.base_folder, "Folder that holds baseq2");
+    program
+        .add_option(
+            "--scene", options.scene, "Instead of a map, a room made for MIS: near (long lamps) or glossy (metal)")
+        ->check(CLI::IsMember({ "near", "glossy" }));
+    program.add_option("--samplers", options.samplers, "A row for each of these light samplers");
     program.add_option("--map", options.map);
     program.add_option("--width", options.width);
     program.add_option("--height", options.height);
@@ -258,6 +348,11 @@ int main(int argc, char** argv)
     program.add_flag("--times", options.times, "Print the passes' times of the last journey");
     CLI11_PARSE(program, argc, argv);
     try {
+        const tests::GameFolder folder;
+        if (!options.scene.empty())
+            make_scene(options, folder);
+        else if (options.base_folder.empty())
+            throw client::Failure("--basedir or --scene is needed");
         run_bench(options);
     } catch (const std::exception& error) {
         fmt::print(stderr, "vkpt_denoiser_bench: {}\n", error.what());

@@ -20,15 +20,17 @@ void compose_pixel(uvec2 pixel, uint index)
     vec3 radiance = load_emitted(index);
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0)
-        radiance += unpack_half3(load_throughput(index)) * reflected_light(index, primary.surface);
+        radiance += unpack_light3(load_throughput(index)) * reflected_light(index, primary.surface);
     // One broken path must not blacken a pixel for ever.
     if (is_broken(radiance)) {
         count_broken_pixel();
         radiance = vec3(0.0);
     }
-    store_radiance(index, radiance);
-    if ((frame.flags & FRAME_ANTIALIASED) != 0u)
+    if ((frame.flags & FRAME_ANTIALIASED) != 0u) {
+        store_composed(index, pack_light3(radiance));
         return; // temporal_antialiasing stores `accumulated`, perhaps at another size
+    }
+    store_radiance(index, radiance);
     float share = 1.0 / float(frame.accumulated_frames + 1u);
     vec3 before = frame.accumulated_frames > 0u ? load_accumulated(index) : vec3(0.0);
     store_accumulated(index, before + (radiance - before) * share);

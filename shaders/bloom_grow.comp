@@ -12,9 +12,9 @@ const float own_share = 0.5;
 
 void grow_pixel(uvec2 pixel, uint index)
 {
-    vec3 own = unpack_half3(BloomBuffer(push.target).v[index]);
+    vec3 own = unpack_light3(load_element(push.target, index, uvec2(0u)));
     vec3 coarser = sample_bloom_level(push.source, push.source_size, (vec2(pixel) + 0.5) / vec2(push.target_size));
-    BloomBuffer(push.target).v[index] = pack_half3(mix(coarser, own, own_share));
+    store_element(push.target, index, pack_light3(mix(coarser, own, own_share)));
 }
 
 VKPT_RUN_OVER(push.target_size, grow_pixel)

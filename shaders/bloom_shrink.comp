@@ -21,7 +21,7 @@ vec3 shrink_picture(uvec2 pixel)
         sum += radiance * weight;
         weights += weight;
     }
-    return min(sum / weights, 60000.0); // half floats end soon after
+    return min(sum / weights, 60000.0); // 16 bits end soon after
 }
 
 // 4 x 4 pixels by the weights 1 3 3 1.
@@ -38,7 +38,7 @@ vec3 shrink_level(uvec2 pixel)
 
 void shrink_pixel(uvec2 pixel, uint index)
 {
-    BloomBuffer(push.target).v[index] = pack_half3(push.source == 0ul ? shrink_picture(pixel) : shrink_level(pixel));
+    store_element(push.target, index, pack_light3(push.source == 0ul ? shrink_picture(pixel) : shrink_level(pixel)));
 }
 
 VKPT_RUN_OVER(push.target_size, shrink_pixel)

@@ -7,11 +7,9 @@
 #include "lib/denoise.glsl"
 
 layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer GradientBuffer { vec4 v[]; };
 
 void filter_stratum(uvec2 stratum, uint number)
 {
-    GradientBuffer source = GradientBuffer(push.source);
     uvec2 pixel = stratum_pixel(stratum), count = stratum_count();
     uint index = pixel.y * frame.size.x + pixel.x;
     uvec2 guide = load_guide(index);
@@ -26,10 +24,10 @@ void filter_stratum(uvec2 stratum, uint number)
         float other = guide_depth(load_guide(other_pixel.y * frame.size.x + other_pixel.x));
         vec2 pixels = vec2(other_pixel) - vec2(pixel);
         if (plane_distance(guide_depth(guide), slope, pixels, other) < plane_tolerance(slope, pixels))
-            sum += source.v[uint(place.y) * count.x + uint(place.x)] * (way.x == 0 || way.y == 0 ? 0.125 : 0.0625)
+            sum += load_element(push.source, uint(place.y) * count.x + uint(place.x), vec4(0.0)) * (way.x == 0 || way.y == 0 ? 0.125 : 0.0625)
                 * (tap == 4u ? 2.0 : 1.0);
     }
-    GradientBuffer(push.target).v[number] = sum;
+    store_element(push.target, number, sum);
 }
 
 VKPT_RUN_OVER_STRATA(filter_stratum)

@@ -20,44 +20,54 @@ struct History {
     Moments moments; // frames 0: nothing is known
 };
 
-// The four pixels of the last view around where the surface was then, as far as they show the same surface.
-// `shown`: where the surface itself was, `at`: where to look for what it showed.
-History find_history(uint index, vec3 shown, vec2 at)
+// What finds a pixel's history: the pixel's guide and slope, and where the surface was in the last view, with its depth there.
+struct Search {
+    vec3 normal;    // over 127^2, for tap's normals times 127
+    float material; // times 127
+    vec2 slope;
+    vec3 shown;
+};
+
+void add_history(inout History sum, inout float total, Search search, ivec2 place, float share)
+{
+    bool inside = all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, ivec2(frame.previous_size)));
+    uint there = inside ? uint(place.y) * frame.previous_size.x + uint(place.x) : 0u;
+    uvec2 old = load_previous_guide(there);
+    vec2 pixels = (vec2(place) + frame.offset_change - search.shown.xy) / frame.previous_scale;
+    float distance = plane_distance(search.shown.z, search.slope, pixels, guide_depth(old));
+    vec4 kind = guide_bytes(old.x);
+    bool same = inside && distance <= plane_tolerance(search.slope, vec2(1.0))
+        && dot(search.normal, kind.xyz) >= least_normal_cosine
+        && abs(search.material - kind.w) <= 127.0 * most_material_difference && share >= 1e-3;
+    if (!same)
+        return;
+    FilteredLight light = unpack_filtered(load_previous_filtered(there));
+    Moments moments = unpack_moments(load_previous_moments(there));
+    sum.light.diffuse += light.diffuse * share;
+    sum.light.specular += light.specular * share;
+    sum.moments.diffuse += vec2(moments.diffuse.x, moments.diffuse.y * moments.diffuse.y) * share;
+    sum.moments.specular += vec2(moments.specular.x, moments.specular.y * moments.specular.y) * share;
+    sum.moments.frames += moments.frames * share;
+    sum.moments.reflected_distance += moments.reflected_distance * share;
+    total += share;
+}
+
+// The four pixels of the last view around where the surface was then, as far as they show the same surface. `at`: where to look
+// for what the surface showed.
+History find_history(Search search, vec2 at)
 {
     History none = History(
-        FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0), 0.0));
+        FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0), 0.0, 0.0));
     if ((frame.flags & FRAME_HISTORY) == 0u)
         return none;
-    uvec2 guide = load_guide(index);
-    vec4 kind = unpackSnorm4x8(guide.x); // normal, material
-    vec2 slope = unpackHalf2x16(load_slope(index));
+    at = clamp(at, vec2(-2.0), vec2(frame.previous_size) + 2.0);
     vec2 corner = floor(at), part = at - corner;
+    ivec2 first = whole_to_int(corner);
     History sum = none;
     float total = 0.0;
-    [[dont_unroll]] for (uint tap = 0u; tap < 4u; tap++) {
-        vec2 offset = vec2(tap & 1u, tap >> 1u), place = corner + offset;
-        if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
-            continue;
-        uint there = uint(place.y) * frame.previous_size.x + uint(place.x);
-        uvec2 old = load_previous_guide(there);
-        vec2 pixels = (place + frame.offset_change - shown.xy) / frame.previous_scale;
-        float distance = plane_distance(shown.z, slope, pixels, guide_depth(old));
-        vec2 shares = mix(1.0 - part, part, offset);
-        float weight = shares.x * shares.y;
-        vec4 old_kind = unpackSnorm4x8(old.x);
-        if (distance > plane_tolerance(slope, vec2(1.0)) || dot(kind.xyz, old_kind.xyz) < least_normal_cosine
-            || abs(kind.w - old_kind.w) > most_material_difference || weight < 1e-3)
-            continue;
-        FilteredLight light = unpack_filtered(load_previous_filtered(there));
-        Moments moments = unpack_moments(load_previous_moments(there));
-        sum.light.diffuse += light.diffuse * weight;
-        sum.light.specular += light.specular * weight;
-        sum.moments.diffuse += vec2(moments.diffuse.x, moments.diffuse.y * moments.diffuse.y) * weight;
-        sum.moments.specular += vec2(moments.specular.x, moments.specular.y * moments.specular.y) * weight;
-        sum.moments.frames += moments.frames * weight;
-        sum.moments.reflected_distance += moments.reflected_distance * weight;
-        total += weight;
-    }
+    [[unroll]] for (int y = 0; y < 2; y++)
+        [[unroll]] for (int x = 0; x < 2; x++)
+            add_history(sum, total, search, first + ivec2(x, y), (x == 0 ? 1.0 - part.x : part.x) * (y == 0 ? 1.0 - part.y : part.y));
     if (total < 0.01)
         return none;
     float scale = 1.0 / total;
@@ -151,7 +161,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth < 0.0) {
         store_light(index, uvec4(0u));
-        store_moments(index, uvec3(0u));
+        store_moments(index, uvec4(0u));
         return;
     }
     vec3 diffuse = load_diffuse_light(index), specular = load_specular_light(index) / specular_tint(primary.surface);
@@ -159,11 +169,12 @@ void accumulate_pixel(uvec2 pixel, uint index)
         count_broken_pixel();
         diffuse = specular = vec3(0.0); // or it would stay in the history
     }
-    vec3 shown = load_motion(index);
-    History history = find_history(index, shown, shown.xy);
+    vec4 kind = guide_bytes(load_guide(index).x);
+    Search search = Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, unpackHalf2x16(load_slope(index)), load_motion(index));
+    History history = find_history(search, search.shown.xy);
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
     if (primary.surface.roughness < glossy_roughness && reflected_distance > 0.0) {
-        History glossy = find_history(index, shown, place_of_reflection(pixel, primary.depth + reflected_distance));
+        History glossy = find_history(search, place_of_reflection(pixel, primary.depth + reflected_distance));
         history.light.specular = glossy.light.specular;
         history.moments.specular = glossy.moments.specular;
         history.moments.frames.y = glossy.moments.frames.y;
@@ -186,8 +197,8 @@ void accumulate_pixel(uvec2 pixel, uint index)
     light.specular_deviation = average_deviation(specular_moments, frames.y);
     store_light(index, pack_filtered(light));
     store_moments(index, pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),
-        vec2(specular_moments.x, sqrt(specular_moments.y)), frames, reflected_distance)));
-    store_specular_reach(index, specular_reach(primary, reflected_distance));
+        vec2(specular_moments.x, sqrt(specular_moments.y)), frames, reflected_distance,
+        specular_reach(primary, reflected_distance))));
 }
 
 VKPT_RUN_OVER_PIXELS(accumulate_pixel)

@@ -202,7 +202,7 @@ void see_pixel(uvec2 pixel, uint index)
     if ((frame.flags & FRAME_REPLAYED) != 0u)
         store_random_seed(index, uvec2(pixel.x | (pixel.y << 16u), frame.frame_index));
     store_emitted(index, path.emitted);
-    store_throughput(index, pack_half3(path.throughput));
+    store_throughput(index, pack_light3(path.throughput));
     if (!path.reached_surface) {
         store_position(index, vec4(path.ray.direction, path.unlit_depth));
         return;

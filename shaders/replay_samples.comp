@@ -17,7 +17,8 @@ uint find_sample(uint index, PrimarySurface primary)
     vec2 place = floor(load_motion(index).xy + 0.5);
     if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
         return none;
-    uint there = uint(place.y) * frame.previous_size.x + uint(place.x);
+    uvec2 old_pixel = uvec2(whole_to_int(place));
+    uint there = old_pixel.y * frame.previous_size.x + old_pixel.x;
     vec4 old = load_previous_position(there);
     float pixel_width = primary.depth * 2.0 * length(frame.camera.right) / float(frame.size.x);
     float cosine = max(dot(primary.surface.geometric_normal, primary.surface.view), 0.05);

@@ -23,33 +23,40 @@ const float sample_fall = 2.3;
 vec3 compress(vec3 radiance, float scale) { return radiance * (scale / (1.0 + scale * luminance(radiance))); }
 vec3 expand(vec3 colour, float scale) { return colour / (scale * max(1.0 - luminance(colour), 1e-4)); }
 
-vec4 catmull_rom(float t)
+void catmull_rom(float t, out float weights[4])
 {
     float t2 = t * t, t3 = t2 * t;
-    return vec4(-0.5 * t3 + t2 - 0.5 * t, 1.5 * t3 - 2.5 * t2 + 1.0, -1.5 * t3 + 2.0 * t2 + 0.5 * t, 0.5 * t3 - 0.5 * t2);
+    weights = float[](-0.5 * t3 + t2 - 0.5 * t, 1.5 * t3 - 2.5 * t2 + 1.0, -1.5 * t3 + 2.0 * t2 + 0.5 * t, 0.5 * t3 - 0.5 * t2);
 }
 
-uvec2 load_old(vec2 pixel) { return load_previous_resolved(uint(pixel.y) * frame.resolved_size.x + uint(pixel.x)); }
-vec3 old_colour(vec2 pixel, float scale) { return compress(unpack_half3(load_old(pixel)), scale); }
+uvec2 load_old(ivec2 pixel)
+{
+    uvec2 at = uvec2(clamp(pixel, ivec2(0), ivec2(frame.resolved_size) - 1));
+    return load_previous_resolved(at.y * frame.resolved_size.x + at.x);
+}
+vec3 old_colour(ivec2 pixel, float scale) { return compress(unpack_light3(load_old(pixel)), scale); }
 
-// At a place whose whole numbers are pixels: bicubic, so that a moving picture does not blur.
+// At a place whose whole numbers are pixels: bicubic, so that a moving picture does not blur, but for the four corners, which
+// count for less than 0.5 % each.
 vec3 sample_history(vec2 place, float scale)
 {
-    vec2 corner = floor(place), part = place - corner, last = vec2(frame.resolved_size - 1u);
+    vec2 corner = floor(place), part = place - corner;
+    ivec2 first = whole_to_int(corner);
     vec3 sum = vec3(0.0);
     if (all(lessThan(abs(part - 0.5), vec2(0.49)))) {
-        vec4 wx = catmull_rom(part.x), wy = catmull_rom(part.y);
-        [[dont_unroll]] for (uint tap = 0u; tap < 16u; tap++) {
-            vec2 at = clamp(corner + vec2(tap & 3u, tap >> 2u) - 1.0, vec2(0.0), last);
-            sum += old_colour(at, scale) * (wx[tap & 3u] * wy[tap >> 2u]);
-        }
+        float across[4], down[4];
+        catmull_rom(part.x, across);
+        catmull_rom(part.y, down);
+        [[unroll]] for (int y = 0; y < 4; y++)
+            [[unroll]] for (int x = 0; x < 4; x++)
+                if (x == 1 || x == 2 || y == 1 || y == 2)
+                    sum += old_colour(first + ivec2(x, y) - 1, scale) * (across[x] * down[y]);
+        sum /= 1.0 - (across[0] + across[3]) * (down[0] + down[3]);
         return max(sum, vec3(0.0));
     }
-    [[dont_unroll]] for (uint tap = 0u; tap < 4u; tap++) {
-        vec2 offset = vec2(tap & 1u, tap >> 1u), shares = mix(1.0 - part, part, offset);
-        sum += old_colour(clamp(corner + offset, vec2(0.0), last), scale) * (shares.x * shares.y);
-    }
-    return sum;
+    vec3 upper = mix(old_colour(first, scale), old_colour(first + ivec2(1, 0), scale), part.x);
+    vec3 lower = mix(old_colour(first + ivec2(0, 1), scale), old_colour(first + ivec2(1, 1), scale), part.x);
+    return mix(upper, lower, part.y);
 }
 
 struct Neighbourhood {
@@ -59,18 +66,21 @@ struct Neighbourhood {
     vec3 deviation;
 };
 
-// `middle`: of the result's pixel, in rendered pixels.
-Neighbourhood look_around(vec2 middle, float scale)
+// `middle`: of the result's pixel, in rendered pixels; `rendered`: the one it lies in.
+Neighbourhood look_around(ivec2 rendered, vec2 middle, float scale)
 {
     bool same_size = frame.size == frame.resolved_size;
     vec2 enlargement = vec2(frame.resolved_size) / vec2(frame.size);
     vec3 mean = vec3(0.0), square = vec3(0.0), here = vec3(0.0);
     float weights = 0.0, nearest = 0.0;
-    [[dont_unroll]] for (uint tap = 0u; tap < 9u; tap++) {
-        ivec2 at = clamp(ivec2(middle) + ivec2(tap % 3u, tap / 3u) - 1, ivec2(0), ivec2(frame.size) - 1);
-        vec3 colour = compress(load_radiance(uint(at.y) * frame.size.x + uint(at.x)), scale);
-        vec2 off = (vec2(at) + frame.pixel_offset - middle) * enlargement;
-        float weight = same_size ? (tap == 4u ? 1.0 : 0.0) : exp(-sample_fall * dot(off, off));
+    [[unroll]] for (int tap = 0; tap < 9; tap++) {
+        ivec2 at = clamp(rendered + ivec2(tap % 3, tap / 3) - 1, ivec2(0), ivec2(frame.size) - 1);
+        vec3 colour = compress(unpack_light3(load_composed(uint(at.y) * frame.size.x + uint(at.x))), scale);
+        float weight = tap == 4 ? 1.0 : 0.0;
+        if (!same_size) {
+            vec2 off = (vec2(at) + frame.pixel_offset - middle) * enlargement;
+            weight = exp(-sample_fall * dot(off, off));
+        }
         here += colour * weight;
         weights += weight;
         nearest = max(nearest, weight);
@@ -86,8 +96,8 @@ void resolve_pixel(uvec2 pixel, uint index)
     ExposureBuffer exposure = ExposureBuffer(frame.exposure);
     float scale = exposure.v.valid != 0u ? exposure.v.exposure : 1.0; // of the last view
     vec2 middle = (vec2(pixel) + 0.5) * vec2(frame.size) / vec2(frame.resolved_size);
-    Neighbourhood now = look_around(middle, scale);
-    uvec2 rendered = min(uvec2(middle), frame.size - 1u);
+    uvec2 rendered = min(uvec2(whole_to_int(floor(middle))), frame.size - 1u);
+    Neighbourhood now = look_around(ivec2(rendered), middle, scale);
     vec2 place = load_motion(rendered.y * frame.size.x + rendered.x).xy;
     vec2 way = (place + 0.5) / vec2(frame.previous_size) - (vec2(rendered) + 0.5) / vec2(frame.size);
     place = vec2(pixel) + way * vec2(frame.resolved_size);
@@ -97,12 +107,12 @@ void resolve_pixel(uvec2 pixel, uint index)
     if ((frame.flags & FRAME_HISTORY) != 0u && on_screen) {
         vec3 reach = now.deviation * most_deviations;
         vec3 old = clamp(sample_history(place, scale), now.mean - reach, now.mean + reach);
-        frames += unpackHalf2x16(load_old(floor(place + 0.5)).y).y;
+        frames += unpack_light2(load_old(whole_to_int(floor(place + 0.5))).y).y;
         result = mix(old, now.here, now.certainty / max(frames, 1e-3));
         frames = min(frames, most_frames - 1.0);
     }
-    vec3 radiance = min(expand(result, scale), 60000.0); // half floats end soon after
-    store_resolved(index, pack_half3(radiance) | uvec2(0u, packHalf2x16(vec2(0.0, frames))));
+    vec3 radiance = min(expand(result, scale), 60000.0); // 16 bits end soon after
+    store_resolved(index, uvec2(pack_light2(radiance.xy), pack_light2(vec2(radiance.z, frames))));
     store_accumulated(index, radiance);
 }
 

@@ -12,8 +12,6 @@
 layout(set = 0, binding = 1, rgba8) uniform writeonly image2D picture;
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
-layout(local_size_x = PIXEL_GROUP_SIZE) in;
-
 // A shoulder and a toe around a straight middle, rational in x: a (x (x + toe)) / (x (x shoulder + slope) + lift), scaled so
 // that `white` maps to 1.
 vec3 filmic_curve(vec3 x)
@@ -33,11 +31,12 @@ vec3 sample_radiance(vec2 place)
 {
     uvec2 size = frame.resolved_size;
     vec2 at = clamp(place * vec2(size) - 0.5, vec2(0.0), vec2(size - 1u)), part = fract(at);
-    uint first = uint(at.y) * size.x + uint(at.x);
     if (all(lessThan(abs(fract(at + 0.5) - 0.5), vec2(1e-3)))) {
-        uvec2 pixel = uvec2(at + 0.5);
+        uvec2 pixel = uvec2(whole_to_int(floor(at + 0.5)));
         return load_accumulated(pixel.y * size.x + pixel.x);
     }
+    uvec2 corner = uvec2(whole_to_int(floor(at)));
+    uint first = corner.y * size.x + corner.x;
     uint right = at.x < float(size.x - 1u) ? 1u : 0u, down = at.y < float(size.y - 1u) ? size.x : 0u;
     return mix(mix(load_accumulated(first), load_accumulated(first + right), part.x),
         mix(load_accumulated(first + down), load_accumulated(first + down + right), part.x), part.y);
@@ -70,23 +69,22 @@ vec3 shown_colour(uvec2 pixel)
     vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve(exposed) : clamp(exposed, 0.0, 1.0);
     vec3 colour = mix(encode_srgb(display), frame.blend.rgb, frame.blend.a);
     // The players' gamma was made for unlit darkness: 1.2, its default, changes nothing here.
-    colour = pow(colour, vec3(1.2 / max(frame.gamma, 0.1)));
+    float gamma = 1.2 / max(frame.gamma, 0.1);
+    if (abs(gamma - 1.0) > 1e-3)
+        colour = pow(colour, vec3(gamma));
     float dither = blue_dimension(BlueNoiseBuffer(frame.blue_noise), pixel, frame.frame_index, 0u, 0u) - 0.5;
     return colour + dither / 255.0;
 }
 
-void main()
+void show_pixel(uvec2 pixel, uint index)
 {
-    uint tiles_across = (frame.output_size.x + 7u) / 8u, tile_count = tiles_across * ((frame.output_size.y + 7u) / 8u);
-    for (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {
-        uint tile = gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP + i;
-        uvec2 pixel = uvec2(tile % tiles_across, tile / tiles_across) * 8u + pixel_in_tile(gl_LocalInvocationIndex);
-        if (tile >= tile_count || any(greaterThanEqual(pixel, frame.output_size)))
-            continue;
+    // Views without a world stand before what 2D has drawn.
+    if ((frame.flags & FRAME_NO_WORLD) != 0u) {
         uvec2 rendered = min(pixel * frame.size / frame.output_size, frame.size - 1u);
-        // Views without a world stand before what 2D has drawn.
-        if ((frame.flags & FRAME_NO_WORLD) != 0u && load_position(rendered.y * frame.size.x + rendered.x).w == DEPTH_NOTHING)
-            continue;
-        imageStore(picture, ivec2(frame.output_origin + pixel), vec4(shown_colour(pixel), 1.0));
+        if (load_position(rendered.y * frame.size.x + rendered.x).w == DEPTH_NOTHING)
+            return;
     }
+    imageStore(picture, ivec2(frame.output_origin + pixel), vec4(shown_colour(pixel), 1.0));
 }
+
+VKPT_RUN_OVER(frame.output_size, show_pixel)

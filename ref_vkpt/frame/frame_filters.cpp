@@ -10,8 +10,8 @@ namespace vkpt {
 
 namespace {
 
-// Levels of the spatial filter: taps 1, 2, 4 ... pixels apart.
-constexpr uint32_t filter_levels = 5;
+// To the first tap of each further level of the spatial filter: pixels.
+const glm::ivec2 spread_ways[] = { { 2, 1 }, { -1, 5 }, { 8, 6 }, { -12, 16 } };
 // Of the gradient's; odd, so that the result lies in gradient_b.
 constexpr uint32_t gradient_levels = 3;
 
@@ -159,11 +159,13 @@ bool Frame::wants_bloom(const shared::FrameUniforms& uniforms)
 void Frame::record_spatial_filter(uint32_t groups)
 {
     const shared::ScreenBuffers& screen = graphics_.screen.addresses();
-    uint64_t source = screen.filter_a, target = screen.filtered;
-    for (uint32_t level = 0; level < filter_levels; level++) {
-        record_level("denoise_filter", shared::FilterPush { source, target, 1u << level, level }, groups);
+    record_level("denoise_filter", shared::FilterPush { screen.filter_a, screen.filtered, 1, 0 }, groups);
+    static_assert(std::size(spread_ways) % 2 == 0);
+    uint64_t source = screen.filtered, target = screen.filter_a;
+    for (const glm::ivec2 way : spread_ways) {
+        record_level("denoise_spread", shared::SpreadPush { source, target, way }, groups);
         source = target;
-        target = (filter_levels - level) % 2 == 0 ? screen.filter_b : screen.filter_a;
+        target = target == screen.filter_a ? screen.filter_b : screen.filter_a;
     }
 }
 

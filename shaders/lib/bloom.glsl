@@ -7,19 +7,17 @@
 #include "frame.glsl"
 #include "packing.glsl"
 
-layout(buffer_reference, scalar, buffer_reference_align = 8) buffer BloomBuffer { uvec2 v[]; };
-
 vec3 load_bloom_level(uint64_t level, uvec2 size, ivec2 pixel)
 {
     uvec2 at = uvec2(clamp(pixel, ivec2(0), ivec2(size) - 1));
-    return unpack_half3(BloomBuffer(level).v[at.y * size.x + at.x]);
+    return unpack_light3(load_element(level, at.y * size.x + at.x, uvec2(0u)));
 }
 
 // Bilinear; `place`: (0, 0) to (1, 1) over the level.
 vec3 sample_bloom_level(uint64_t level, uvec2 size, vec2 place)
 {
     vec2 at = place * vec2(size) - 0.5, corner = floor(at), part = at - corner;
-    ivec2 first = ivec2(corner);
+    ivec2 first = whole_to_int(corner);
     return mix(mix(load_bloom_level(level, size, first), load_bloom_level(level, size, first + ivec2(1, 0)), part.x),
         mix(load_bloom_level(level, size, first + ivec2(0, 1)), load_bloom_level(level, size, first + ivec2(1)), part.x), part.y);
 }

@@ -15,26 +15,22 @@ struct FilteredLight {
     float specular_deviation;
 };
 
-const float greatest_half = 60000.0;
-
 uvec4 pack_filtered(FilteredLight light)
 {
-    vec4 d = min(vec4(light.diffuse, light.diffuse_deviation), greatest_half);
-    vec4 s = min(vec4(light.specular, light.specular_deviation), greatest_half);
-    return uvec4(packHalf2x16(d.xy), packHalf2x16(d.zw), packHalf2x16(s.xy), packHalf2x16(s.zw));
+    return uvec4(pack_light2(light.diffuse.xy), pack_light2(vec2(light.diffuse.z, light.diffuse_deviation)),
+        pack_light2(light.specular.xy), pack_light2(vec2(light.specular.z, light.specular_deviation)));
 }
 
 FilteredLight unpack_filtered(uvec4 bits)
 {
-    vec2 d = unpackHalf2x16(bits.y), s = unpackHalf2x16(bits.w);
-    return FilteredLight(vec3(unpackHalf2x16(bits.x), d.x), d.y, vec3(unpackHalf2x16(bits.z), s.x), s.y);
+    vec2 d = unpack_light2(bits.y), s = unpack_light2(bits.w);
+    return FilteredLight(vec3(unpack_light2(bits.x), d.x), d.y, vec3(unpack_light2(bits.z), s.x), s.y);
 }
 
-// A deviation that tells the first level of the spatial filter: too few frames, measure it among the neighbours.
-const float deviation_unknown = -1.0;
-
-// By the sign bit: a comparison of what was a half float a moment ago makes CPU drivers compare half floats, lane by lane.
-bool is_known(float deviation) { return floatBitsToInt(deviation) >= 0; }
+// A deviation that tells the first level of the spatial filter: too few frames, measure it among the neighbours. So great that
+// any difference of luminances is small beside it.
+const float deviation_unknown = 60000.0;
+bool is_known(float deviation) { return deviation < 0.9 * deviation_unknown; }
 
 // Colour that the specular light of this surface carries.
 vec3 specular_tint(Surface s) { return mix(vec3(1.0), max(s.albedo, 0.05), s.metallic); }
@@ -76,22 +72,23 @@ struct Moments {
     vec2 specular;
     vec2 frames; // how many the light's average is worth: diffuse, specular
     float reflected_distance; // average, to what the specular lobe shows; 0: unknown
+    float specular_reach; // pixels that the specular filter may reach
 };
 
 // Frames are kept in 8 bits each: up to 36 of them, in sevenths.
 const float frame_parts = 7.0;
 
-uvec3 pack_moments(Moments m)
+uvec4 pack_moments(Moments m)
 {
-    uvec2 frames = min(uvec2(m.frames * frame_parts + 0.5), 255u);
-    return uvec3(packHalf2x16(min(m.diffuse, greatest_half)), packHalf2x16(min(m.specular, greatest_half)),
-        packHalf2x16(vec2(min(m.reflected_distance, greatest_half), 0.0)) | (frames.x << 16u) | (frames.y << 24u));
+    ivec2 frames = min(whole_to_int(floor(m.frames * frame_parts + 0.5)), 255);
+    return uvec4(pack_light2(m.diffuse), pack_light2(m.specular),
+        light16_bits(m.reflected_distance) | (uint(frames.x) << 16u) | (uint(frames.y) << 24u), floatBitsToUint(m.specular_reach));
 }
 
-Moments unpack_moments(uvec3 bits)
+Moments unpack_moments(uvec4 bits)
 {
-    return Moments(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y), vec2((bits.z >> 16u) & 255u, bits.z >> 24u) / frame_parts,
-        unpackHalf2x16(bits.z & 0xffffu).x);
+    return Moments(unpack_light2(bits.x), unpack_light2(bits.y), vec2((bits.z >> 16u) & 255u, bits.z >> 24u) * (1.0 / frame_parts),
+        unpack_light2(bits.z).x, uintBitsToFloat(bits.w));
 }
 
 #endif

@@ -51,6 +51,10 @@ void store_element(uint64_t address, uint index, vec2 value) { store_element(add
 vec4 load_element(uint64_t address, uint index, vec4 unused) { return uintBitsToFloat(load_element(address, index, uvec4(0u))); }
 void store_element(uint64_t address, uint index, vec4 value) { store_element(address, index, floatBitsToUint(value)); }
 
+// Whole numbers from -2^22 to 2^22. CPU drivers convert floats to integers lane by lane, because of what lies beyond the range.
+int whole_to_int(float whole) { return floatBitsToInt(whole + 12582912.0) - 0x4b400000; }
+ivec2 whole_to_int(vec2 whole) { return floatBitsToInt(whole + 12582912.0) - 0x4b400000; }
+
 // load_NAME(pixel index) and store_NAME(pixel index, value) for every screen buffer
 #define VKPT_SCREEN_BUFFER(type, name)                                                                                 \
     type load_##name(uint pixel) { return load_element(frame.screen.name, pixel, type(0)); }                           \
@@ -79,6 +83,14 @@ uvec2 pixel_in_tile(uint lane)
 
 #else
 
+// Where tile `tile` of rows of `across` stands. By floats, which are exact enough below a million tiles: CPU drivers divide
+// integers lane by lane.
+uvec2 place_of_tile(uint tile, uint across)
+{
+    uint row = uint(whole_to_int(floor((float(tile) + 0.5) / float(across))));
+    return uvec2(tile - row * across, row);
+}
+
 // Workgroups walk several tiles because starting one costs the CPU driver as much as a cheap pixel pass.
 #define VKPT_RUN_OVER(size_, run)                                                                                      \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
@@ -87,7 +99,7 @@ uvec2 pixel_in_tile(uint lane)
         uvec2 size = size_, tiles = (size + 7u) / 8u;                                                                  \
         [[dont_unroll]] for (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {                                            \
             uint tile = gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP + i;                                                  \
-            uvec2 pixel = uvec2(tile % tiles.x, tile / tiles.x) * 8u + pixel_in_tile(gl_LocalInvocationIndex);         \
+            uvec2 pixel = place_of_tile(tile, tiles.x) * 8u + pixel_in_tile(gl_LocalInvocationIndex);                 \
             if (tile < tiles.x * tiles.y && all(lessThan(pixel, size)))                                                \
                 run(pixel, pixel.y * size.x + pixel.x);                                                                \
         }                                                                                                              \

@@ -34,6 +34,12 @@ uvec2 pack_guide(vec3 normal, float material, float depth)
 {
     return uvec2(packSnorm4x8(vec4(normal, material)), floatBitsToUint(depth));
 }
+// Normal and material, times 127: unpackSnorm4x8 divides.
+vec4 guide_bytes(uint bits)
+{
+    ivec4 bytes = ivec4(uvec4(bits) << uvec4(24u, 16u, 8u, 0u)) >> 24;
+    return vec4(bytes);
+}
 vec3 guide_normal(uvec2 guide) { return unpackSnorm4x8(guide.x).xyz; }
 float guide_material(uvec2 guide) { return unpackSnorm4x8(guide.x).w; }
 float guide_depth(uvec2 guide) { return uintBitsToFloat(guide.y); }

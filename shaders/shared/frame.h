@@ -65,7 +65,7 @@ VKPT_CONST uint BLOOM_FIRST_STEP = 4u; // the pyramid's first level has a pixel 
 
 // One level of the bloom's pyramid, which is made smaller from, or added to, another (push constants).
 struct BloomPush {
-    uint64_t source; // uvec2: half floats rgb; 0: the picture's radiance
+    uint64_t source; // uvec2: rgb, 16 bits each; 0: the picture's radiance
     uint64_t target;
     uvec2 source_size;
     uvec2 target_size;
@@ -77,6 +77,13 @@ struct FilterPush {
     uint64_t target;
     uint step;       // pixels between taps
     uint level;      // from 0
+};
+
+// What denoise_spread.comp is told (push constants).
+struct SpreadPush {
+    uint64_t source; // of the type of the buffer `filtered`
+    uint64_t target;
+    ivec2 way;       // pixels to the first tap
 };
 
 // What inspect_pixel.comp is told (push constants).

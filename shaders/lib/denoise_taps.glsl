@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the spatial filter's passes share: a tap of the edge-avoiding a-trous filter (Dammertz et al. 2010), both lobes at once. Taps
+// count by how well they lie on the pixel's plane, by their normal, and by how far their luminance is off in deviations.
+// Written for CPU drivers, too: no branch, loop or division per tap but one.
+#ifndef VKPT_LIB_DENOISE_TAPS
+#define VKPT_LIB_DENOISE_TAPS
+
+#include "denoise.glsl"
+
+// Luminance differences of this many deviations count for 1 / e.
+const float deviations = 1.5;
+// Relative to the luminance: what is below cannot be seen, and half floats end there.
+const float least_deviation = 2e-3;
+// (1 + luminance_fall)^2 = e
+const float luminance_fall = 0.6487;
+
+// Normals farther apart do not mix; nearer ones count for this cosine's 32nd power.
+const float least_cosine = 0.8;
+// Metals and other materials, which have no diffuse light or specular light of another colour, do not mix.
+const float most_material_difference = 0.9;
+// Specular light does not mix where roughness differs by twice the inverse of this.
+const float roughness_stop = 16.0;
+
+// Sums over the taps.
+struct Sums {
+    vec3 light;
+    float weight;
+    float variance; // of the sum
+    float square;   // of the luminances
+};
+
+void add_tap(inout Sums sums, vec3 light, float l, float deviation, float weight)
+{
+    float known = is_known(deviation) ? deviation * weight : 0.0, weighted = l * weight;
+    sums.light += light * weight;
+    sums.weight += weight;
+    sums.variance += known * known;
+    sums.square += l * weighted;
+}
+
+// Square of the difference of luminances that counts little less than none. Deviations of pixel and tap count: were it the
+// pixel's own alone, the few bright samples of a rare path would be turned away by their neighbours, whose history has not met
+// such a path yet, and their light would be lost.
+float allowed_square(float deviation) { return deviations * deviations * deviation * deviation; }
+
+float least_square(float l)
+{
+    float least = least_deviation * l + 1e-6;
+    return least * least;
+}
+
+// The pixel that is filtered.
+struct Pixel {
+    vec3 normal;    // of guide_bytes, over 127^2
+    float material; // of guide_bytes
+    float depth;
+    vec2 slope;
+    float diffuse_luminance, specular_luminance;
+    float diffuse_allowed, specular_allowed;
+};
+
+Pixel make_pixel(uint index, uvec2 guide, FilteredLight light)
+{
+    Pixel pixel;
+    vec4 kind = guide_bytes(guide.x);
+    pixel.normal = kind.xyz * (1.0 / (127.0 * 127.0));
+    pixel.material = kind.w;
+    pixel.depth = guide_depth(guide);
+    pixel.slope = unpackHalf2x16(load_slope(index));
+    pixel.diffuse_luminance = luminance(light.diffuse);
+    pixel.specular_luminance = luminance(light.specular);
+    pixel.diffuse_allowed = allowed_square(light.diffuse_deviation) + least_square(pixel.diffuse_luminance);
+    pixel.specular_allowed = allowed_square(light.specular_deviation) + least_square(pixel.specular_luminance);
+    return pixel;
+}
+
+// What a specular tap counts for at a distance of `pixels` from a pixel whose lobe reaches so far.
+float specular_fall(float pixels, float reach)
+{
+    float share = pixels / reach;
+    return exp(-share * share);
+}
+
+// The tap at `there`, which is `way` (pixels) off and counts for `kernel` if all is alike, `fall` times of it for the specular lobe.
+void add_neighbour(inout Sums diffuse, inout Sums specular, Pixel pixel, uint64_t source, uint there, vec2 way, float kernel, float fall)
+{
+    uvec2 guide = load_guide(there);
+    FilteredLight light = unpack_filtered(load_element(source, there, uvec4(0u)));
+    // As plane_distance and plane_tolerance, without their division.
+    float depth = guide_depth(guide), foretold = depth * (1.0 + dot(pixel.slope, way));
+    float tolerance = depth * (0.008 + 0.25 * dot(abs(pixel.slope), abs(way)));
+    vec4 kind = guide_bytes(guide.x);
+    float cosine = dot(pixel.normal, kind.xyz), difference = abs(pixel.material - kind.w) * (1.0 / 127.0);
+    float cosine2 = cosine * cosine, cosine4 = cosine2 * cosine2, cosine8 = cosine4 * cosine4, cosine16 = cosine8 * cosine8;
+    bool same = abs(pixel.depth - foretold) < tolerance && cosine > least_cosine && difference < most_material_difference;
+    float weight = same ? kernel * cosine16 * cosine16 : 0.0;
+    float alike = 1.0 - roughness_stop * difference;
+
+    // For either lobe 1 / (1 + luminance_fall x^2)^2, with x the difference in what is allowed; a division for both.
+    float diffuse_luminance = luminance(light.diffuse), specular_luminance = luminance(light.specular);
+    vec2 off = vec2(diffuse_luminance - pixel.diffuse_luminance, specular_luminance - pixel.specular_luminance);
+    vec2 allowed = vec2(pixel.diffuse_allowed + allowed_square(light.diffuse_deviation),
+        pixel.specular_allowed + allowed_square(light.specular_deviation));
+    vec2 all = allowed + luminance_fall * off * off;
+    vec2 share = allowed * all.yx * (1.0 / (all.x * all.y));
+    share *= share * weight;
+    add_tap(diffuse, light.diffuse, diffuse_luminance, light.diffuse_deviation, share.x);
+    add_tap(specular, light.specular, specular_luminance, light.specular_deviation, alike > 0.0 ? share.y * fall * alike : 0.0);
+}
+
+#endif
