@@ -14,6 +14,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "../shared/frame.h"
+#include "whole_numbers.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 2) uniform sampler samplers[SAMPLER_COUNT];
@@ -87,7 +88,8 @@ uvec2 pixel_in_tile(uint lane)
         uvec2 size = size_, tiles = (size + 7u) / 8u;                                                                  \
         [[dont_unroll]] for (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {                                            \
             uint tile = gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP + i;                                                  \
-            uvec2 pixel = uvec2(tile % tiles.x, tile / tiles.x) * 8u + pixel_in_tile(gl_LocalInvocationIndex);         \
+            uint row = divide_whole(tile, tiles.x);                                                                    \
+            uvec2 pixel = uvec2(tile - row * tiles.x, row) * 8u + pixel_in_tile(gl_LocalInvocationIndex);              \
             if (tile < tiles.x * tiles.y && all(lessThan(pixel, size)))                                                \
                 run(pixel, pixel.y * size.x + pixel.x);                                                                \
         }                                                                                                              \
