@@ -2,6 +2,8 @@
 // The part of the frame that brings the scene to the device: triangles, trees, emitters, light lists.
 #include "ref_vkpt/frame/frame.hpp"
 
+#include "ref_vkpt/lights/emitters.hpp"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -16,6 +18,21 @@ struct NoWorld {
     std::vector<uint32_t> indices;
     std::vector<shared::BspTreeNode> tree;
 };
+
+// One for every emitter: the map's, then room for `moving_count` of the frame's, dark where there are fewer.
+VkDeviceAddress write_outlines(
+    FrameUploads& uploads, const std::vector<shared::Emitter>& fixed, const SceneSnapshot& scene, size_t moving_count)
+{
+    // One record even where there is none: its address must be one.
+    const size_t count = std::max<size_t>(fixed.size() + moving_count, 1);
+    const Upload upload = uploads.reserve(count * sizeof(shared::EmitterOutline));
+    auto* const begin = upload.as<shared::EmitterOutline>();
+    const auto outline_of = [&](const shared::Emitter& e) { return make_outline(e, scene.lightstyles[e.lightstyle]); };
+    auto* const moving = std::ranges::transform(fixed, begin, outline_of).out;
+    auto* const end = std::ranges::transform(scene.emitters, moving, outline_of).out;
+    std::fill(end, begin + count, shared::EmitterOutline {});
+    return upload.address;
+}
 
 NoWorld make_no_world(size_t emitter_count)
 {
@@ -70,6 +87,7 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     out.emitters = emitters.address;
     out.materials = uploads_.push(scene.materials);
     out.lightstyles = uploads_.push(scene.lightstyles);
+    out.emitter_outlines = write_outlines(uploads_, world ? world->emitters : no_emitters, scene, emitter_count);
     out.trace_stack = graphics_.screen.trace_stack();
     out.sky = scene.sky;
     MovingTarget target;

@@ -4,6 +4,7 @@
 #include "ref_vkpt/lights/cluster_finder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -204,6 +205,18 @@ shared::Emitter make_dynamic_light(glm::vec3 origin, glm::vec3 colour, float int
     emitter.radiance = glm::max(colour, glm::vec3(0)) * (radiant_intensity / (pi * radius * radius));
     emitter.reach = intensity;
     return emitter;
+}
+
+shared::EmitterOutline make_outline(const shared::Emitter& emitter, float lightstyle)
+{
+    // As luminance() of shaders/lib/bsdf.glsl.
+    const float luminance = glm::dot(emitter.radiance * lightstyle, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    shared::EmitterOutline outline { emitter.p0, emitter.p1, emitter.p2, std::abs(luminance) };
+    if (emitter.type == shared::EMITTER_SPHERE) {
+        outline.p1.y = emitter.reach;
+        outline.radiance = -outline.radiance;
+    }
+    return outline;
 }
 
 } // namespace vkpt

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Makes the tree that shaders/lib/trace_software.glsl walks.
 //
-// Node, 128 bytes: for each axis eight 16-bit low planes (16 bytes), then eight 16-bit high planes (16 bytes); at byte
-// 96 eight 32-bit child words (shaders/shared/trace.h). Planes are positions on one grid for the whole tree. A child
-// that is not there has inverted planes, and BVH_NO_CHILD in case a ray from very far away meets it all the same.
+// Node, 88 bytes: for each axis eight 8-bit low planes (8 bytes), then eight high planes (8 bytes); at byte 48 the frame
+// that they count in, its corner as three 16-bit positions on the tree's grid and the steps between planes (5 bits an
+// axis); at byte 56 eight 32-bit child words (shaders/shared/trace.h). A child that is not there has inverted planes,
+// and BVH_NO_CHILD in case a ray from very far away meets it all the same.
 // Triangle, 40 bytes, in leaf order: its three corners (floats), id | mask << 24.
 //
 // Why so: on two cores with AVX-512 through the Vulkan CPU driver, million rays a second per core for coherent camera

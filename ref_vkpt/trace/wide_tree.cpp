@@ -211,10 +211,42 @@ private:
 };
 
 struct NodeBytes {
-    uint16_t planes[3][2][BVH_WIDTH]; // by axis, then low and high
+    uint8_t planes[3][2][BVH_WIDTH]; // by axis, then low and high
+    uint16_t corner[3];
+    uint16_t steps;
     uint32_t words[BVH_WIDTH];
 };
+static_assert(offsetof(NodeBytes, corner) == BVH_FRAME_OFFSET && offsetof(NodeBytes, words) == BVH_CHILD_WORDS_OFFSET);
 static_assert(sizeof(NodeBytes) == BVH_NODE_BYTES);
+
+// Where a node's 8-bit planes lie on the grid.
+struct NodeFrame {
+    Float4 corner = splat(65535.0f);
+    Float4 step; // cells between planes
+    Int4 steps; // as nodes hold them, see BVH_STEP_BITS
+};
+
+// Boxes in cells, whole ones with the grid's margin, and the frame that holds them all.
+NodeFrame place_planes(const Grid& grid, const Box4* boxes, uint32_t count, Box4* planes)
+{
+    const Float4 origin = to_float4(grid.origin), scale = to_float4(grid.scale), last = splat(65533.0f);
+    NodeFrame frame;
+    Float4 end = splat(0.0f);
+    for (uint32_t slot = 0; slot < count; slot++) {
+        const Float4 low = higher((boxes[slot].low - origin) * scale, splat(1.0f));
+        const Float4 high = higher((boxes[slot].high - origin) * scale, splat(0.0f));
+        planes[slot].low = __builtin_convertvector(__builtin_convertvector(lower(low, last), Int4) - 1, Float4);
+        planes[slot].high = __builtin_convertvector(__builtin_convertvector(lower(high, last), Int4) + 2, Float4);
+        frame.corner = lower(planes[slot].low, frame.corner);
+        end = higher(planes[slot].high, end);
+    }
+    // The least step of those that nodes can hold, which are the floats with one bit of mantissa.
+    const Int4 one = std::bit_cast<Int4>(splat(1.0f)), between = Int4 {} + (1 << BVH_STEP_SHIFT);
+    const Int4 wanted = std::bit_cast<Int4>(higher((end - frame.corner) / splat(255.0f), splat(1.0f)));
+    frame.steps = (wanted - one + between - 1) >> BVH_STEP_SHIFT;
+    frame.step = std::bit_cast<Float4>((frame.steps << BVH_STEP_SHIFT) + one);
+    return frame;
+}
 
 } // namespace
 
@@ -245,20 +277,24 @@ void write_node(const Grid& grid, const Box4* boxes, const uint32_t* words, uint
     static constexpr NodeBytes empty = [] {
         NodeBytes bytes {};
         for (auto& axis : bytes.planes)
-            std::fill_n(axis[0], BVH_WIDTH, uint16_t(0xffff));
+            std::fill_n(axis[0], BVH_WIDTH, uint8_t(0xff));
         std::fill_n(bytes.words, BVH_WIDTH, BVH_NO_CHILD);
         return bytes;
     }();
-    const Float4 origin = to_float4(grid.origin), scale = to_float4(grid.scale), last = splat(65533.0f);
     NodeBytes bytes = empty;
+    Box4 planes[BVH_WIDTH];
+    const NodeFrame frame = place_planes(grid, boxes, child_count, planes);
+    for (int axis = 0; axis < 3; axis++)
+        bytes.corner[axis] = uint16_t(frame.corner[axis]);
+    bytes.steps = uint16_t(frame.steps[0] | frame.steps[1] << BVH_STEP_BITS | frame.steps[2] << (2 * BVH_STEP_BITS));
     for (uint32_t slot = 0; slot < child_count; slot++) {
-        const Float4 low = higher((boxes[slot].low - origin) * scale, splat(1.0f));
-        const Float4 high = higher((boxes[slot].high - origin) * scale, splat(0.0f));
-        const Int4 low_planes = __builtin_convertvector(lower(low, last), Int4) - 1;
-        const Int4 high_planes = __builtin_convertvector(lower(high, last), Int4) + 2;
+        const Float4 high = (planes[slot].high - frame.corner) / frame.step;
+        const Int4 low_planes = __builtin_convertvector((planes[slot].low - frame.corner) / frame.step, Int4);
+        Int4 high_planes = __builtin_convertvector(high, Int4);
+        high_planes -= __builtin_convertvector(high_planes, Float4) < high; // upwards: true is -1
         for (int axis = 0; axis < 3; axis++) {
-            bytes.planes[axis][0][slot] = uint16_t(low_planes[axis]);
-            bytes.planes[axis][1][slot] = uint16_t(high_planes[axis]);
+            bytes.planes[axis][0][slot] = uint8_t(low_planes[axis]);
+            bytes.planes[axis][1][slot] = uint8_t(high_planes[axis]);
         }
         bytes.words[slot] = words[slot];
     }

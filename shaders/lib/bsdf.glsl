@@ -101,16 +101,30 @@ vec3 specular_fresnel(Surface s, float power)
     return mix(vec3(dielectric_fresnel(s, power)), metal, s.metallic);
 }
 
+// The layer reflects less towards grazing angles than Fresnel's formula has it, the rougher it is.
+float layer_rise(Surface s)
+{
+    return 1.0f - 0.9f * s.roughness * s.roughness;
+}
+
+// The two factors of coupled_diffuse: what depends on the light's height, and all else.
+float coupled_diffuse_share(Surface s, float nl)
+{
+    return 1.0f - dielectric_fresnel(s, layer_rise(s) * schlick_power(nl));
+}
+
+float coupled_diffuse_base(Surface s, float nv)
+{
+    float mean = dielectric_fresnel(s, layer_rise(s) / 21.0f);
+    return (1.0f - s.metallic) * coupled_diffuse_share(s, nv) / ((1.0f - mean) * bsdf_pi);
+}
+
 // What passes the layer inwards, reflects, and passes it outwards, so that base and layer together never reflect more
 // than they receive: (1 - F(l)) (1 - F(v)) / (1 - mean F), 1 / pi without a layer. F is the share that the layer reflects
 // in all; towards grazing angles that rises less the rougher it is (the factor is fitted to the furnace).
 float coupled_diffuse(Surface s, float nl, float nv)
 {
-    float rise = 1.0f - 0.9f * s.roughness * s.roughness;
-    float mean = dielectric_fresnel(s, rise / 21.0f);
-    float passed = (1.0f - dielectric_fresnel(s, rise * schlick_power(nl)))
-        * (1.0f - dielectric_fresnel(s, rise * schlick_power(nv)));
-    return (1.0f - s.metallic) * passed / ((1.0f - mean) * bsdf_pi);
+    return coupled_diffuse_base(s, nv) * coupled_diffuse_share(s, nl);
 }
 
 vec3 half_vector(vec3 view, vec3 light, vec3 normal)

@@ -58,12 +58,27 @@ vec3 emitted_radiance(Emitter e, vec3 receiver)
     return e.radiance * reach_window(e, receiver);
 }
 
+// atan(y, x) for y > 0, relative error 2e-7 (polynomial: Abramowitz and Stegun 1964, 4.4.49). Drivers' own cost several times
+// as much and may be less exact.
+float angle_above_axis(float y, float x)
+{
+    float side = abs(x);
+    float tangent = min(y, side) / max(y, side);
+    float t2 = tangent * tangent;
+    float series = 0.0429096138f + t2 * (-0.0161657367f + t2 * 0.0028662257f);
+    series = -0.1420889944f + t2 * (0.1065626393f + t2 * (-0.0752896400f + t2 * series));
+    float angle = tangent + tangent * t2 * (-0.3333314528f + t2 * (0.1999355085f + t2 * series));
+    angle = y > side ? 0.5f * emitter_pi - angle : angle;
+    return x < 0.0f ? emitter_pi - angle : angle;
+}
+
 // A triangle as seen from a point.
 struct TriangleAspect {
     vec3 a, b, c;      // receiver to corners
     vec3 edges_cross;  // cross(p1 - p0, p2 - p0)
     float volume;      // six times the tetrahedron's; > 0: the receiver is in front
     float solid_angle; // 0 where volume <= 0
+    vec3 lengths;      // of a, b, c
 };
 
 TriangleAspect view_triangle(Emitter e, vec3 receiver)
@@ -75,13 +90,14 @@ TriangleAspect view_triangle(Emitter e, vec3 receiver)
     t.edges_cross = cross(e.p1 - e.p0, e.p2 - e.p0);
     t.volume = -dot(t.a, t.edges_cross);
     t.solid_angle = 0.0f;
+    float la = length(t.a);
+    float lb = length(t.b);
+    float lc = length(t.c);
+    t.lengths = vec3(la, lb, lc);
     if (t.volume > 0.0f) {
-        float la = length(t.a);
-        float lb = length(t.b);
-        float lc = length(t.c);
         // Van Oosterom and Strackee 1983. The volume from the edges keeps its precision at tiny angles.
         float denominator = la * lb * lc + dot(t.a, t.b) * lc + dot(t.b, t.c) * la + dot(t.c, t.a) * lb;
-        t.solid_angle = 2.0f * atan(t.volume, denominator);
+        t.solid_angle = 2.0f * angle_above_axis(t.volume, denominator);
     }
     return t;
 }
@@ -91,13 +107,11 @@ TriangleAspect view_triangle(Emitter e, vec3 receiver)
 // r = p a + q c; then tan(angle / 2) = q G0 / (p G2 + q G1) with the G below, which is linear in p and q.
 vec3 sample_spherical_triangle(TriangleAspect t, vec2 xi)
 {
-    float la = length(t.a);
-    float lb = length(t.b);
-    float lc = length(t.c);
-    vec3 a = t.a / la;
-    vec3 b = t.b / lb;
-    vec3 c = t.c / lc;
-    float g0 = t.volume / la / lb / lc;
+    vec3 inverse = vec3(1.0f) / t.lengths;
+    vec3 a = t.a * inverse.x;
+    vec3 b = t.b * inverse.y;
+    vec3 c = t.c * inverse.z;
+    float g0 = t.volume * inverse.x * inverse.y * inverse.z;
     float g1 = dot(a, c) + dot(b, c);
     float g2 = 1.0f + dot(a, b);
     float half_angle = 0.5f * t.solid_angle * xi.x;

@@ -14,6 +14,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "../shared/frame.h"
+#include "whole_numbers.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 2) uniform sampler samplers[SAMPLER_COUNT];
@@ -87,7 +88,7 @@ uvec2 pixel_in_tile(uint lane)
 // integers lane by lane.
 uvec2 place_of_tile(uint tile, uint across)
 {
-    uint row = uint(whole_to_int(floor((float(tile) + 0.5) / float(across))));
+    uint row = divide_whole(tile, across);
     return uvec2(tile - row * across, row);
 }
 

@@ -8,6 +8,7 @@
 #include "wide_loads.glsl"
 
 VKPT_BUFFER(EmitterBuffer, Emitter, 16);
+VKPT_BUFFER(EmitterOutlineBuffer, EmitterOutline, 8);
 VKPT_BUFFER(LightListBuffer, LightList, 16);
 VKPT_BUFFER(LightIndexBuffer, uint, 4);
 VKPT_BUFFER(LightstyleBuffer, float, 4);
@@ -16,6 +17,7 @@ VKPT_BUFFER(BspTreeBuffer, BspTreeNode, 8);
 // Addresses of all tables: eight bytes each in the order below, then the count.
 struct LightTables {
     EmitterBuffer emitters;
+    EmitterOutlineBuffer outlines;
     LightListBuffer lists;            // one per cluster, then the one for points outside every cluster
     LightIndexBuffer static_indices;
     LightIndexBuffer dynamic_indices;

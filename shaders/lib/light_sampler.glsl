@@ -110,9 +110,36 @@ uint choose_place(LightListView list, float xi)
     return list.counted + choose_uniformly(clamp((rest - kept) / (1.0f - kept), 0.0f, max_below_one), count - list.counted);
 }
 
+// The emitter as light_contribution sees it: gray, of the same luminance.
+Emitter load_outline(LightListView list, uint emitter)
+{
+#ifdef __cplusplus // tests on the CPU have no table of outlines
+    Emitter e = load_emitter(list, emitter);
+    e.radiance = vec3(luminance(e.radiance));
+#else
+    EmitterOutline outline = VKPT_FETCH(EmitterOutline, list.tables.outlines, emitter);
+    bool is_sphere = floatBitsToInt(outline.radiance) < 0;
+    Emitter e;
+    e.p0 = outline.p0;
+    e.type = is_sphere ? EMITTER_SPHERE : EMITTER_TRIANGLE;
+    e.p1 = outline.p1;
+    e.lightstyle = 0u;
+    e.p2 = outline.p2;
+    e.area = 0.0f;
+    e.radiance = vec3(abs(outline.radiance));
+    e.reach = is_sphere ? outline.p1.y : 0.0f;
+#endif
+    return e;
+}
+
+float weigh_emitter(LightListView list, LightPredictor predictor, uint emitter)
+{
+    return light_contribution(predictor, load_outline(list, emitter));
+}
+
 float weigh_light(LightListView list, LightPredictor predictor, uint position)
 {
-    return light_contribution(predictor, load_emitter(list, light_at(list, position)));
+    return weigh_emitter(list, predictor, light_at(list, position));
 }
 
 // A cheap generator for many numbers in a row (PCG, RXS-M-XS 32 of O'Neill 2014). Its state starts as a hash of pixel, frame

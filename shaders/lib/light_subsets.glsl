@@ -5,6 +5,7 @@
 #define VKPT_LIB_LIGHT_SUBSETS
 
 #include "light_sampler.glsl"
+#include "whole_numbers.glsl"
 
 // Longer subsets than this are cut to it (weights are kept in an array).
 const uint max_subset_length = 64u;
@@ -12,7 +13,7 @@ const uint max_subset_length = 64u;
 uint subset_stride(uint count, uint subset_length)
 {
     uint length_limit = clamp(subset_length, 1u, max_subset_length);
-    return max((count + length_limit - 1u) / length_limit, 1u);
+    return max(divide_whole(count + length_limit - 1u, length_limit), 1u);
 }
 
 // One number decides the subset, and what remains of it the light in the subset: each light owns one interval.
@@ -99,7 +100,7 @@ LightSample sample_independent_strides(
         if (position >= count) // the last stride may be short: then it gives no light
             break;
         uint emitter = light_at(list, position);
-        offer_light(reservoir, emitter, light_contribution(predictor, load_emitter(list, emitter)));
+        offer_light(reservoir, emitter, weigh_emitter(list, predictor, emitter));
     }
     if (reservoir.emitter < 0)
         return no_light();

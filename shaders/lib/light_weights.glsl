@@ -22,6 +22,11 @@ const float prediction_horizon = 0.05f;     // sine of the lowest elevation at w
 struct LightPredictor {
     Surface s;
     int weight; // LIGHT_WEIGHT_*
+    // Chapter's weight only: what predict_reflectance needs of the surface and its viewer.
+    float view_height; // cosine
+    float view_root;   // smith_root
+    float albedo;      // luminance
+    float base;        // diffuse reflectance (luminance), but for what the layer takes from the light on its way in
     // LTC only: rows that turn the world into the space where the lobe is a cosine, and what the lobes reflect (luminance).
     vec3 diffuse_rows[3];
     vec3 specular_rows[3];
@@ -94,16 +99,27 @@ void prepare_ltc(INOUT(LightPredictor) p, LtcBuffer table)
     p.specular = head_on * (e.albedo - e.grazing) + grazing * e.grazing;
 }
 
+void prepare_reflectance(INOUT(LightPredictor) p)
+{
+    float alpha = ggx_alpha(p.s.roughness);
+    p.view_height = dot(p.s.normal, p.s.view);
+    p.view_root = smith_root(p.view_height, alpha);
+    p.albedo = luminance(p.s.albedo);
+    p.base = coupled_diffuse_base(p.s, p.view_height) * p.albedo;
+}
+
 LightPredictor make_predictor(Surface s, LightOptions options)
 {
     LightPredictor p;
     p.s = s;
     p.s.view = view_above_horizon(s);
     p.weight = options.weight;
-    if (p.weight == LIGHT_WEIGHT_LTC)
+    if (p.weight == LIGHT_WEIGHT_LTC) {
         prepare_ltc(p, options.ltc);
-    else
+    } else {
         p.s.roughness = max(s.roughness, prediction_roughness);
+        prepare_reflectance(p);
+    }
     return p;
 }
 
@@ -169,25 +185,35 @@ vec2 sphere_form_factors(LightPredictor p, vec3 to_centre, float radius)
 
 // What the prediction needs to know of an emitter's shape. solid_angle 0: it cannot light the surface.
 struct EmitterAspect {
-    vec3 centre; // receiver to centre
+    vec3 centre;    // receiver to centre
+    vec3 direction; // the same, unit; 0 at the centre
     float solid_angle;
     float cosine_bound;
 };
+
+vec3 direction_or_zero(vec3 v)
+{
+    return v * inversesqrt(max(dot(v, v), 1e-20f));
+}
 
 EmitterAspect view_emitter_triangle(Surface s, Emitter e)
 {
     EmitterAspect aspect;
     TriangleAspect t = view_triangle(e, s.position);
     aspect.centre = (t.a + t.b + t.c) * (1.0f / 3.0f);
+    aspect.direction = direction_or_zero(aspect.centre);
     aspect.solid_angle = t.solid_angle;
     vec3 heights = vec3(dot(s.normal, t.a), dot(s.normal, t.b), dot(s.normal, t.c));
     float geometric_height = max(
         max(dot(s.geometric_normal, t.a), dot(s.geometric_normal, t.b)), dot(s.geometric_normal, t.c));
     if (max(max(heights.x, heights.y), heights.z) <= 0.0f || geometric_height <= 0.0f)
         aspect.solid_angle = 0.0f;
+    // The corners' cosines have one division in common.
+    vec3 far = max(t.lengths, vec3(1e-10f));
+    float highest = max(max(heights.x * (far.y * far.z), heights.y * (far.x * far.z)), heights.z * (far.x * far.y))
+        / (far.x * far.y * far.z);
     // The highest corner may lie lower than the middle of a triangle right above.
-    aspect.cosine_bound = max(max(heights.x / max(length(t.a), 1e-10f), heights.y / max(length(t.b), 1e-10f)),
-        max(heights.z / max(length(t.c), 1e-10f), dot(s.normal, aspect.centre) / max(length(aspect.centre), 1e-10f)));
+    aspect.cosine_bound = max(highest, dot(s.normal, aspect.direction));
     return aspect;
 }
 
@@ -196,6 +222,7 @@ EmitterAspect view_emitter_sphere(Surface s, Emitter e)
     EmitterAspect aspect;
     float radius = e.p1.x;
     aspect.centre = e.p0 - s.position;
+    aspect.direction = direction_or_zero(aspect.centre);
     float cone_depth = sphere_cone_depth(aspect.centre, radius);
     aspect.solid_angle = 2.0f * emitter_pi * cone_depth;
     float height = dot(s.normal, aspect.centre) + radius;
@@ -205,22 +232,33 @@ EmitterAspect view_emitter_sphere(Surface s, Emitter e)
     return aspect;
 }
 
-// Reflectance (luminance) towards a direction that is lifted above the horizon.
-float predict_reflectance(Surface s, vec3 to_light)
+// Luminance of evaluate_brdf towards a unit direction, or 0, that is lifted above the horizon.
+float predict_reflectance(LightPredictor p, vec3 direction)
 {
-    float len = length(to_light);
-    vec3 direction = len > 1e-10f ? to_light / len : s.normal;
+    Surface s = p.s;
     float height = dot(s.normal, direction);
-    if (height < prediction_horizon)
+    if (height < prediction_horizon) {
         direction = normalize(direction + s.normal * (prediction_horizon - height));
-    BsdfValue value = evaluate_brdf(s, direction);
-    return value.diffuse * luminance(s.albedo) + luminance(value.specular);
+        height = dot(s.normal, direction);
+    }
+    vec3 sum = s.view + direction; // not 0: both are above the horizon
+    vec3 h = sum * inversesqrt(dot(sum, sum));
+    vec3 across = cross(s.normal, h);
+    float cosine = dot(s.normal, h);
+    float alpha = ggx_alpha(s.roughness);
+    float a2 = alpha * alpha;
+    float d = cosine * cosine * a2 + dot(across, across);
+    float roots = height * p.view_root + p.view_height * smith_root(height, alpha);
+    float lobe = a2 * (0.5f / bsdf_pi) / (d * d * roots);
+    float schlick = schlick_power(dot(s.view, h));
+    float specular = mix(dielectric_fresnel(s, schlick), p.albedo + (1.0f - p.albedo) * schlick, s.metallic);
+    return p.base * coupled_diffuse_share(s, height) + specular * lobe;
 }
 
 // Reflectance at the horizon-clipped centre, its lobes not too narrow, x solid angle x bounded cosine.
 float predict_by_chapter(LightPredictor p, EmitterAspect aspect)
 {
-    float reflectance = max(predict_reflectance(p.s, aspect.centre), 1e-4f);
+    float reflectance = max(predict_reflectance(p, aspect.direction), 1e-4f);
     return reflectance * aspect.solid_angle * clamp(aspect.cosine_bound, 1e-4f, 1.0f);
 }
 

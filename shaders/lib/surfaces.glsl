@@ -28,7 +28,7 @@ vec3 leave_surface(vec3 position, vec3 normal)
 
 LightTables light_tables()
 {
-    return LightTables(EmitterBuffer(frame.scene.emitters), LightListBuffer(frame.scene.light_lists),
+    return LightTables(EmitterBuffer(frame.scene.emitters), EmitterOutlineBuffer(frame.scene.emitter_outlines), LightListBuffer(frame.scene.light_lists),
         LightIndexBuffer(frame.scene.static_light_indices), LightIndexBuffer(frame.scene.dynamic_light_indices),
         LightstyleBuffer(frame.scene.lightstyles), BspTreeBuffer(frame.scene.bsp_tree), frame.scene.light_list_count);
 }

@@ -70,47 +70,39 @@ BvhRay bvh_ray(BvhView bvh, vec3 origin, vec3 direction, int t_min)
     // A tiny slope for none keeps the slabs' distances finite; the boxes' margin (bvh.cpp) covers the difference.
     vec3 slope = mix(direction, vec3(1e-18), lessThan(abs(direction), vec3(1e-18)));
     vec3 inverse = 1.0 / (slope * bvh.grid_scale);
-    uvec3 low = uvec3(0u, 32u, 64u), backwards = uvec3(floatBitsToInt(inverse) >> 31) & 16u;
-    return BvhRay((origin - bvh.grid_origin) * bvh.grid_scale, inverse, low + backwards, low + (16u - backwards), t_min);
+    uvec3 low = uvec3(0u, 16u, 32u), backwards = uvec3(floatBitsToInt(inverse) >> 31) & 8u;
+    return BvhRay((origin - bvh.grid_origin) * bvh.grid_scale, inverse, low + backwards, low + (8u - backwards), t_min);
 }
 
-void bvh_load_planes(uint64_t address, out uvec2 planes[2])
+uvec2 bvh_load(uint64_t address) { return unpack32(BvhWords64(address).words[0]); }
+
+// Distance to the 8-bit plane `child` of eight. Through int: the driver has no quick way from unsigned to float.
+int bvh_slab(uvec2 planes, int child, float start, float step)
 {
-    BvhWords64 source = BvhWords64(address);
-    planes[0] = unpack32(source.words[0]);
-    planes[1] = unpack32(source.words[1]);
+    int plane = int((planes[child >> 2] >> (child % 4 * 8)) & 0xffu);
+    return floatBitsToInt(fma(float(plane), step, start));
 }
-
-// The two 16-bit planes in a word. Through int: the driver has no quick way from unsigned to float.
-vec2 bvh_plane_pair(uvec2 planes[2], int pair)
-{
-    uint word = planes[pair >> 1][pair & 1];
-    return vec2(ivec2(word & 0xffffu, word >> 16));
-}
-
-ivec2 bvh_slab(vec2 plane, float origin, float inverse) { return floatBitsToInt((plane - origin) * inverse); }
 
 // Entry distances of the children that the ray meets before t_max, ascending.
 void bvh_test_node(BvhRay ray, uint64_t node, int t_max, out int key[8])
 {
-    uvec2 near_x[2], near_y[2], near_z[2], far_x[2], far_y[2], far_z[2];
-    bvh_load_planes(node + uint64_t(ray.near_offset.x), near_x);
-    bvh_load_planes(node + uint64_t(ray.near_offset.y), near_y);
-    bvh_load_planes(node + uint64_t(ray.near_offset.z), near_z);
-    bvh_load_planes(node + uint64_t(ray.far_offset.x), far_x);
-    bvh_load_planes(node + uint64_t(ray.far_offset.y), far_y);
-    bvh_load_planes(node + uint64_t(ray.far_offset.z), far_z);
+    uvec2 near_x = bvh_load(node + uint64_t(ray.near_offset.x)), far_x = bvh_load(node + uint64_t(ray.far_offset.x));
+    uvec2 near_y = bvh_load(node + uint64_t(ray.near_offset.y)), far_y = bvh_load(node + uint64_t(ray.far_offset.y));
+    uvec2 near_z = bvh_load(node + uint64_t(ray.near_offset.z)), far_z = bvh_load(node + uint64_t(ray.far_offset.z));
+    uvec2 frame_words = bvh_load(node + uint64_t(BVH_FRAME_OFFSET));
+    // Distances to the frame's corner, and from plane to plane.
+    vec3 corner = vec3(ivec3(frame_words.x & 0xffffu, frame_words.x >> 16, frame_words.y & 0xffffu));
+    vec3 start = (corner - ray.origin) * ray.inverse;
+    uvec3 steps = (uvec3(frame_words.y >> 16) >> uvec3(0u, BVH_STEP_BITS, 2u * BVH_STEP_BITS)) & ((1u << BVH_STEP_BITS) - 1u);
+    vec3 step = uintBitsToFloat((steps << BVH_STEP_SHIFT) + floatBitsToUint(1.0)) * ray.inverse;
     // Negative floats are negative integers, so the comparison with t_min >= 0 and the final one hold for them as well; what a
     // NaN gives is either a miss or a needless visit.
-    [[unroll]] for (int pair = 0; pair < 4; pair++) {
-        ivec2 enter = max(max(bvh_slab(bvh_plane_pair(near_x, pair), ray.origin.x, ray.inverse.x),
-                              bvh_slab(bvh_plane_pair(near_y, pair), ray.origin.y, ray.inverse.y)),
-                          max(bvh_slab(bvh_plane_pair(near_z, pair), ray.origin.z, ray.inverse.z), ivec2(ray.t_min)));
-        ivec2 leave = min(min(bvh_slab(bvh_plane_pair(far_x, pair), ray.origin.x, ray.inverse.x),
-                              bvh_slab(bvh_plane_pair(far_y, pair), ray.origin.y, ray.inverse.y)),
-                          min(bvh_slab(bvh_plane_pair(far_z, pair), ray.origin.z, ray.inverse.z), ivec2(t_max)));
-        key[pair * 2] = enter.x <= leave.x ? (enter.x & ~bvh_key_child_mask) | (pair * 2) : bvh_key_none;
-        key[pair * 2 + 1] = enter.y <= leave.y ? (enter.y & ~bvh_key_child_mask) | (pair * 2 + 1) : bvh_key_none;
+    [[unroll]] for (int child = 0; child < 8; child++) {
+        int enter = max(max(bvh_slab(near_x, child, start.x, step.x), bvh_slab(near_y, child, start.y, step.y)),
+            max(bvh_slab(near_z, child, start.z, step.z), ray.t_min));
+        int leave = min(min(bvh_slab(far_x, child, start.x, step.x), bvh_slab(far_y, child, start.y, step.y)),
+            min(bvh_slab(far_z, child, start.z, step.z), t_max));
+        key[child] = enter <= leave ? (enter & ~bvh_key_child_mask) | child : bvh_key_none;
     }
     bvh_sort(key);
 }

@@ -28,6 +28,14 @@ Emitter fetch_Emitter(uint64_t table, uint index)
     return Emitter(vec3(a, uintBitsToFloat(b.x)), b.y, vec3(c, uintBitsToFloat(d.x)), d.y, vec3(e, f.x), f.y, vec3(g, h.x), h.y);
 }
 
+EmitterOutline fetch_EmitterOutline(uint64_t table, uint index)
+{
+    WideWords words = WideWords(table + uint64_t(index * 40u));
+    vec2 a = load_float_pair(words, 0u), b = load_float_pair(words, 1u), c = load_float_pair(words, 2u),
+         d = load_float_pair(words, 3u), e = load_float_pair(words, 4u);
+    return EmitterOutline(vec3(a, b.x), vec3(b.y, c), vec3(d, e.x), e.y);
+}
+
 LightList fetch_LightList(uint64_t table, uint index)
 {
     WideWords words = WideWords(table + uint64_t(index) * 16ul);

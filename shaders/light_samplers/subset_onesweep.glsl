@@ -18,7 +18,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
     Reservoir reservoir = make_reservoir(choice.rest);
     for (uint position = choice.offset; position < count; position += choice.stride) {
         uint emitter = light_at(list, position);
-        offer_light(reservoir, emitter, light_contribution(predictor, load_emitter(list, emitter)));
+        offer_light(reservoir, emitter, weigh_emitter(list, predictor, emitter));
     }
     if (reservoir.emitter < 0)
         return no_light();

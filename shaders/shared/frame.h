@@ -122,6 +122,7 @@ struct SceneView {
     uint first_moving;           // triangle id; UINT_MAX: previous_positions are not known
     uint64_t materials;
     uint64_t emitters;
+    uint64_t emitter_outlines;
     uint64_t light_lists;
     uint64_t static_light_indices;
     uint64_t dynamic_light_indices;

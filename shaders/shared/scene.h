@@ -65,6 +65,15 @@ struct Emitter {
 };
 VKPT_ASSERT_SIZE(Emitter, 64);
 
+// What the weight of an emitter depends on, its lightstyle applied: all that is read of the lights among which one is chosen.
+struct EmitterOutline {
+    vec3 p0; // p0, p1, p2 as in Emitter; of a sphere, p1.y is the reach
+    vec3 p1;
+    vec3 p2;
+    float radiance; // luminance; its sign bit is set for spheres
+};
+VKPT_ASSERT_SIZE(EmitterOutline, 40);
+
 // The light list of a cluster is the concatenation of two ranges, ascending by emitter index and free of duplicates over both:
 // static_indices[first_static .. + static_count) and dynamic_indices[first_dynamic .. + dynamic_count).
 struct LightList {

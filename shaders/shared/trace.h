@@ -10,8 +10,12 @@
 VKPT_SHARED_BEGIN
 
 VKPT_CONST uint BVH_WIDTH = 8u;
-VKPT_CONST uint BVH_NODE_BYTES = 128u;
-VKPT_CONST uint BVH_CHILD_WORDS_OFFSET = 96u; // bytes from a node's start
+VKPT_CONST uint BVH_NODE_BYTES = 88u;
+VKPT_CONST uint BVH_FRAME_OFFSET = 48u; // bytes from a node's start
+VKPT_CONST uint BVH_CHILD_WORDS_OFFSET = 56u;
+// Steps between a node's planes: the float 1's bits + (step << BVH_STEP_SHIFT), that is 1, 1.5, 2, 3, 4, 6, ... cells.
+VKPT_CONST uint BVH_STEP_SHIFT = 22u;
+VKPT_CONST uint BVH_STEP_BITS = 5u;
 VKPT_CONST uint BVH_TRIANGLE_BYTES = 40u;
 
 // Child word: an inner node's index, or BVH_LEAF | (count - 1) << 27 | first triangle slot.

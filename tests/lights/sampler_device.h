@@ -32,6 +32,7 @@ VKPT_ASSERT_SIZE(DeviceResult, 32);
 // A light list, a surface and the options; addresses of tables.
 struct DeviceCase {
     uint64_t emitters;
+    uint64_t outlines;
     uint64_t lists; // one
     uint64_t static_indices;
     uint64_t dynamic_indices;
@@ -52,7 +53,7 @@ struct DeviceCase {
     vec3 albedo;
     uint padding;
 };
-VKPT_ASSERT_SIZE(DeviceCase, 144);
+VKPT_ASSERT_SIZE(DeviceCase, 152);
 
 VKPT_CONST uint SAMPLER_GROUP = 64u; // lanes, an estimate each
 

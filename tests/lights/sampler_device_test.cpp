@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The light samplers as the Vulkan driver runs them: unbiased, as frequent as they report, and equal to the same files
 // compiled as C++, so that what the other tests here prove of those holds on the device.
+#include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/ltc_table.hpp"
 #include "sampler_device.h"
 #include "sampler_lists.hpp"
@@ -104,6 +105,10 @@ protected:
     {
         DeviceCase c {};
         c.emitters = upload(list.emitters);
+        std::vector<shared::EmitterOutline> outlines;
+        for (const shared::Emitter& e : list.emitters)
+            outlines.push_back(make_outline(e, list.lightstyles[e.lightstyle]));
+        c.outlines = upload(outlines);
         c.lists = upload(std::vector { list.range });
         // Buffers are never empty.
         const auto padded = [](std::vector<uint32_t> indices) {

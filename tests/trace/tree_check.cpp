@@ -2,6 +2,7 @@
 #include "tests/trace/tree_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
@@ -21,9 +22,13 @@ DecodedChild decode_child(const Bvh& bvh, uint32_t node, uint32_t slot)
 {
     const auto* bytes = reinterpret_cast<const std::byte*>(bvh.nodes.data()) + node * size_t(BVH_NODE_BYTES);
     DecodedChild child;
+    uint16_t frame[4];
+    std::memcpy(frame, bytes + BVH_FRAME_OFFSET, sizeof frame);
     for (uint32_t axis = 0; axis < 3; axis++) {
-        std::memcpy(&child.low[axis], bytes + axis * 32 + slot * 2, 2);
-        std::memcpy(&child.high[axis], bytes + axis * 32 + 16 + slot * 2, 2);
+        const uint32_t code = frame[3] >> (axis * BVH_STEP_BITS) & ((1u << BVH_STEP_BITS) - 1);
+        const double step = std::ldexp(code % 2 ? 1.5 : 1.0, int(code / 2));
+        child.low[axis] = frame[axis] + step * std::to_integer<int>(bytes[axis * 16 + slot]);
+        child.high[axis] = frame[axis] + step * std::to_integer<int>(bytes[axis * 16 + 8 + slot]);
     }
     std::memcpy(&child.word, bytes + BVH_CHILD_WORDS_OFFSET + slot * 4, 4);
     return child;
