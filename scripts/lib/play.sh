@@ -247,6 +247,7 @@ film_demo() {
         || die "$trace cannot be read"
     capture_path=$cache_dir/vkpt/$capture_folder
     rm -rf "$capture_path"
+    mkdir -p "${capture_path%/*}" || die "cannot write to $cache_dir"
     vkpt_program render "$trace" --frames "$film_frames" --size "$use" --seed 0 "${data[@]}" \
         --set pt_capture_dir="$capture_folder" --set pt_capture_every=1 ${given[@]+"${given[@]}"} -o "$capture_path.png" \
         >"$log_dir/film.log" 2>&1 </dev/null &
