@@ -22,21 +22,25 @@ struct Line {
 float plate_height(size_t lines) { return float(lines) * (ImGui::GetTextLineHeight() + 2) + 2 * padding - 2; }
 
 // Lines on a dark plate. Returns its width. `right`: the corner is the upper right one.
-void draw_plate(ImVec2 corner, std::initializer_list<Line> lines, bool right = false)
+// `right`: the corner is the right one. What is wider than `most_width` is cut.
+void draw_plate(ImVec2 corner, std::initializer_list<Line> lines, bool right = false, float most_width = 1e6f)
 {
     ImDrawList* list = ImGui::GetBackgroundDrawList(); // behind the help
     const float step = ImGui::GetTextLineHeight() + 2;
     float width = 0;
     for (const Line& line : lines)
         width = std::max(width, ImGui::CalcTextSize(line.text.c_str()).x);
+    width = std::min(width, most_width);
     corner = { std::floor(right ? corner.x - width - 2 * padding : corner.x), std::floor(corner.y) };
     list->AddRectFilled(
         corner, { corner.x + width + 2 * padding, corner.y + plate_height(lines.size()) }, colour_plate);
     float y = corner.y + padding;
+    list->PushClipRect(corner, { corner.x + width + 2 * padding, corner.y + plate_height(lines.size()) }, true);
     for (const Line& line : lines) {
         list->AddText({ corner.x + padding, y }, line.colour, line.text.c_str());
         y += step;
     }
+    list->PopClipRect();
 }
 
 std::string describe_speed(const SideState& side)
@@ -61,7 +65,9 @@ void draw_side_label(const State& state, Side which)
     draw_plate(corner,
         { { fmt::format("{}  {}", is_b ? "B" : "A", describe_side(state, which)), is_b ? colour_b : colour_a },
             { describe_speed(side), colour_text } },
-        is_b);
+        is_b,
+        state.split.is_on ? std::max(state.shown.width / 2 - 2 * (margin + padding), 0.0f)
+                          : 1e6f); // room for the other's
 }
 
 void draw_divider(const State& state)
