@@ -126,6 +126,7 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
     }
     if ((hit.flags & MATERIAL_TRANSLUCENT) != 0u) {
         if ((hit.flags & MATERIAL_WARP) != 0u) {
+            path.emitted += path.throughput * hit.emission * hit.opacity; // slime that glows
             meet_water(path, s, random);
             return true;
         }

@@ -78,7 +78,7 @@ glm::vec3 emission_factor(const BspTexinfo& texinfo, const AverageColour& colour
 // Where in the tree a face's front lies: leaves are numbered in tree order, so near numbers are near places.
 size_t find_leaf_before(const Bsp& bsp, size_t face)
 {
-    const std::vector<glm::vec3> outline = bsp.face_polygon(face);
+    const std::vector<glm::vec3> outline = face_outline(bsp, face);
     const glm::vec3 sum = std::accumulate(outline.begin(), outline.end(), glm::vec3(0));
     return bsp.find_leaf(sum / std::max(1.0f, float(outline.size())) + bsp.face_normal(face), find_world_root(bsp));
 }
@@ -135,7 +135,7 @@ std::vector<shared::Emitter> emitters_of_face(
     const glm::vec3 radiance = average_radiance(texinfo, colour, scales);
     if (!(max_component(radiance) > 0) && emission != Emission::sky)
         return {};
-    const std::vector<glm::vec3> outline = bsp.face_polygon(face);
+    const std::vector<glm::vec3> outline = face_outline(bsp, face);
     std::vector<shared::Emitter> emitters;
     for (const std::array<uint32_t, 3>& t : triangulate_face(bsp, face)) {
         shared::Emitter emitter {};

@@ -59,7 +59,14 @@ struct StaticEmitters {
     std::vector<std::string> messages; // what could not be used, by name
 };
 
-// Every face's triangles, used for geometry and emitters alike: indices into Bsp::face_polygon(face), front as in
+// A face's outline where it is drawn, used for geometry and emitters alike: Bsp::face_polygon, but for liquids that stand
+// `liquid_lift` in front of their plane. The surface of a liquid is two faces in one plane that look away from each other; apart,
+// a ray meets the one whose front it sees, and no chance of rounding decides which. Less than the distance from which rays
+// leave a surface (leave_surface in shaders/lib/surfaces.glsl): what passes one of the two has passed both.
+inline constexpr float liquid_lift = 1.0f / 128;
+std::vector<glm::vec3> face_outline(const formats::Bsp& bsp, size_t face);
+
+// Every face's triangles: indices into face_outline(face), front as in
 // Triangle. All corners of the outline are used, also those on straight edges (neighbours may end there), as far as
 // triangles with an area allow it. Slivers of zero area are left out.
 std::vector<std::array<uint32_t, 3>> triangulate_face(const formats::Bsp& bsp, size_t face);

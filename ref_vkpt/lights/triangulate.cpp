@@ -77,9 +77,18 @@ private:
 
 } // namespace
 
+std::vector<glm::vec3> face_outline(const formats::Bsp& bsp, size_t face)
+{
+    std::vector<glm::vec3> outline = bsp.face_polygon(face);
+    if (bsp.texinfos[bsp.faces[face].texinfo].flags & formats::SURF_WARP)
+        for (glm::vec3& corner : outline)
+            corner += bsp.face_normal(face) * liquid_lift;
+    return outline;
+}
+
 Triangles triangulate_face(const formats::Bsp& bsp, size_t face)
 {
-    const std::vector<glm::vec3> outline = bsp.face_polygon(face);
+    const std::vector<glm::vec3> outline = face_outline(bsp, face);
     if (outline.size() < 3)
         return {};
     Triangles triangles;

@@ -81,7 +81,7 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
     const uint32_t texinfo_index = bsp.faces[face].texinfo;
     const BspTexinfo& texinfo = bsp.texinfos[texinfo_index];
     const WorldPicture& picture = context.pictures[texinfo_index];
-    const std::vector<glm::vec3> outline = bsp.face_polygon(face);
+    const std::vector<glm::vec3> outline = face_outline(bsp, face);
     const uint32_t normal = encode_octahedral(bsp.face_normal(face));
     for (const auto& corners : triangulate_face(bsp, face)) {
         shared::Triangle triangle {};

@@ -72,6 +72,15 @@ float angle_above_axis(float y, float x)
     return x < 0.0f ? emitter_pi - angle : angle;
 }
 
+// Of a triangle seen from its front, corners relative to the eye; volume > 0: six times the tetrahedron's. Van Oosterom and Strackee
+// 1983. A volume worked out from the edges keeps its precision at tiny angles.
+float triangle_solid_angle(vec3 a, vec3 b, vec3 c, vec3 lengths, float volume)
+{
+    float denominator
+        = lengths.x * lengths.y * lengths.z + dot(a, b) * lengths.z + dot(b, c) * lengths.x + dot(c, a) * lengths.y;
+    return 2.0f * angle_above_axis(volume, denominator);
+}
+
 // A triangle as seen from a point.
 struct TriangleAspect {
     vec3 a, b, c;      // receiver to corners
@@ -90,15 +99,9 @@ TriangleAspect view_triangle(Emitter e, vec3 receiver)
     t.edges_cross = cross(e.p1 - e.p0, e.p2 - e.p0);
     t.volume = -dot(t.a, t.edges_cross);
     t.solid_angle = 0.0f;
-    float la = length(t.a);
-    float lb = length(t.b);
-    float lc = length(t.c);
-    t.lengths = vec3(la, lb, lc);
-    if (t.volume > 0.0f) {
-        // Van Oosterom and Strackee 1983. The volume from the edges keeps its precision at tiny angles.
-        float denominator = la * lb * lc + dot(t.a, t.b) * lc + dot(t.b, t.c) * la + dot(t.c, t.a) * lb;
-        t.solid_angle = 2.0f * angle_above_axis(t.volume, denominator);
-    }
+    t.lengths = vec3(length(t.a), length(t.b), length(t.c));
+    if (t.volume > 0.0f)
+        t.solid_angle = triangle_solid_angle(t.a, t.b, t.c, t.lengths, t.volume);
     return t;
 }
 

@@ -191,29 +191,40 @@ struct EmitterAspect {
     float cosine_bound;
 };
 
+// 1 / sqrt(x) to 0.09 % for x > 0, by the float's bits and one step of Newton's method (constants: Moroz et al. 2018). For weights
+// that is plenty; and CPUs spend more on the roots and divisions of a weight than on all of its other arithmetic.
+float quick_inversesqrt(float x)
+{
+    float y = intBitsToFloat(0x5f376908 - (floatBitsToInt(x) >> 1));
+    return y * (1.50087896f - 0.5f * x * y * y);
+}
+
 vec3 direction_or_zero(vec3 v)
 {
-    return v * inversesqrt(max(dot(v, v), 1e-20f));
+    return v * quick_inversesqrt(max(dot(v, v), 1e-20f));
 }
 
 EmitterAspect view_emitter_triangle(Surface s, Emitter e)
 {
     EmitterAspect aspect;
-    TriangleAspect t = view_triangle(e, s.position);
-    aspect.centre = (t.a + t.b + t.c) * (1.0f / 3.0f);
+    vec3 a = e.p0 - s.position, b = e.p1 - s.position, c = e.p2 - s.position;
+    aspect.centre = (a + b + c) * (1.0f / 3.0f);
     aspect.direction = direction_or_zero(aspect.centre);
-    aspect.solid_angle = t.solid_angle;
-    vec3 heights = vec3(dot(s.normal, t.a), dot(s.normal, t.b), dot(s.normal, t.c));
-    float geometric_height = max(
-        max(dot(s.geometric_normal, t.a), dot(s.geometric_normal, t.b)), dot(s.geometric_normal, t.c));
-    if (max(max(heights.x, heights.y), heights.z) <= 0.0f || geometric_height <= 0.0f)
-        aspect.solid_angle = 0.0f;
-    // The corners' cosines have one division in common.
-    vec3 far = max(t.lengths, vec3(1e-10f));
-    float highest = max(max(heights.x * (far.y * far.z), heights.y * (far.x * far.z)), heights.z * (far.x * far.y))
-        / (far.x * far.y * far.z);
+    aspect.cosine_bound = 0.0f;
+    aspect.solid_angle = 0.0f;
+    vec3 heights = vec3(dot(s.normal, a), dot(s.normal, b), dot(s.normal, c));
+    float geometric_height
+        = max(max(dot(s.geometric_normal, a), dot(s.geometric_normal, b)), dot(s.geometric_normal, c));
+    float volume = -dot(a, cross(e.p1 - e.p0, e.p2 - e.p0));
+    if (max(max(heights.x, heights.y), heights.z) <= 0.0f || geometric_height <= 0.0f || volume <= 0.0f)
+        return aspect;
+    vec3 squares = max(vec3(dot(a, a), dot(b, b), dot(c, c)), vec3(1e-20f));
+    vec3 inverse = vec3(quick_inversesqrt(squares.x), quick_inversesqrt(squares.y), quick_inversesqrt(squares.z));
+    vec3 lengths = squares * inverse;
+    aspect.solid_angle = triangle_solid_angle(a, b, c, lengths, volume);
+    vec3 cosines = heights * inverse;
     // The highest corner may lie lower than the middle of a triangle right above.
-    aspect.cosine_bound = max(highest, dot(s.normal, aspect.direction));
+    aspect.cosine_bound = max(max(max(cosines.x, cosines.y), cosines.z), dot(s.normal, aspect.direction));
     return aspect;
 }
 
@@ -228,7 +239,7 @@ EmitterAspect view_emitter_sphere(Surface s, Emitter e)
     float height = dot(s.normal, aspect.centre) + radius;
     if (radius <= 0.0f || height <= 0.0f || dot(s.geometric_normal, aspect.centre) + radius <= 0.0f)
         aspect.solid_angle = 0.0f;
-    aspect.cosine_bound = height / max(length(aspect.centre), radius);
+    aspect.cosine_bound = height * quick_inversesqrt(max(max(dot(aspect.centre, aspect.centre), radius * radius), 1e-20f));
     return aspect;
 }
 
@@ -238,17 +249,17 @@ float predict_reflectance(LightPredictor p, vec3 direction)
     Surface s = p.s;
     float height = dot(s.normal, direction);
     if (height < prediction_horizon) {
-        direction = normalize(direction + s.normal * (prediction_horizon - height));
+        direction = direction_or_zero(direction + s.normal * (prediction_horizon - height));
         height = dot(s.normal, direction);
     }
-    vec3 sum = s.view + direction; // not 0: both are above the horizon
-    vec3 h = sum * inversesqrt(dot(sum, sum));
+    vec3 h = direction_or_zero(s.view + direction); // not 0: both are above the horizon
     vec3 across = cross(s.normal, h);
     float cosine = dot(s.normal, h);
     float alpha = ggx_alpha(s.roughness);
     float a2 = alpha * alpha;
     float d = cosine * cosine * a2 + dot(across, across);
-    float roots = height * p.view_root + p.view_height * smith_root(height, alpha);
+    float root2 = a2 + (1.0f - a2) * height * height;
+    float roots = height * p.view_root + p.view_height * root2 * quick_inversesqrt(root2); // smith_root
     float lobe = a2 * (0.5f / bsdf_pi) / (d * d * roots);
     float schlick = schlick_power(dot(s.view, h));
     float specular = mix(dielectric_fresnel(s, schlick), p.albedo + (1.0f - p.albedo) * schlick, s.metallic);

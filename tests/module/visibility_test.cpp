@@ -4,6 +4,7 @@
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
 
@@ -20,6 +21,7 @@ protected:
         folder_.add_wall("wall", 180);
         folder_.add_wall("mirror", white_index);
         folder_.add_wall("lamp", white_index);
+        folder_.add_wall("lava", white_index);
         folder_.add_wall("glass", 100);
         cube_path_ = folder_.add_cube("cube", cube_half, red_index);
     }
@@ -235,6 +237,83 @@ TEST_F(Visibility, TranslucentSurfacesAreSeenByTheirShare)
     const glm::vec3 wall = session_->accumulate(256).mean();
     EXPECT_LT(through.y, wall.y);
     EXPECT_GT(through.y, 0.67f * wall.y * 0.98f);
+}
+
+// A liquid's surface as map compilers make it: two faces in one plane that look away from each other, cut differently.
+class Pool : public Visibility {
+protected:
+    static constexpr float height = 37.3f;
+
+    void start_pool(uint32_t flags, const CvarList& cvars)
+    {
+        MapBuilder map;
+        const uint16_t lava = map.add_material("lava", flags | formats::SURF_WARP | formats::SURF_LIGHT, 500);
+        const glm::vec3 a(-90, -70, height), b(110, -80, height), c(100, 90, height), d(-85, 75, height);
+        map.add({ a, b, c, d }, lava);
+        map.add({ c, b, a, d }, lava);
+        const uint16_t wall = map.add_material("wall");
+        map.add(rectangle({ 110, 0, height }, { 0, 80, 0 }, { 0, 0, -30 }), wall);
+        start(map, cvars);
+    }
+
+    bool sees_pool(glm::vec2 place) const
+    {
+        const CameraRay ray = camera_ray(session_->view, place);
+        const float distance = (height - ray.origin.z) / ray.direction.z;
+        const glm::vec3 met = ray.origin + ray.direction * distance;
+        return distance > 0 && met.x > -80 && met.x < 90 && std::abs(met.y) < 60;
+    }
+
+    // Luminance of the pixels that show nothing but the liquid.
+    std::vector<float> look_at_pool(float from_height, int frames)
+    {
+        session_->look({ -61.7f, 13.9f, height + from_height }, { 40, -10, height }, 50);
+        std::vector<float> result;
+        const Radiance picture = session_->accumulate(frames);
+        for (int y = 0; y < picture.height; y++)
+            for (int x = 0; x < picture.width; x++)
+                if (sees_pool({ x, y }) && sees_pool({ x + 1, y }) && sees_pool({ x, y + 1 }) && sees_pool({ x + 1, y + 1 }))
+                    result.push_back(luminance(picture.at(x, y)));
+        return result;
+    }
+};
+
+TEST_F(Pool, ShowsItsFrontFromBothSides)
+{
+    start_pool(0, { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } });
+    for (const float from : { 60.0f, 9.0f, -9.0f, -60.0f }) {
+        const std::vector<float> seen = look_at_pool(from, 1);
+        ASSERT_GT(seen.size(), 300) << from;
+        const auto [least, greatest] = std::ranges::minmax(seen);
+        EXPECT_GT(least, 0.9f * greatest) << "from " << from;
+    }
+}
+
+// A third of the rays passes it, and meets nothing behind it: not its other face either.
+TEST_F(Pool, IsPassedAsOneSurface)
+{
+    start_pool(formats::SURF_TRANS66, { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } });
+    for (const float from : { 60.0f, -60.0f }) {
+        const std::vector<float> seen = look_at_pool(from, 64);
+        ASSERT_GT(seen.size(), 300) << from;
+        const auto [least, greatest] = std::ranges::minmax(seen);
+        EXPECT_GT(least, 0.3f * greatest) << "from " << from;
+    }
+}
+
+// What light sampling finds of it, rays find as well: otherwise MIS would lose light.
+TEST_F(Pool, LightsAlikeByLightSamplingAndByRays)
+{
+    glm::vec3 light[2];
+    const char* const samplers[2] = { "subset", "subset_mis" };
+    for (int i = 0; i < 2; i++) {
+        start_pool(0, { { "pt_bounces", "0" }, { "pt_light_sampler", samplers[i] } });
+        session_->look({ 20, 3, height + 20 }, { 110, 0, height + 12 }, 40);
+        light[i] = session_->accumulate(512).mean();
+        session_ = nullptr;
+    }
+    EXPECT_GT(luminance(light[0]), 0);
+    EXPECT_NEAR(luminance(light[1]), luminance(light[0]), 0.02f * luminance(light[0]));
 }
 
 TEST_F(Visibility, PreviewLeavesTheBackground)
