@@ -6,6 +6,7 @@
 #define VKPT_LIB_BSDF
 
 #include "../shared/functions.h"
+#include "quick_floats.glsl"
 
 struct Surface {
     vec3 position;
@@ -45,7 +46,7 @@ float luminance(vec3 colour)
 
 float ggx_alpha(float roughness)
 {
-    return max(roughness * roughness, bsdf_min_alpha);
+    return quick_max(roughness * roughness, bsdf_min_alpha);
 }
 
 // Interpolated and mapped normals may face away from the viewer: the view is then lifted just above their horizon.
@@ -78,7 +79,7 @@ float smith_root(float cosine, float alpha)
 
 float schlick_power(float cosine)
 {
-    float m = clamp(1.0f - cosine, 0.0f, 1.0f);
+    float m = quick_clamp(1.0f - cosine, 0.0f, 1.0f);
     float m2 = m * m;
     return m2 * m2 * m;
 }
@@ -86,7 +87,7 @@ float schlick_power(float cosine)
 // The layer over the diffuse base fades out towards roughness 1: matte surfaces have none.
 float layer_strength(Surface s)
 {
-    return clamp(5.0f * (1.0f - s.roughness), 0.0f, 1.0f);
+    return quick_clamp(5.0f * (1.0f - s.roughness), 0.0f, 1.0f);
 }
 
 // Schlick's approximation; `power` = schlick_power of the cosine.
@@ -142,7 +143,7 @@ BsdfValue evaluate_brdf(Surface s, vec3 light)
     vec3 across = cross(s.normal, h);
     float alpha = ggx_alpha(s.roughness);
     float nv = dot(s.normal, view);
-    float nl = max(dot(s.normal, light), 1e-6f);
+    float nl = quick_max(dot(s.normal, light), 1e-6f);
     float schlick = schlick_power(dot(view, h));
     float visibility = 0.5f / (nl * smith_root(nv, alpha) + nv * smith_root(nl, alpha));
     float lobe = ggx_distribution(dot(s.normal, h), dot(across, across), alpha) * visibility;
@@ -183,7 +184,7 @@ float specular_lobe_probability(Surface s)
     float power = schlick_power(dot(s.normal, view_above_horizon(s)));
     float specular = luminance(specular_fresnel(s, power));
     float diffuse = (1.0f - s.metallic) * (1.0f - dielectric_fresnel(s, power)) * luminance(s.albedo);
-    return clamp(specular / max(specular + diffuse, 1e-6f), 0.1f, 0.9f);
+    return quick_clamp(specular / quick_max(specular + diffuse, 1e-6f), 0.1f, 0.9f);
 }
 
 // Density of sample_bsdf per solid angle; over the whole sphere it integrates to 1 (the specular lobe of a rough surface
@@ -199,7 +200,7 @@ float pdf_bsdf(Surface s, vec3 light)
     float specular = 0.0f;
     if (nh > 0.0f) // visible normals: G1 D / (4 nv)
         specular = ggx_distribution(nh, dot(across, across), alpha) * 0.5f / (nv + smith_root(nv, alpha));
-    float diffuse = max(dot(s.normal, light), 0.0f) / bsdf_pi;
+    float diffuse = quick_max(dot(s.normal, light), 0.0f) / bsdf_pi;
     return mix(diffuse, specular, specular_lobe_probability(s));
 }
 
@@ -209,7 +210,7 @@ vec3 sample_cosine_direction(vec3 normal, vec2 xi)
     vec3 bitangent = cross(normal, tangent);
     float radius = sqrt(xi.x);
     float phi = 2.0f * bsdf_pi * xi.y;
-    float height = sqrt(max(1.0f - xi.x, 0.0f));
+    float height = sqrt(quick_max(1.0f - xi.x, 0.0f));
     return normalize(tangent * (radius * cos(phi)) + bitangent * (radius * sin(phi)) + normal * height);
 }
 
@@ -222,9 +223,9 @@ vec3 sample_visible_normal(vec3 normal, vec3 view, float alpha, vec2 xi)
         = normalize(vec3(alpha * dot(view, tangent), alpha * dot(view, bitangent), dot(view, normal)));
     float phi = 2.0f * bsdf_pi * xi.x;
     float z = (1.0f - xi.y) * (1.0f + stretched.z) - stretched.z;
-    float sine = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
+    float sine = sqrt(quick_clamp(1.0f - z * z, 0.0f, 1.0f));
     vec3 m = vec3(sine * cos(phi), sine * sin(phi), z) + stretched;
-    return normalize(tangent * (alpha * m.x) + bitangent * (alpha * m.y) + normal * max(m.z, 1e-7f));
+    return normalize(tangent * (alpha * m.x) + bitangent * (alpha * m.y) + normal * quick_max(m.z, 1e-7f));
 }
 
 BsdfSample sample_bsdf(Surface s, vec2 xi, float xi_lobe)

@@ -48,7 +48,7 @@ float reach_window(Emitter e, vec3 receiver)
         return 1.0f;
     vec3 to_emitter = e.p0 - receiver;
     float q = dot(to_emitter, to_emitter) / (e.reach * e.reach);
-    float window = max(1.0f - q * q, 0.0f);
+    float window = quick_max(1.0f - q * q, 0.0f);
     return window * window;
 }
 
@@ -63,7 +63,7 @@ vec3 emitted_radiance(Emitter e, vec3 receiver)
 float angle_above_axis(float y, float x)
 {
     float side = abs(x);
-    float tangent = min(y, side) / max(y, side);
+    float tangent = quick_min(y, side) / quick_max(y, side);
     float t2 = tangent * tangent;
     float series = 0.0429096138f + t2 * (-0.0161657367f + t2 * 0.0028662257f);
     series = -0.1420889944f + t2 * (0.1065626393f + t2 * (-0.0752896400f + t2 * series));
@@ -72,13 +72,11 @@ float angle_above_axis(float y, float x)
     return x < 0.0f ? emitter_pi - angle : angle;
 }
 
-// Of a triangle seen from its front, corners relative to the eye; volume > 0: six times the tetrahedron's. Van Oosterom and Strackee
-// 1983. A volume worked out from the edges keeps its precision at tiny angles.
-float triangle_solid_angle(vec3 a, vec3 b, vec3 c, vec3 lengths, float volume)
+// A triangle's solid angle is 2 atan(volume, this): Van Oosterom and Strackee 1983. Corners relative to the eye; volume: six times the
+// tetrahedron's, > 0 in front, which keeps its precision at tiny angles if it is worked out from the edges.
+float solid_angle_denominator(vec3 a, vec3 b, vec3 c, vec3 lengths)
 {
-    float denominator
-        = lengths.x * lengths.y * lengths.z + dot(a, b) * lengths.z + dot(b, c) * lengths.x + dot(c, a) * lengths.y;
-    return 2.0f * angle_above_axis(volume, denominator);
+    return lengths.x * lengths.y * lengths.z + dot(a, b) * lengths.z + dot(b, c) * lengths.x + dot(c, a) * lengths.y;
 }
 
 // A triangle as seen from a point.
@@ -101,7 +99,7 @@ TriangleAspect view_triangle(Emitter e, vec3 receiver)
     t.solid_angle = 0.0f;
     t.lengths = vec3(length(t.a), length(t.b), length(t.c));
     if (t.volume > 0.0f)
-        t.solid_angle = triangle_solid_angle(t.a, t.b, t.c, t.lengths, t.volume);
+        t.solid_angle = 2.0f * angle_above_axis(t.volume, solid_angle_denominator(t.a, t.b, t.c, t.lengths));
     return t;
 }
 
@@ -129,7 +127,7 @@ vec3 sample_spherical_triangle(TriangleAspect t, vec2 xi)
     float sideways2 = dot(sideways, sideways);
     if (sideways2 < 1e-14f)
         return b;
-    float sideways_length = sqrt(max(depth * (2.0f - depth), 0.0f) / sideways2);
+    float sideways_length = sqrt(quick_max(depth * (2.0f - depth), 0.0f) / sideways2);
     return normalize(b * (1.0f - depth) + sideways * sideways_length);
 }
 
@@ -167,7 +165,7 @@ TriangleSampling choose_triangle_sampling(TriangleAspect t, Surface s, LightOpti
 float pdf_of_direction(TriangleAspect t, TriangleSampling sampling, Surface s, vec3 direction, float distance)
 {
     if (sampling.method == LIGHT_POINT_PROJECTED)
-        return max(dot(direction, s.normal), 0.0f) / sampling.projected.area;
+        return quick_max(dot(direction, s.normal), 0.0f) / sampling.projected.area;
     if (sampling.method == LIGHT_POINT_SOLID_ANGLE)
         return 1.0f / t.solid_angle;
     // Distance^2 / (area * cosine), where area * cosine = volume / (2 * distance).
@@ -193,9 +191,9 @@ EmitterSample sample_triangle_point(Emitter e, Surface s, vec2 xi, LightOptions 
             result.direction = sample_projected_triangle(sampling.projected, xi);
         else
             result.direction = sample_spherical_triangle(t, xi);
-        float farthest = sqrt(max(max(dot(t.a, t.a), dot(t.b, t.b)), dot(t.c, t.c)));
+        float farthest = sqrt(quick_max3(vec3(dot(t.a, t.a), dot(t.b, t.b), dot(t.c, t.c))));
         // Grazing rays may be rounded past the plane: no point of the triangle is farther than its farthest corner.
-        float slope = max(-dot(result.direction, t.edges_cross), t.volume / farthest);
+        float slope = quick_max(-dot(result.direction, t.edges_cross), t.volume / farthest);
         result.distance = t.volume / slope;
     }
     result.pdf = pdf_of_direction(t, sampling, s, result.direction, result.distance);
@@ -208,7 +206,7 @@ EmitterSample sample_triangle_point(Emitter e, Surface s, vec2 xi, LightOptions 
 float sphere_cone_depth(vec3 to_centre, float radius)
 {
     float distance2 = dot(to_centre, to_centre);
-    float sine2 = radius * radius / max(distance2, 1e-20f);
+    float sine2 = radius * radius / quick_max(distance2, 1e-20f);
     if (sine2 >= 1.0f)
         return 2.0f;
     return sine2 / (1.0f + sqrt(1.0f - sine2));
@@ -227,12 +225,12 @@ EmitterSample sample_sphere_point(Emitter e, vec3 receiver, vec2 xi)
     vec3 tangent = any_tangent(axis);
     vec3 bitangent = cross(axis, tangent);
     float depth = xi.x * cone_depth;
-    float sine2 = max(depth * (2.0f - depth), 0.0f);
+    float sine2 = quick_max(depth * (2.0f - depth), 0.0f);
     float phi = 2.0f * emitter_pi * xi.y;
     float sine = sqrt(sine2);
     result.direction = normalize(axis * (1.0f - depth) + (tangent * cos(phi) + bitangent * sin(phi)) * sine);
     float along = sqrt(centre_distance2) * (1.0f - depth);
-    float chord = sqrt(max(radius * radius - centre_distance2 * sine2, 0.0f));
+    float chord = sqrt(quick_max(radius * radius - centre_distance2 * sine2, 0.0f));
     result.distance = inside ? along + chord : along - chord;
     result.point = receiver + result.direction * result.distance;
     result.radiance = emitted_radiance(e, receiver);

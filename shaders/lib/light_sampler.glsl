@@ -107,29 +107,39 @@ uint choose_place(LightListView list, float xi)
     float kept = float(list.counted) / float(count);
     if (rest < kept)
         return place;
-    return list.counted + choose_uniformly(clamp((rest - kept) / (1.0f - kept), 0.0f, max_below_one), count - list.counted);
+    return list.counted + choose_uniformly(quick_clamp((rest - kept) / (1.0f - kept), 0.0f, max_below_one), count - list.counted);
 }
 
 // The emitter as light_contribution sees it: gray, of the same luminance.
-Emitter load_outline(LightListView list, uint emitter)
+Emitter unpack_outline(EmitterOutline outline)
 {
-#ifdef __cplusplus // tests on the CPU have no table of outlines
-    Emitter e = load_emitter(list, emitter);
-    e.radiance = vec3(luminance(e.radiance));
-#else
-    EmitterOutline outline = VKPT_FETCH(EmitterOutline, list.tables.outlines, emitter);
+    const uint kept = ~0u << (32u - OUTLINE_BITS), left = ~kept;
     bool is_sphere = floatBitsToInt(outline.radiance) < 0;
+    uint w0 = outline.shape[0], w1 = outline.shape[1], w2 = outline.shape[2], w3 = outline.shape[3];
     Emitter e;
     e.p0 = outline.p0;
     e.type = is_sphere ? EMITTER_SPHERE : EMITTER_TRIANGLE;
-    e.p1 = outline.p1;
+    e.p1 = outline.p0 + uintBitsToFloat(uvec3(w0 & kept, w1 & kept, w2 & kept));
     e.lightstyle = 0u;
-    e.p2 = outline.p2;
+    e.p2 = outline.p0
+        + uintBitsToFloat(uvec3(w3 & kept, (w0 << OUTLINE_BITS) | ((w1 & left) << 10u), (w2 << OUTLINE_BITS) | ((w3 & left) << 10u)));
     e.area = 0.0f;
     e.radiance = vec3(abs(outline.radiance));
-    e.reach = is_sphere ? outline.p1.y : 0.0f;
-#endif
+    e.reach = 0.0f;
+    if (is_sphere) {
+        e.p1.x = uintBitsToFloat(w0);
+        e.reach = uintBitsToFloat(w1);
+    }
     return e;
+}
+
+Emitter load_outline(LightListView list, uint emitter)
+{
+#ifdef __cplusplus // tests on the CPU have no table of outlines
+    return unpack_outline(::vkpt::make_outline(load_emitter(list, emitter), 1.0f));
+#else
+    return unpack_outline(VKPT_FETCH(EmitterOutline, list.tables.outlines, emitter));
+#endif
 }
 
 float weigh_emitter(LightListView list, LightPredictor predictor, uint emitter)
@@ -190,7 +200,7 @@ bool offer_light(INOUT(Reservoir) reservoir, uint emitter, float weight)
     } else {
         reservoir.xi /= keep;
     }
-    reservoir.xi = clamp(reservoir.xi, 0.0f, max_below_one);
+    reservoir.xi = quick_clamp(reservoir.xi, 0.0f, max_below_one);
     return taken;
 }
 

@@ -28,7 +28,7 @@ SubsetChoice choose_subset(uint count, float xi, uint subset_length)
     SubsetChoice choice;
     choice.stride = subset_stride(count, subset_length);
     choice.offset = choose_uniformly(xi, choice.stride);
-    choice.rest = clamp(xi * float(choice.stride) - float(choice.offset), 0.0f, max_below_one);
+    choice.rest = quick_clamp(xi * float(choice.stride) - float(choice.offset), 0.0f, max_below_one);
     return choice;
 }
 

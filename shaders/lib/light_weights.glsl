@@ -128,7 +128,7 @@ float angle_over_sine(float cosine)
 {
     float x = abs(cosine);
     float near_part = (1.570795f + x * (0.9058243f + x * 0.02603313f)) / (1.0f + x * (1.213246f + x * 0.2894057f));
-    return cosine >= 0.0f ? near_part : bsdf_pi * inversesqrt(max(1.0f - x * x, 1e-10f)) - near_part;
+    return cosine >= 0.0f ? near_part : bsdf_pi * inversesqrt(quick_max(1.0f - x * x, 1e-10f)) - near_part;
 }
 
 float form_factor_edge(vec3 a, vec3 b)
@@ -191,40 +191,52 @@ struct EmitterAspect {
     float cosine_bound;
 };
 
-// 1 / sqrt(x) to 0.09 % for x > 0, by the float's bits and one step of Newton's method (constants: Moroz et al. 2018). For weights
-// that is plenty; and CPUs spend more on the roots and divisions of a weight than on all of its other arithmetic.
-float quick_inversesqrt(float x)
-{
-    float y = intBitsToFloat(0x5f376908 - (floatBitsToInt(x) >> 1));
-    return y * (1.50087896f - 0.5f * x * y * y);
-}
-
 vec3 direction_or_zero(vec3 v)
 {
-    return v * quick_inversesqrt(max(dot(v, v), 1e-20f));
+    return v * quick_inversesqrt(quick_max(dot(v, v), 1e-20f));
 }
 
+// angle_above_axis (lib/emitters.glsl) to 0.6 %.
+float quick_angle_above_axis(float y, float x)
+{
+    float side = abs(x), longer = quick_max(y, side);
+    float inverse = quick_inversesqrt(quick_max(longer, 1e-18f));
+    float tangent = quick_min(y, side) * inverse * inverse;
+    float t2 = tangent * tangent;
+    float angle = tangent * (0.995354f + t2 * (-0.288679f + t2 * 0.079331f));
+    angle = y > side ? 0.5f * emitter_pi - angle : angle;
+    return x < 0.0f ? emitter_pi - angle : angle;
+}
+
+bool is_below(vec3 heights, float limit)
+{
+    return heights.x <= limit && heights.y <= limit && heights.z <= limit;
+}
+
+// The corners are an outline's, and may be a little off: only what is well below a horizon, or well behind the emitter, is out.
 EmitterAspect view_emitter_triangle(Surface s, Emitter e)
 {
     EmitterAspect aspect;
     vec3 a = e.p0 - s.position, b = e.p1 - s.position, c = e.p2 - s.position;
+    vec3 first = e.p1 - e.p0, second = e.p2 - e.p0;
+    float side = quick_max3(quick_max(abs(first), abs(second))), offset = quick_max3(abs(a));
+    float slack = 3.0f * OUTLINE_ERROR * side;
     aspect.centre = (a + b + c) * (1.0f / 3.0f);
     aspect.direction = direction_or_zero(aspect.centre);
     aspect.cosine_bound = 0.0f;
     aspect.solid_angle = 0.0f;
     vec3 heights = vec3(dot(s.normal, a), dot(s.normal, b), dot(s.normal, c));
-    float geometric_height
-        = max(max(dot(s.geometric_normal, a), dot(s.geometric_normal, b)), dot(s.geometric_normal, c));
-    float volume = -dot(a, cross(e.p1 - e.p0, e.p2 - e.p0));
-    if (max(max(heights.x, heights.y), heights.z) <= 0.0f || geometric_height <= 0.0f || volume <= 0.0f)
+    vec3 geometric_heights = vec3(dot(s.geometric_normal, a), dot(s.geometric_normal, b), dot(s.geometric_normal, c));
+    float volume = -dot(a, cross(first, second));
+    if (is_below(heights, -slack) || is_below(geometric_heights, -slack) || volume <= -6.0f * slack * side * offset)
         return aspect;
-    vec3 squares = max(vec3(dot(a, a), dot(b, b), dot(c, c)), vec3(1e-20f));
+    vec3 squares = quick_max(vec3(dot(a, a), dot(b, b), dot(c, c)), vec3(1e-20f));
     vec3 inverse = vec3(quick_inversesqrt(squares.x), quick_inversesqrt(squares.y), quick_inversesqrt(squares.z));
     vec3 lengths = squares * inverse;
-    aspect.solid_angle = triangle_solid_angle(a, b, c, lengths, volume);
+    aspect.solid_angle = 2.0f * quick_angle_above_axis(quick_max(volume, 1e-20f), solid_angle_denominator(a, b, c, lengths));
     vec3 cosines = heights * inverse;
     // The highest corner may lie lower than the middle of a triangle right above.
-    aspect.cosine_bound = max(max(max(cosines.x, cosines.y), cosines.z), dot(s.normal, aspect.direction));
+    aspect.cosine_bound = quick_max(quick_max3(cosines), dot(s.normal, aspect.direction));
     return aspect;
 }
 
@@ -239,7 +251,7 @@ EmitterAspect view_emitter_sphere(Surface s, Emitter e)
     float height = dot(s.normal, aspect.centre) + radius;
     if (radius <= 0.0f || height <= 0.0f || dot(s.geometric_normal, aspect.centre) + radius <= 0.0f)
         aspect.solid_angle = 0.0f;
-    aspect.cosine_bound = height * quick_inversesqrt(max(max(dot(aspect.centre, aspect.centre), radius * radius), 1e-20f));
+    aspect.cosine_bound = height * quick_inversesqrt(quick_max(quick_max(dot(aspect.centre, aspect.centre), radius * radius), 1e-20f));
     return aspect;
 }
 
@@ -260,7 +272,8 @@ float predict_reflectance(LightPredictor p, vec3 direction)
     float d = cosine * cosine * a2 + dot(across, across);
     float root2 = a2 + (1.0f - a2) * height * height;
     float roots = height * p.view_root + p.view_height * root2 * quick_inversesqrt(root2); // smith_root
-    float lobe = a2 * (0.5f / bsdf_pi) / (d * d * roots);
+    float inverse = quick_inversesqrt(d * d * roots);
+    float lobe = a2 * (0.5f / bsdf_pi) * inverse * inverse;
     float schlick = schlick_power(dot(s.view, h));
     float specular = mix(dielectric_fresnel(s, schlick), p.albedo + (1.0f - p.albedo) * schlick, s.metallic);
     return p.base * coupled_diffuse_share(s, height) + specular * lobe;
@@ -269,8 +282,8 @@ float predict_reflectance(LightPredictor p, vec3 direction)
 // Reflectance at the horizon-clipped centre, its lobes not too narrow, x solid angle x bounded cosine.
 float predict_by_chapter(LightPredictor p, EmitterAspect aspect)
 {
-    float reflectance = max(predict_reflectance(p, aspect.direction), 1e-4f);
-    return reflectance * aspect.solid_angle * clamp(aspect.cosine_bound, 1e-4f, 1.0f);
+    float reflectance = quick_max(predict_reflectance(p, aspect.direction), 1e-4f);
+    return reflectance * aspect.solid_angle * quick_clamp(aspect.cosine_bound, 1e-4f, 1.0f);
 }
 
 float predict_by_ltc(LightPredictor p, Emitter e, EmitterAspect aspect)
@@ -282,25 +295,27 @@ float predict_by_ltc(LightPredictor p, Emitter e, EmitterAspect aspect)
         shares = sphere_form_factors(p, aspect.centre, e.p1.x);
     // Transformed cosines end at a horizon of their own, GGX does not: about what it has far off its peak.
     float alpha = ggx_alpha(p.s.roughness);
-    float tail = ltc_tail * alpha * alpha * aspect.solid_angle * clamp(aspect.cosine_bound, 1e-2f, 1.0f);
-    return p.diffuse * max(shares.x, 1e-4f * aspect.solid_angle) + p.specular * max(shares.y, tail);
+    float tail = ltc_tail * alpha * alpha * aspect.solid_angle * quick_clamp(aspect.cosine_bound, 1e-2f, 1.0f);
+    return p.diffuse * quick_max(shares.x, 1e-4f * aspect.solid_angle) + p.specular * quick_max(shares.y, tail);
 }
 
 // The weight: reflected luminance, visibility unknown. 0 only where the emitter cannot contribute.
 float light_contribution(LightPredictor p, Emitter e)
 {
-    float radiance = luminance(emitted_radiance(e, p.s.position));
+    float radiance = luminance(e.radiance);
     if (!(radiance > 0.0f))
         return 0.0f;
     EmitterAspect aspect;
-    if (e.type == EMITTER_SPHERE)
+    if (e.type == EMITTER_SPHERE) {
+        radiance *= reach_window(e, p.s.position); // no triangle has a reach
         aspect = view_emitter_sphere(p.s, e);
-    else
+    } else {
         aspect = view_emitter_triangle(p.s, e);
-    if (!(aspect.solid_angle > 0.0f))
+    }
+    if (!(aspect.solid_angle > 0.0f) || !(radiance > 0.0f))
         return 0.0f;
     float share = p.weight == LIGHT_WEIGHT_LTC ? predict_by_ltc(p, e, aspect) : predict_by_chapter(p, aspect);
-    return clamp(radiance * share, least_contribution, greatest_contribution);
+    return quick_clamp(radiance * share, least_contribution, greatest_contribution);
 }
 
 #endif

@@ -61,7 +61,7 @@ ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, b
     vec3 origin = leave_surface(s.position, s.geometric_normal);
     vec3 to_light = point.point - origin;
     float distance = length(to_light);
-    Ray shadow = Ray(origin, to_light / distance, 0.0, distance - max(0.02, distance * 1e-4));
+    Ray shadow = Ray(origin, to_light / distance, 0.0, distance - quick_max(0.02, distance * 1e-4));
     if (!trace_visible(shadow, mask_shadow))
         return result;
     float density = point.pdf * light.probability;

@@ -23,7 +23,7 @@ struct HitSurface {
 vec3 leave_surface(vec3 position, vec3 normal)
 {
     vec3 size = abs(position);
-    return position + normal * (0.02 + 4e-6 * max(size.x, max(size.y, size.z)));
+    return position + normal * (0.02 + 4e-6 * quick_max3(size));
 }
 
 LightTables light_tables()
@@ -41,8 +41,8 @@ float choose_mip(Triangle triangle, vec2 picture_size, float cone_width, float c
     vec3 e1 = triangle.positions[1] - triangle.positions[0], e2 = triangle.positions[2] - triangle.positions[0];
     vec2 t1 = (triangle.uvs[1] - triangle.uvs[0]) * picture_size, t2 = (triangle.uvs[2] - triangle.uvs[0]) * picture_size;
     float texels = abs(t1.x * t2.y - t1.y * t2.x), area = length(cross(e1, e2));
-    float footprint = cone_width / max(abs(cosine), 0.1);
-    return 0.5 * log2(max(texels / max(area, 1e-12), 1e-12)) + log2(max(footprint, 1e-6));
+    float footprint = cone_width / quick_max(abs(cosine), 0.1);
+    return 0.5 * log2(quick_max(texels / quick_max(area, 1e-12), 1e-12)) + log2(quick_max(footprint, 1e-6));
 }
 
 // Liquids wobble: the picture is displaced along each axis by a sine of the other.
@@ -82,7 +82,7 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width)
     float mip = choose_mip(triangle, picture_size, cone_width, dot(s.geometric_normal, s.view));
     vec4 picture = textureLod(sampler2D(textures[nonuniformEXT(slot)], samplers[SAMPLER_REPEAT]), uv, mip);
 
-    s.albedo = clamp(picture.rgb * material.tint, 0.0, 1.0);
+    s.albedo = quick_clamp(picture.rgb * material.tint, 0.0, 1.0);
     s.roughness = material.roughness;
     s.metallic = material.metallic;
     result.surface = s;

@@ -20,6 +20,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "../shared/trace.h"
+#include "quick_floats.glsl"
 #include "ray.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer BvhWords64 { uint64_t words[]; };
@@ -124,16 +125,16 @@ bool bvh_test_triangle(uint64_t address, vec3 origin, vec3 direction, int t_min,
     float area = weights.x + weights.y + weights.z;
     int sign = floatBitsToInt(area) & 0x80000000;
     vec3 inward = intBitsToFloat(floatBitsToInt(weights) ^ sign);
-    float least = min(min(inward.x, inward.y), inward.z);
     // The slack is for rays at a corner, where the signs of several edges must agree.
-    if (!(least >= -bvh_edge_slack * abs(area)) || area == 0.0 || ((e.y >> BVH_RAY_MASK_SHIFT) & ray_mask) == 0u)
+    float least = -bvh_edge_slack * abs(area);
+    if (!(inward.x >= least && inward.y >= least && inward.z >= least) || area == 0.0 || ((e.y >> BVH_RAY_MASK_SHIFT) & ray_mask) == 0u)
         return false;
     vec3 normal = cross(p2 - p0, p0 - p1);
     float slope = dot(normal, direction);
     float t = dot(normal, p0) / slope;
     if (floatBitsToInt(t) <= t_min || floatBitsToInt(t) >= t_max) // NaN is above every t_max or below zero
         return false;
-    hit = RawHit(e.y & BVH_ID_MASK, t, max(weights.yz / area, 0.0), slope < 0.0 ? 1u : 0u);
+    hit = RawHit(e.y & BVH_ID_MASK, t, quick_max(weights.yz / area, vec2(0.0)), slope < 0.0 ? 1u : 0u);
     return true;
 }
 

@@ -30,10 +30,10 @@ Emitter fetch_Emitter(uint64_t table, uint index)
 
 EmitterOutline fetch_EmitterOutline(uint64_t table, uint index)
 {
-    WideWords words = WideWords(table + uint64_t(index * 40u));
-    vec2 a = load_float_pair(words, 0u), b = load_float_pair(words, 1u), c = load_float_pair(words, 2u),
-         d = load_float_pair(words, 3u), e = load_float_pair(words, 4u);
-    return EmitterOutline(vec3(a, b.x), vec3(b.y, c), vec3(d, e.x), e.y);
+    WideWords words = WideWords(table + uint64_t(index * 32u));
+    vec2 a = load_float_pair(words, 0u), b = load_float_pair(words, 1u);
+    uvec2 c = load_pair(words, 2u), d = load_pair(words, 3u);
+    return EmitterOutline(vec3(a, b.x), b.y, uint[4](c.x, c.y, d.x, d.y));
 }
 
 LightList fetch_LightList(uint64_t table, uint index)

@@ -65,14 +65,18 @@ struct Emitter {
 };
 VKPT_ASSERT_SIZE(Emitter, 64);
 
-// What the weight of an emitter depends on, its lightstyle applied: all that is read of the lights among which one is chosen.
+// What the weight of an emitter depends on, its lightstyle applied: all that is read of the lights among which one is chosen, and
+// therefore small. make_outline (ref_vkpt/lights/emitters.hpp) packs it, unpack_outline (lib/light_sampler.glsl) unpacks it.
 struct EmitterOutline {
-    vec3 p0; // p0, p1, p2 as in Emitter; of a sphere, p1.y is the reach
-    vec3 p1;
-    vec3 p2;
+    vec3 p0;
     float radiance; // luminance; its sign bit is set for spheres
+    // Triangle: six floats without their lowest bits, OUTLINE_BITS of p1 - p0 and p2.x - p0.x at the top of a word each; what the four
+    // words have left holds the highest 22 bits of p2.y - p0.y (words 0 and 1) and p2.z - p0.z. Sphere: radius and reach.
+    uint shape[4];
 };
-VKPT_ASSERT_SIZE(EmitterOutline, 40);
+VKPT_CONST uint OUTLINE_BITS = 21u; // of a float: relative error 2^-13
+VKPT_CONST float OUTLINE_ERROR = 1.220703125e-4f;
+VKPT_ASSERT_SIZE(EmitterOutline, 32);
 
 // The light list of a cluster is the concatenation of two ranges, ascending by emitter index and free of duplicates over both:
 // static_indices[first_static .. + static_count) and dynamic_indices[first_dynamic .. + dynamic_count).
