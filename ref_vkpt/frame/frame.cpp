@@ -33,6 +33,7 @@ Frame::Frame(Graphics& graphics, Workers& workers)
     , uploads_(graphics.gpu, MemoryKind::staging)
     , triangles_(graphics.gpu, MemoryKind::geometry, "triangles")
     , emitters_(graphics.gpu, MemoryKind::lights, "emitters")
+    , outlines_(graphics.gpu)
     , light_lists_(graphics.gpu, MemoryKind::lights, "light list headers")
     , dynamic_light_indices_(graphics.gpu, MemoryKind::lights, "dynamic light indices")
     , moving_writer_(workers)
@@ -67,7 +68,7 @@ Frame::~Frame() { vkDeviceWaitIdle(graphics_.device.handle); }
 void Frame::begin()
 {
     views_this_frame_ = 0;
-    lists_are_written_ = false;
+    map_is_in_use_ = false;
     uploads_.begin_frame(graphics_.slot());
     structures_.begin_frame(graphics_.slot());
     std::array<float, shared::LIGHT_LEVEL_LANES> lanes;

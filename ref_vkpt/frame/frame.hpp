@@ -5,6 +5,7 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/extension.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
+#include "ref_vkpt/frame/outline_upload.hpp"
 #include "ref_vkpt/frame/render_scale.hpp"
 #include "ref_vkpt/frame/uploads.hpp"
 #include "ref_vkpt/frame/view_history.hpp"
@@ -120,7 +121,7 @@ private:
     enum class Motion { unknown, known };
     void fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world, Motion motion);
     shared::BvhView write_moving(const MovingGeometry& moving, MovingTarget target);
-    void write_light_lists(shared::SceneView& out, const LightLists& lights);
+    void write_light_lists(shared::SceneView& out, const LightLists& lights, bool keeps);
     void fill_structures(
         shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target);
     uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
@@ -159,9 +160,11 @@ private:
 
     Graphics& graphics_;
     FrameUploads uploads_;
+    // Of the frame's first view of a map.
     PrefixedUpload triangles_, emitters_;
-    KeptUpload light_lists_, dynamic_light_indices_; // of the frame's first view of the world
-    bool lists_are_written_ = false;
+    OutlineUpload outlines_;
+    KeptUpload light_lists_, dynamic_light_indices_;
+    bool map_is_in_use_ = false; // in this frame
     MovingWriter moving_writer_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;

@@ -4,7 +4,6 @@
 #include "ref_vkpt/lights/cluster_finder.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -206,32 +205,6 @@ shared::Emitter make_dynamic_light(glm::vec3 origin, glm::vec3 colour, float int
     emitter.radiance = glm::max(colour, glm::vec3(0)) * (radiant_intensity / (pi * radius * radius));
     emitter.reach = intensity;
     return emitter;
-}
-
-namespace {
-
-// The highest `bits` of a float's, rounded.
-uint32_t shorten_float(float value, uint32_t bits)
-{
-    const uint32_t half = 1u << (31 - bits);
-    return (std::bit_cast<uint32_t>(value) + half) & (~0u << (32 - bits));
-}
-
-} // namespace
-
-shared::EmitterOutline make_outline(const shared::Emitter& emitter, float lightstyle)
-{
-    // As luminance() of shaders/lib/bsdf.glsl.
-    const float luminance = std::abs(glm::dot(emitter.radiance * lightstyle, glm::vec3(0.2126f, 0.7152f, 0.0722f)));
-    if (emitter.type == shared::EMITTER_SPHERE)
-        return { emitter.p0, -luminance,
-            { std::bit_cast<uint32_t>(emitter.p1.x), std::bit_cast<uint32_t>(emitter.reach), 0, 0 } };
-    const glm::vec3 first = emitter.p1 - emitter.p0, second = emitter.p2 - emitter.p0;
-    constexpr uint32_t bits = shared::OUTLINE_BITS, more_bits = 22, left = (1u << (32 - bits)) - 1;
-    const uint32_t y = shorten_float(second.y, more_bits), z = shorten_float(second.z, more_bits);
-    return { emitter.p0, luminance,
-        { shorten_float(first.x, bits) | y >> bits, shorten_float(first.y, bits) | (y >> (32 - more_bits) & left),
-            shorten_float(first.z, bits) | z >> bits, shorten_float(second.x, bits) | (z >> (32 - more_bits) & left) } };
 }
 
 } // namespace vkpt

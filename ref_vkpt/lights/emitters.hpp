@@ -89,7 +89,4 @@ shared::Emitter make_dynamic_light(glm::vec3 origin, glm::vec3 colour, float int
 std::vector<shared::Emitter> extract_point_lights(
     const formats::Bsp& bsp, const EmissionScales& scales, std::vector<std::string>& messages);
 
-// `lightstyle`: its scale.
-shared::EmitterOutline make_outline(const shared::Emitter& emitter, float lightstyle);
-
 } // namespace vkpt

@@ -66,7 +66,7 @@ struct Emitter {
 VKPT_ASSERT_SIZE(Emitter, 64);
 
 // What the weight of an emitter depends on, its lightstyle applied: all that is read of the lights among which one is chosen, and
-// therefore small. make_outline (ref_vkpt/lights/emitters.hpp) packs it, unpack_outline (lib/light_sampler.glsl) unpacks it.
+// therefore small. make_outline (ref_vkpt/lights/outlines.hpp) packs it, unpack_outline (lib/light_sampler.glsl) unpacks it.
 struct EmitterOutline {
     vec3 p0;
     float radiance; // luminance; its sign bit is set for spheres

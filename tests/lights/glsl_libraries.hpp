@@ -3,7 +3,7 @@
 // part: its functions are not inline, hence the anonymous namespace.
 #pragma once
 
-#include "ref_vkpt/lights/emitters.hpp"
+#include "ref_vkpt/lights/outlines.hpp"
 #include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
 #include "shaders/shared/ltc.h"

@@ -272,7 +272,8 @@ protected:
         const Radiance picture = session_->accumulate(frames);
         for (int y = 0; y < picture.height; y++)
             for (int x = 0; x < picture.width; x++)
-                if (sees_pool({ x, y }) && sees_pool({ x + 1, y }) && sees_pool({ x, y + 1 }) && sees_pool({ x + 1, y + 1 }))
+                if (sees_pool({ x, y }) && sees_pool({ x + 1, y }) && sees_pool({ x, y + 1 })
+                    && sees_pool({ x + 1, y + 1 }))
                     result.push_back(luminance(picture.at(x, y)));
         return result;
     }
@@ -352,6 +353,49 @@ TEST_F(Visibility, PreviewLeavesTheBackground)
     EXPECT_GT(background, 500);
     // Lit, too: some of it is bright.
     EXPECT_GT(picture.at(picture.width / 2, picture.height / 2).r, 40);
+}
+
+// The player's model in a menu, over the game that goes on behind it.
+TEST_F(Visibility, PreviewLeavesTheWorldOfItsFrame)
+{
+    MapBuilder map;
+    add_floor(map);
+    add_lamp(map);
+    start(map);
+    session_->look({ -60, 0, 60 }, { 0, 0, 10 });
+    engine::RefDef world = session_->view;
+    const std::array things { make_entity(cube_, { 0, 10, 10 }), make_entity(cube_, { 10, -20, 10 }) };
+    const engine::DynamicLight light { { 20, 0, 40 }, { 1, 1, 1 }, 200 };
+    world.entities = things.data();
+    world.entity_count = int32_t(things.size());
+    world.dlights = &light;
+    world.dlight_count = 1;
+    session_->look({ 0, 0, 0 }, { 1, 0, 0 }, 60);
+    const engine::Entity cube = make_entity(cube_, { 50, 0, 0 });
+    engine::RefDef preview = session_->view;
+    preview.flags = engine::RDF_NOWORLDMODEL;
+    preview.lightstyles = nullptr;
+    preview.entities = &cube;
+    preview.entity_count = 1;
+    preview.x = preview.y = 0;
+    preview.width = 16;
+    preview.height = 12;
+    const engine::Exports8& module = session_->module();
+    formats::Image pictures[2];
+    for (int i = 0; i < 2; i++) {
+        module.begin_frame(0);
+        module.render_frame(&world);
+        if (i == 1)
+            module.render_frame(&preview);
+        module.end_frame();
+        pictures[i] = session_->capture_display();
+    }
+    int different = 0;
+    for (int y = 0; y < pictures[0].height; y++)
+        for (int x = 0; x < pictures[0].width; x++)
+            if (x >= preview.width || y >= preview.height)
+                different += pictures[0].at(x, y) != pictures[1].at(x, y);
+    EXPECT_EQ(different, 0);
 }
 
 } // namespace

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/lights/outlines.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace vkpt {
+
+namespace {
+
+// The highest `bits` of a float's, rounded.
+uint32_t shorten_float(float value, uint32_t bits)
+{
+    const uint32_t half = 1u << (31 - bits);
+    return (std::bit_cast<uint32_t>(value) + half) & (~0u << (32 - bits));
+}
+
+} // namespace
+
+shared::EmitterOutline make_outline(const shared::Emitter& emitter, float lightstyle)
+{
+    // As luminance() of shaders/lib/bsdf.glsl.
+    const float luminance = std::abs(glm::dot(emitter.radiance * lightstyle, glm::vec3(0.2126f, 0.7152f, 0.0722f)));
+    if (emitter.type == shared::EMITTER_SPHERE)
+        return { emitter.p0, -luminance,
+            { std::bit_cast<uint32_t>(emitter.p1.x), std::bit_cast<uint32_t>(emitter.reach), 0, 0 } };
+    const glm::vec3 first = emitter.p1 - emitter.p0, second = emitter.p2 - emitter.p0;
+    constexpr uint32_t bits = shared::OUTLINE_BITS, more_bits = 22, left = (1u << (32 - bits)) - 1;
+    const uint32_t y = shorten_float(second.y, more_bits), z = shorten_float(second.z, more_bits);
+    return { emitter.p0, luminance,
+        { shorten_float(first.x, bits) | y >> bits, shorten_float(first.y, bits) | (y >> (32 - more_bits) & left),
+            shorten_float(first.z, bits) | z >> bits,
+            shorten_float(second.x, bits) | (z >> (32 - more_bits) & left) } };
+}
+
+OutlineWriter::OutlineWriter(std::span<const shared::Emitter> emitters)
+{
+    for (uint32_t i = 0; i < emitters.size(); i++) {
+        const size_t style = emitters[i].lightstyle;
+        emitters_of_style_.resize(std::max(emitters_of_style_.size(), style + 1));
+        emitters_of_style_[style].push_back(i);
+    }
+}
+
+size_t OutlineWriter::update(shared::EmitterOutline* target, std::vector<float>& held,
+    std::span<const shared::Emitter> emitters, std::span<const float> scales) const
+{
+    size_t written = 0;
+    for (size_t style = 0; style < emitters_of_style_.size(); style++) {
+        if (style < held.size() && held[style] == scales[style])
+            continue;
+        for (const uint32_t i : emitters_of_style_[style])
+            target[i] = make_outline(emitters[i], scales[style]);
+        written += emitters_of_style_[style].size();
+    }
+    held.assign(scales.begin(), scales.end());
+    return written;
+}
+
+void write_outlines(shared::EmitterOutline* target, size_t count, std::span<const shared::Emitter> emitters,
+    std::span<const float> scales)
+{
+    const auto outline_of = [&](const shared::Emitter& e) { return make_outline(e, scales[e.lightstyle]); };
+    auto* const end = std::ranges::transform(emitters, target, outline_of).out;
+    std::fill(end, target + count, shared::EmitterOutline {});
+}
+
+} // namespace vkpt
