@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene_contents.hpp"
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/gtc/constants.hpp>
 #include <map>
@@ -33,7 +34,7 @@ SceneTriangle make_triangle(const shared::Triangle& from, uint32_t mask)
         to.uvs[corner][1] = from.uvs[corner].y;
     }
     to.material = from.material;
-    to.emitter = from.emitter;
+    to.emitter = std::max(from.emitter, shared::EMITTER_UNLISTED);
     to.ray_mask = mask;
     return to;
 }

@@ -31,6 +31,8 @@ float limit_radiance(vec3 radiance)
 vec3 count_emission(BouncePath path, BsdfSample bsdf, HitSurface hit, Random pixel_random)
 {
     bool is_sky = (hit.flags & MATERIAL_SKY) != 0u;
+    if (hit.emitter == EMITTER_DIM)
+        return vec3(0.0);
     if (hit.emitter < 0) {
         // Not in the lists, so that only a bounce finds it.
         if (path.vertex >= uint(frame.cvars.pt_bounces))

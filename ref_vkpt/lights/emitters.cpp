@@ -125,6 +125,47 @@ void report_unused(const Bsp& bsp, const AverageColour& colour, std::vector<std:
 
 } // namespace
 
+std::vector<FaceTriangle> triangles_of_face(const Bsp& bsp, size_t face, const PictureColour& picture)
+{
+    const glm::vec3 normal = bsp.face_normal(face);
+    std::vector<FaceTriangle> triangles;
+    const auto append = [&](const std::vector<glm::vec3>& outline, int part, bool in_pieces) {
+        for (const auto& [a, b, c] : triangulate(outline, normal))
+            triangles.push_back({ { outline[a], outline[b], outline[c] }, part, in_pieces });
+    };
+    if (classify(bsp.texinfos[bsp.faces[face].texinfo]) == Emission::face)
+        for (const FacePiece& piece : cut_face(bsp, face, picture.parts, picture.size))
+            append(piece.outline, piece.part, true);
+    if (triangles.empty())
+        append(face_outline(bsp, face), 0, false);
+    return triangles;
+}
+
+namespace {
+
+float luminance(glm::vec3 colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+float area_of(const FaceTriangle& t)
+{
+    return 0.5f * glm::length(glm::cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
+}
+
+// What the parts' colours are multiplied by, so that together they send what the whole face would if it had its average
+// radiance.
+float scale_of_parts(
+    const std::vector<FaceTriangle>& triangles, const std::vector<BrightPart>& parts, glm::vec3 average_radiance)
+{
+    float of_face = 0, of_parts = 0;
+    for (const FaceTriangle& t : triangles) {
+        of_face += area_of(t) * luminance(average_radiance);
+        if (t.part != FacePiece::dark)
+            of_parts += area_of(t) * luminance(parts[size_t(t.part)].average);
+    }
+    return of_parts > 0 ? of_face / of_parts : 0;
+}
+
+} // namespace
+
 std::vector<shared::Emitter> emitters_of_face(
     const Bsp& bsp, size_t face, const AverageColour& colour, const EmissionScales& scales)
 {
@@ -135,16 +176,21 @@ std::vector<shared::Emitter> emitters_of_face(
     const glm::vec3 radiance = average_radiance(texinfo, colour, scales);
     if (!(max_component(radiance) > 0) && emission != Emission::sky)
         return {};
-    const std::vector<glm::vec3> outline = face_outline(bsp, face);
+    const PictureColour picture = colour(texinfo.texture);
+    const std::vector<FaceTriangle> triangles = triangles_of_face(bsp, face, picture);
+    const bool in_pieces = !triangles.empty() && triangles[0].in_pieces;
+    const float scale = in_pieces ? scale_of_parts(triangles, picture.parts, radiance) : 0;
     std::vector<shared::Emitter> emitters;
-    for (const std::array<uint32_t, 3>& t : triangulate_face(bsp, face)) {
+    for (const FaceTriangle& triangle : triangles) {
+        if (triangle.part == FacePiece::dark)
+            continue;
         shared::Emitter emitter {};
-        emitter.p0 = outline[t[0]];
-        emitter.p1 = outline[t[1]];
-        emitter.p2 = outline[t[2]];
+        emitter.p0 = triangle.corners[0];
+        emitter.p1 = triangle.corners[1];
+        emitter.p2 = triangle.corners[2];
         emitter.type = emitter_type(texinfo);
-        emitter.area = 0.5f * glm::length(glm::cross(emitter.p1 - emitter.p0, emitter.p2 - emitter.p0));
-        emitter.radiance = radiance;
+        emitter.area = area_of(triangle);
+        emitter.radiance = in_pieces ? scale * picture.parts[size_t(triangle.part)].average : radiance;
         emitters.push_back(emitter);
     }
     return emitters;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/bsp.hpp"
+#include "ref_vkpt/lights/face_pieces.hpp"
 #include "shaders/shared/scene.h"
 
 #include <array>
@@ -42,6 +43,8 @@ struct PictureColour {
     }
     glm::vec3 average; // linear RGB 0..1
     float strength; // of the light: missing_picture_strength where `average` is that of a stand-in
+    std::vector<BrightPart> parts; // where it shines; none: all over
+    glm::ivec2 size { 64 }; // texels of texinfo space
 };
 // The classic light compiler counts a missing picture as half as bright as any that is there.
 inline constexpr float missing_picture_strength = 0.5f;
@@ -51,32 +54,43 @@ using AverageColour = std::function<PictureColour(const std::string& texture)>;
 struct StaticEmitters {
     // Spatially coherent: in the order of BSP leaves, so that strided subsets are representative.
     std::vector<shared::Emitter> emitters;
-    // Where the triangles of face f went: emitters[first_of_face[f] .. first_of_face[f] + count_of_face[f]), in the
-    // order of triangulate_face; -1: none.
+    // Where the shining triangles of face f went: emitters[first_of_face[f] .. first_of_face[f] + count_of_face[f]), in
+    // the order of triangles_of_face; -1: none.
     std::vector<int32_t> first_of_face;
     std::vector<uint32_t> count_of_face;
     std::vector<glm::vec3> face_emission; // what Material::emission has to be for that face's texinfo (per texinfo)
     std::vector<std::string> messages; // what could not be used, by name
 };
 
-// A face's outline where it is drawn, used for geometry and emitters alike: Bsp::face_polygon, but for liquids that stand
-// `liquid_lift` in front of their plane. The surface of a liquid is two faces in one plane that look away from each other; apart,
-// a ray meets the one whose front it sees, and no chance of rounding decides which. Less than the distance from which rays
-// leave a surface (leave_surface in shaders/lib/surfaces.glsl): what passes one of the two has passed both.
+// A face's outline where it is drawn, used for geometry and emitters alike: Bsp::face_polygon, but for liquids that
+// stand `liquid_lift` in front of their plane. The surface of a liquid is two faces in one plane that look away from
+// each other; apart, a ray meets the one whose front it sees, and no chance of rounding decides which. Less than the
+// distance from which rays leave a surface (leave_surface in shaders/lib/surfaces.glsl): what passes one of the two has
+// passed both.
 inline constexpr float liquid_lift = 1.0f / 128;
 std::vector<glm::vec3> face_outline(const formats::Bsp& bsp, size_t face);
 
-// Every face's triangles: indices into face_outline(face), front as in
-// Triangle. All corners of the outline are used, also those on straight edges (neighbours may end there), as far as
-// triangles with an area allow it. Slivers of zero area are left out.
-std::vector<std::array<uint32_t, 3>> triangulate_face(const formats::Bsp& bsp, size_t face);
+// Cuts a convex outline: indices into it, front as in Triangle, `normal` being the face's. All corners are used, also
+// those on straight edges (neighbours may end there), as far as triangles with an area allow it. Slivers of zero area
+// are left out.
+std::vector<std::array<uint32_t, 3>> triangulate(const std::vector<glm::vec3>& outline, glm::vec3 normal);
+
+// Every face's triangles, used for geometry and emitters alike. Where the face emits and its picture has bright parts,
+// those emit all of the face's light, in their colours.
+struct FaceTriangle {
+    std::array<glm::vec3, 3> corners;
+    int part; // FacePiece::dark, or whose light: an index of the picture's parts; 0 also where the face shines as a
+              // whole
+    bool in_pieces; // the face is cut
+};
+std::vector<FaceTriangle> triangles_of_face(const formats::Bsp& bsp, size_t face, const PictureColour& picture);
 
 // Emitters of the world model (faces of models[0], and entities). Brush models: emitters_of_brush_model, model space.
 StaticEmitters extract_emitters(const formats::Bsp& bsp, const AverageColour& colour, const EmissionScales& scales);
 std::vector<shared::Emitter> emitters_of_brush_model(
     const formats::Bsp& bsp, size_t model, const AverageColour& colour, const EmissionScales& scales);
 
-// The triangles of one face as emitters, in the order of triangulate_face; empty: the face emits nothing.
+// The shining triangles of one face as emitters, in the order of triangles_of_face; empty: the face emits nothing.
 std::vector<shared::Emitter> emitters_of_face(
     const formats::Bsp& bsp, size_t face, const AverageColour& colour, const EmissionScales& scales);
 

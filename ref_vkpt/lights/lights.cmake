@@ -4,6 +4,7 @@ add_library(vkpt_lights STATIC
     ${CMAKE_CURRENT_LIST_DIR}/cluster_finder.cpp
     ${CMAKE_CURRENT_LIST_DIR}/dynamic_lights.cpp
     ${CMAKE_CURRENT_LIST_DIR}/emitters.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/face_pieces.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_lists.cpp
     ${CMAKE_CURRENT_LIST_DIR}/ltc_table.cpp
     ${CMAKE_CURRENT_LIST_DIR}/outlines.cpp

@@ -86,9 +86,8 @@ std::vector<glm::vec3> face_outline(const formats::Bsp& bsp, size_t face)
     return outline;
 }
 
-Triangles triangulate_face(const formats::Bsp& bsp, size_t face)
+Triangles triangulate(const std::vector<glm::vec3>& outline, glm::vec3 normal)
 {
-    const std::vector<glm::vec3> outline = face_outline(bsp, face);
     if (outline.size() < 3)
         return {};
     Triangles triangles;
@@ -97,7 +96,6 @@ Triangles triangulate_face(const formats::Bsp& bsp, size_t face)
     else
         triangles = cut_fan(outline.size());
 
-    const glm::vec3 normal = bsp.face_normal(face);
     Triangles kept;
     for (std::array<uint32_t, 3> t : triangles) {
         const glm::vec3 doubled_area = glm::cross(outline[t[1]] - outline[t[0]], outline[t[2]] - outline[t[0]]);

@@ -87,9 +87,9 @@ void write_brush(const BrushMesh& mesh, const std::vector<Float4>& points, const
         if (turned)
             turn_normals(triangle.normals, transform);
         triangle.material = look.materials[triangle.material];
-        triangle.emitter = triangle.emitter >= 0 && look.first_emitter >= 0
-            ? look.geometry.emitter_at(triangle.emitter + look.first_emitter)
-            : -1;
+        if (triangle.emitter >= 0)
+            triangle.emitter = look.first_emitter >= 0 ? look.geometry.emitter_at(triangle.emitter + look.first_emitter)
+                                                       : shared::EMITTER_UNLISTED;
         triangle.cluster = -1;
         target.triangles[slot] = triangle;
         if (target.records)

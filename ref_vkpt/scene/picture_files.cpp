@@ -90,13 +90,13 @@ uint8_t encoded_of(float linear)
     return uint8_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
 }
 
+} // namespace
+
 glm::vec3 linear_color(formats::Rgba8 pixel)
 {
     const std::array<float, 256>& table = linear_table();
     return { table[pixel.r], table[pixel.g], table[pixel.b] };
 }
-
-} // namespace
 
 PictureFiles::PictureFiles(LoadFile load_file, Report report)
     : load_file_(std::move(load_file))

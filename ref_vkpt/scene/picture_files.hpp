@@ -60,6 +60,9 @@ private:
 // Entries that stand in for a missing game palette: row 0 is grey, the others hues, dark to light.
 formats::Palette make_neutral_palette();
 
+// Radiance for an sRGB colour, 0..1.
+glm::vec3 linear_color(formats::Rgba8 pixel);
+
 struct PictureMeasure {
     glm::vec3 average { 0 }; // linear RGB, weighted by alpha; black where nothing is opaque
     float opaque_fraction = 1; // share of pixels that pass an alpha test at one half

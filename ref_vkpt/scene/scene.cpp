@@ -28,18 +28,24 @@ bool ends_with(std::string_view name, std::string_view ending)
 void list_lights(SceneSnapshot& snapshot, World& world)
 {
     const CpuTimer timer("cpu lights");
-    snapshot.moving.move_emitters(int(world.models[0].emitters.size()), world.dynamic_lights.arrange(snapshot.emitters));
+    snapshot.moving.move_emitters(
+        int(world.models[0].emitters.size()), world.dynamic_lights.arrange(snapshot.emitters));
     world.light_lists.update(snapshot.emitters);
 }
 
 WorldPicture describe(const Texture& texture)
 {
-    return { texture.slot, texture.width, texture.height, texture.average, texture.has_alpha, texture.missing };
+    return { texture.slot, texture.width, texture.height, texture.average, texture.has_alpha, texture.missing,
+        texture.parts };
 }
 
 } // namespace
 
-Scene::Scene(TextureStore& textures) : textures_(textures) { models_.reserve(max_models); }
+Scene::Scene(TextureStore& textures)
+    : textures_(textures)
+{
+    models_.reserve(max_models);
+}
 
 void Scene::begin_registration(std::string_view map)
 {
@@ -184,8 +190,7 @@ void Scene::end_registration()
 shared::Sky Scene::make_sky(float time) const
 {
     shared::Sky sky {};
-    const glm::mat4 turn
-        = glm::rotate(glm::mat4(1), glm::radians(sky_.degrees_per_second * time), sky_.axis);
+    const glm::mat4 turn = glm::rotate(glm::mat4(1), glm::radians(sky_.degrees_per_second * time), sky_.axis);
     for (int i = 0; i < 3; i++)
         sky.rotation[i] = glm::vec3(turn[i]);
     const float scale = sky_.scale * cvars::values().pt_sky_scale;
@@ -228,11 +233,13 @@ void Scene::print_models() const
             continue;
         count++;
         if (const auto* mesh = std::get_if<Model::Mesh>(&model.shape))
-            engine::print("{:6} triangles {:4} frames  {}", mesh->md2->triangle_count(), mesh->md2->frame_count(), model.name);
+            engine::print(
+                "{:6} triangles {:4} frames  {}", mesh->md2->triangle_count(), mesh->md2->frame_count(), model.name);
         else if (const auto* brush = std::get_if<Model::Brush>(&model.shape))
             engine::print("{:6} triangles    1 frame   {}", world_->models[brush->index].triangles.size(), model.name);
         else
-            engine::print("     2 triangles {:4} frames  {}", std::get<Model::Sprite>(model.shape).sp2.frames.size(), model.name);
+            engine::print(
+                "     2 triangles {:4} frames  {}", std::get<Model::Sprite>(model.shape).sp2.frames.size(), model.name);
     }
     engine::print("{} models", count);
 }

@@ -3,6 +3,7 @@
 
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/scene/bright_parts.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -171,6 +172,8 @@ void TextureStore::upload(Texture& texture, const formats::Image& pixels)
     texture.height = pixels.height;
     const PictureMeasure measure = measure_picture(pixels);
     texture.average = measure.average;
+    if (texture.use == TextureUse::wall)
+        texture.parts = find_bright_parts(pixels);
     texture.opaque_fraction = measure.opaque_fraction;
     texture.has_alpha = measure.has_alpha;
 }

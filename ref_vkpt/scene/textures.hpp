@@ -2,6 +2,7 @@
 // The pictures on the device: found by name, uploaded once, each with a slot in the bindless table. Slot 0 is white.
 #pragma once
 
+#include "ref_vkpt/lights/face_pieces.hpp"
 #include "ref_vkpt/scene/picture_files.hpp"
 #include "ref_vkpt/vulkan/bindings.hpp"
 #include "ref_vkpt/vulkan/uploader.hpp"
@@ -25,6 +26,7 @@ struct Texture {
     uint32_t slot = 0; // bindless index
     int width = 0, height = 0; // of the original picture
     glm::vec3 average { 1 }; // see PictureMeasure
+    std::vector<BrightPart> parts; // of walls
     float opaque_fraction = 1;
     bool has_alpha = false;
     bool missing = false; // grey in place of a wall that was not found

@@ -74,6 +74,14 @@ struct FaceContext {
     bool is_world;
 };
 
+PictureColour colour_of(const WorldPicture& picture)
+{
+    PictureColour colour(picture.average, picture.missing ? missing_picture_strength : 1.0f);
+    colour.parts = picture.parts;
+    colour.size = { picture.width, picture.height };
+    return colour;
+}
+
 // `first_emitter`: where this face's emitters start in the model's list, -1: it has none.
 void append_face(MapGeometry& geometry, const FaceContext& context, size_t face, int first_emitter)
 {
@@ -81,18 +89,19 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
     const uint32_t texinfo_index = bsp.faces[face].texinfo;
     const BspTexinfo& texinfo = bsp.texinfos[texinfo_index];
     const WorldPicture& picture = context.pictures[texinfo_index];
-    const std::vector<glm::vec3> outline = face_outline(bsp, face);
     const uint32_t normal = encode_octahedral(bsp.face_normal(face));
-    for (const auto& corners : triangulate_face(bsp, face)) {
+    for (const FaceTriangle& part : triangles_of_face(bsp, face, colour_of(picture))) {
         shared::Triangle triangle {};
         for (int i = 0; i < 3; i++) {
-            triangle.positions[i] = outline[corners[size_t(i)]];
-            triangle.uvs[i] = bsp.texture_coordinates(texinfo, triangle.positions[i])
-                / glm::vec2(picture.width, picture.height);
+            triangle.positions[i] = part.corners[size_t(i)];
+            triangle.uvs[i]
+                = bsp.texture_coordinates(texinfo, triangle.positions[i]) / glm::vec2(picture.width, picture.height);
             triangle.normals[i] = normal;
         }
         triangle.material = texinfo_index;
-        triangle.emitter = first_emitter >= 0 ? first_emitter++ : -1;
+        triangle.emitter = shared::EMITTER_UNLISTED;
+        if (first_emitter >= 0)
+            triangle.emitter = part.part == FacePiece::dark ? shared::EMITTER_DIM : first_emitter++;
         triangle.cluster = context.is_world ? std::max(context.face_clusters[face], -1) : -1;
         geometry.triangles.push_back(triangle);
         geometry.masks.push_back(triangle_mask(texinfo));
@@ -227,8 +236,7 @@ std::unique_ptr<World> load_world(
     }
     const AverageColour colour = [&](const std::string& texture) -> PictureColour {
         const auto entry = by_name.find(texture);
-        const WorldPicture picture = entry != by_name.end() ? entry->second : WorldPicture();
-        return PictureColour(picture.average, picture.missing ? missing_picture_strength : 1.0f);
+        return colour_of(entry != by_name.end() ? entry->second : WorldPicture());
     };
     StaticEmitters emitters = extract_emitters(world.bsp, colour, scales);
     world.emission = emitters.face_emission;
@@ -244,7 +252,8 @@ std::unique_ptr<World> load_world(
             make_brush_geometry({ world.bsp, world.pictures, face_clusters, false }, i, colour, scales));
         world.brush_meshes.push_back(make_brush_mesh(geometry.triangles, geometry.masks));
     }
-    world.bvh_future = std::async(std::launch::async, [&geometry = world.models[0]] { return build_world_bvh(geometry); });
+    world.bvh_future
+        = std::async(std::launch::async, [&geometry = world.models[0]] { return build_world_bvh(geometry); });
     world.light_lists.build(world.bsp, world.models[0].emitters);
     return made;
 }

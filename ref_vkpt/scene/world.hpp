@@ -39,6 +39,7 @@ struct WorldPicture {
     glm::vec3 average { 0.5f };  // linear
     bool has_alpha = false;
     bool missing = false; // a stand-in
+    std::vector<BrightPart> parts;
 };
 using FindWorldPicture = std::function<WorldPicture(const std::string& texture)>;
 

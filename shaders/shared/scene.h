@@ -17,13 +17,17 @@ VKPT_CONST uint MASK_OWN_BODY = 16u;    // the player's own model: seen by all b
 VKPT_CONST uint MASK_SKY = 32u;         // sky faces
 VKPT_CONST uint MASK_ALL = 0xffu;
 
+// Triangle::emitter: emits nothing, or is not in the light lists; is seen to shine, but other emitters of its face send its light.
+VKPT_CONST int EMITTER_UNLISTED = -1;
+VKPT_CONST int EMITTER_DIM = -2;
+
 // One entry per triangle id (the id that a trace returns).
 struct Triangle {
     vec3 positions[3]; // cross(p1 - p0, p2 - p0) points to the front
     vec2 uvs[3];       // picture coordinates, 1 = one picture width
     uint normals[3];   // shading normals, octahedral, 2 x 16 bit snorm
     uint material;     // index into the material table
-    int emitter;       // index into the emitter table, -1: emits nothing or is not in the light lists
+    int emitter;       // index into the emitter table, or EMITTER_UNLISTED, EMITTER_DIM
     int cluster;       // PVS cluster if all of it lies in one, else -1: look it up by position
     uint padding;      // to 8 bytes, for 64-bit loads
 };

@@ -43,7 +43,7 @@ TEST(Emitters, FacesBecomeTriangles)
             continue;
         }
         ASSERT_EQ(emitters.count_of_face[face], 2u);
-        const auto triangles = triangulate_face(bsp, face);
+        const auto triangles = triangulate(bsp.face_polygon(face), bsp.face_normal(face));
         for (uint32_t i = 0; i < 2; i++) {
             const shared::Emitter& e = emitters.emitters[size_t(emitters.first_of_face[face]) + i];
             EXPECT_EQ(e.p0, bsp.face_polygon(face)[triangles[i][0]]);

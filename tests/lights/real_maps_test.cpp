@@ -55,7 +55,7 @@ struct SurfacePoints {
         for (int32_t i = 0; i < bsp.models[0].face_count; i++) {
             const size_t face = size_t(bsp.models[0].first_face + i);
             const std::vector<glm::vec3> outline = bsp.face_polygon(face);
-            for (const auto& t : triangulate_face(bsp, face)) {
+            for (const auto& t : triangulate(outline, bsp.face_normal(face))) {
                 triangles.push_back({ outline[t[0]], outline[t[1]], outline[t[2]] });
                 normals.push_back(bsp.face_normal(face));
             }

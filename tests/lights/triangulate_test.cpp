@@ -25,7 +25,7 @@ Cut cut_outline(const Outline& outline, glm::vec3 normal)
     const size_t face = add_face(bsp, outline, normal, 0);
     const Outline polygon = bsp.face_polygon(face);
     Cut cut;
-    cut.triangles = triangulate_face(bsp, face);
+    cut.triangles = triangulate(polygon, bsp.face_normal(face));
     for (const auto& t : cut.triangles) {
         const glm::vec3 across = glm::cross(polygon[t[1]] - polygon[t[0]], polygon[t[2]] - polygon[t[0]]);
         cut.area += 0.5f * glm::length(across);
