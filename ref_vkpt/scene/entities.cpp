@@ -66,6 +66,8 @@ private:
     void add_sprite(const Entity& entity, const Model::Sprite& sprite);
     void add_beam(const Entity& entity);
     void add_null_model(const Entity& entity);
+    void add_glow(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, float area, const shared::Material& material);
+    void add_shell_light(glm::vec3 centre, const shared::Material& material);
     shared::Material mesh_material(const Entity& entity, const Model& model, const Model::Mesh& mesh) const;
     void add_md2(const Model::Mesh& mesh, const Md2Pose& pose, const shared::Material& material, uint32_t mask);
     Squeeze fit_weapon_fov() const;
@@ -158,8 +160,7 @@ void SnapshotBuilder::add_brush(const Entity& entity, const Model::Brush& brush)
     snapshot_.has_alpha_test |= geometry.has_alpha_test && !translucent;
 }
 
-shared::Material SnapshotBuilder::mesh_material(
-    const Entity& entity, const Model& model, const Model::Mesh& mesh) const
+shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Model& model, const Model::Mesh& mesh) const
 {
     shared::Material material = plain_material();
     const Texture* skin = static_cast<const Texture*>(entity.skin);
@@ -200,8 +201,9 @@ void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const M
         return;
     Md2Pose pose;
     pose.backlerp = entity.backlerp;
-    pose.transform = md2_transform(
-        blend_origins(to_vec3(entity.origin), to_vec3(entity.previous_origin), entity.backlerp), to_vec3(entity.angles));
+    pose.transform
+        = md2_transform(blend_origins(to_vec3(entity.origin), to_vec3(entity.previous_origin), entity.backlerp),
+            to_vec3(entity.angles));
     pose.frame = entity.frame;
     pose.old_frame = entity.previous_frame;
     if (is_weapon && cvars.hand == hand_left)
@@ -243,10 +245,40 @@ void SnapshotBuilder::add_shell(const Entity& entity, const Model::Mesh& mesh, M
     material.opacity = shell_opacity;
     material.flags = shared::MATERIAL_TRANSLUCENT;
     add_md2(mesh, pose, material, entity_mask(entity, material));
+    if (!(entity.flags & RF_WEAPONMODEL) && mesh.md2->can_pose(pose)) // the weapon's is the player's once more
+        add_shell_light(mesh.md2->bounds(pose).centre(), material);
 }
 
-// The view weapon is made for a field of view of its own (r_gunfov, at 4:3): seen from the eye it is squeezed so that it
-// looks as it would there.
+// The light of a surface that rays other than the camera's pass: light sampling alone accounts for it.
+void SnapshotBuilder::add_glow(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, float area, const shared::Material& material)
+{
+    shared::Emitter emitter {};
+    emitter.type = shared::EMITTER_VEIL;
+    emitter.p0 = p0;
+    emitter.p1 = p1;
+    emitter.p2 = p2;
+    emitter.area = area;
+    emitter.lightstyle = material.lightstyle;
+    emitter.radiance = material.emission * material.opacity;
+    if (emitter.radiance != glm::vec3(0))
+        snapshot_.emitters.push_back(emitter);
+}
+
+// A shell's many triangles as an octahedron of a player's size, which stays the same from frame to frame.
+void SnapshotBuilder::add_shell_light(glm::vec3 centre, const shared::Material& material)
+{
+    constexpr float width = 20, height = 32;
+    const float area = 0.5f * width * std::sqrt(width * width + 2 * height * height);
+    for (int i = 0; i < 8; i++) {
+        const glm::vec3 x((i & 1) ? -width : width, 0, 0), y(0, (i & 2) ? -width : width, 0),
+            z(0, 0, (i & 4) ? -height : height);
+        const bool mirrored = ((i & 1) + (i >> 1 & 1) + (i >> 2 & 1)) % 2 == 1; // fronts outside
+        add_glow(centre + x, centre + (mirrored ? z : y), centre + (mirrored ? y : z), area, material);
+    }
+}
+
+// The view weapon is made for a field of view of its own (r_gunfov, at 4:3): seen from the eye it is squeezed so that
+// it looks as it would there.
 Squeeze SnapshotBuilder::fit_weapon_fov() const
 {
     const auto tangent = [](float degrees) { return std::tan(glm::radians(std::clamp(degrees, 1.0f, 170.0f)) / 2); };
@@ -268,7 +300,8 @@ void SnapshotBuilder::add_sprite(const Entity& entity, const Model::Sprite& spri
     material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
     material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_ALPHA_TEST
         | (material.opacity < 1 ? shared::MATERIAL_TRANSLUCENT : 0);
-    append_sprite(sprite.sp2.frames[frame], to_vec3(entity.origin), axes_, add_material(material), snapshot_.moving.loose());
+    append_sprite(
+        sprite.sp2.frames[frame], to_vec3(entity.origin), axes_, add_material(material), snapshot_.moving.loose());
     snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
     snapshot_.has_alpha_test = true;
 }
@@ -281,9 +314,15 @@ void SnapshotBuilder::add_beam(const Entity& entity)
     material.emission = colour * beam_radiance;
     material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
     material.flags = shared::MATERIAL_TRANSLUCENT;
-    append_beam(to_vec3(entity.origin), to_vec3(entity.previous_origin), float(entity.frame), add_material(material),
-        snapshot_.moving.loose());
+    std::vector<shared::Triangle>& loose = snapshot_.moving.loose();
+    const size_t first = loose.size();
+    append_beam(
+        to_vec3(entity.origin), to_vec3(entity.previous_origin), float(entity.frame), add_material(material), loose);
     snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
+    for (size_t i = first; i < loose.size(); i++) {
+        const auto& [a, b, c] = loose[i].positions;
+        add_glow(a, b, c, 0.5f * glm::length(glm::cross(b - a, c - a)), material);
+    }
 }
 
 void SnapshotBuilder::add_null_model(const Entity& entity)

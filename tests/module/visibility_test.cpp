@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace vkpt::tests {
@@ -353,6 +354,50 @@ TEST_F(Visibility, PreviewLeavesTheBackground)
     EXPECT_GT(background, 500);
     // Lit, too: some of it is bright.
     EXPECT_GT(picture.at(picture.width / 2, picture.height / 2).r, 40);
+}
+
+TEST_F(Visibility, BeamsShine)
+{
+    MapBuilder map;
+    add_floor(map);
+    start(map, { { "pt_bounces", "0" } });
+    constexpr float half_length = 60, height = 25, diameter = 4;
+    engine::Entity beam = make_entity(nullptr, { -half_length, 0, height }, engine::RF_BEAM);
+    beam.previous_origin[0] = half_length;
+    beam.previous_origin[1] = 0;
+    beam.previous_origin[2] = height;
+    beam.frame = int32_t(diameter);
+    beam.skin_number = white_index;
+    session_->view.entities = &beam;
+    session_->view.entity_count = 1;
+    const std::vector<IrradianceProbe> probes(64, { { 0, 0, 0 }, { 0, 0, 1 } });
+    glm::vec3 sum(0);
+    for (const glm::vec3& value : session_->probe(probes, 64))
+        sum += value / float(probes.size());
+    // A cylinder of radiance 8 has the intensity 8 * diameter per length; half of it is seen under the angle phi.
+    const float phi = std::atan(half_length / height);
+    const float irradiance
+        = 8 * diameter / height * (phi + std::sin(phi) * std::cos(phi)) * linear_colour(white_index).y;
+    EXPECT_NEAR(sum.y, irradiance / 3.14159265f, 0.1f * sum.y); // a prism of six sides
+    // And the camera sees it.
+    session_->look({ -60, 0, 60 }, { 0, 0, 20 });
+    EXPECT_GT(luminance(session_->capture().mean()), 0);
+}
+
+TEST_F(Visibility, ShellsOfPowerUpsShine)
+{
+    MapBuilder map;
+    add_floor(map);
+    start(map, { { "pt_bounces", "0" } });
+    session_->look({ -60, 0, 60 }, { 0, 0, 0 });
+    const auto floor_with = [&](const std::vector<engine::Entity>& entities) {
+        return picture_with(entities).mean({ 0, 36 }, { 64, 48 });
+    };
+    EXPECT_EQ(luminance(floor_with({})), 0);
+    const glm::vec3 red
+        = floor_with({ make_entity(cube_, { 0, 0, 40 }, engine::RF_TRANSLUCENT | engine::RF_SHELL_RED) });
+    EXPECT_GT(red.x, 1e-3f);
+    EXPECT_EQ(red.z, 0);
 }
 
 // The player's model in a menu, over the game that goes on behind it.
