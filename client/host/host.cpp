@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/host/host.hpp"
 
+#include "client/host/companions.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/imports.hpp"
 
@@ -25,17 +26,7 @@ fs::path find_module(const fs::path& wanted)
         return wanted;
     if (const char* named = std::getenv("VKPT_MODULE"); named && *named)
         return named;
-    std::error_code ignored;
-    const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-    const fs::path places[] = { here / "ref_vkpt.so", here.parent_path() / "ref_vkpt" / "ref_vkpt.so" };
-    std::string looked;
-    for (const fs::path& place : places) {
-        if (fs::exists(place, ignored))
-            return place;
-        looked += "\n  " + place.string();
-    }
-    throw Failure(
-        "no refresh module found; looked for" + looked + "\nBuild it, or name it with --module PATH or $VKPT_MODULE.");
+    return find_companion("ref_vkpt.so", "Build it, or name it with --module PATH or $VKPT_MODULE.");
 }
 
 // Where the module may keep its caches.

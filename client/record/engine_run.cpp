@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/record/engine_run.hpp"
 
+#include "client/host/companions.hpp"
 #include "client/host/errors.hpp"
 
 #include <chrono>
@@ -49,16 +50,8 @@ fs::path find_engine(const fs::path& wanted)
         + "\nInstall the package yamagi-quake2, or name the program with --engine PATH.");
 }
 
-// What the engine runs with, beside this program.
+// What the engine runs with.
 constexpr const char *record_module = "ref_record.so", *clock_library = "recording_clock.so";
-
-fs::path find_beside(const char* name)
-{
-    const fs::path place = fs::read_symlink("/proc/self/exe").parent_path() / name;
-    if (!fs::exists(place))
-        throw Failure(fmt::format("no {}: build the target vkpt", place.string()));
-    return place;
-}
 
 std::string read_text(const fs::path& path)
 {
@@ -220,7 +213,7 @@ void EngineRun::make_folder(const EngineRunOptions& options)
     fs::copy_file(engine_, folder_ / "quake2");
     fs::permissions(folder_ / "quake2", fs::perms(0755));
     for (const char* file : { record_module, clock_library })
-        fs::copy_file(find_beside(file), folder_ / file);
+        fs::copy_file(find_companion(file, "Build the target vkpt, or install again."), folder_ / file);
     for (const std::string& game : { std::string("baseq2"), options.game }) {
         if (game.empty() || fs::exists(folder_ / game))
             continue;

@@ -480,5 +480,32 @@ TEST_F(Cli, ExportAgreesWithTheModule)
 }
 #endif
 
+#ifdef REAL_MODULE
+// Nothing of the build's own folder is looked at: the copy finds what was installed with it.
+TEST(Installation, FindsItsModules)
+{
+    const ScratchFolder folder;
+    const std::filesystem::path prefix = folder.path() / "usr";
+    const ProgramResult installed
+        = run_program(CMAKE_PROGRAM, { "--install", BUILD_FOLDER, "--prefix", prefix.string() }, folder.path());
+    ASSERT_EQ(installed.status, 0) << installed.errors;
+    const std::vector<std::string> environment { "VKPT_MODULE=",
+        "XDG_CACHE_HOME=" + (folder.path() / "cache").string() };
+    const auto run = [&](const std::vector<std::string>& arguments) {
+        return run_program((prefix / "bin/vkpt").string(), arguments, folder.path(), environment);
+    };
+    const ProgramResult info = run({ "info", "--json" });
+    EXPECT_EQ(info.status, 0) << info.errors;
+    EXPECT_TRUE(nlohmann::json::parse(info.output).contains("light_samplers"));
+    for (const char* file : { "lib/vkpt/ref_record.so", "lib/vkpt/recording_clock.so", "share/man/man1/vkpt.1" })
+        EXPECT_TRUE(std::filesystem::exists(prefix / file)) << file;
+    std::filesystem::remove(prefix / "lib/vkpt/ref_vkpt.so");
+    const ProgramResult missing = run({ "info" });
+    EXPECT_EQ(missing.status, 1);
+    expect_in(missing.errors, "ref_vkpt.so is missing");
+    expect_in(missing.errors, "lib/vkpt");
+}
+#endif
+
 } // namespace
 } // namespace vkpt::tests
