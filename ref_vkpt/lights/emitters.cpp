@@ -2,6 +2,7 @@
 #include "ref_vkpt/lights/emitters.hpp"
 
 #include "ref_vkpt/lights/cluster_finder.hpp"
+#include "ref_vkpt/lights/luminance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -142,8 +143,6 @@ std::vector<FaceTriangle> triangles_of_face(const Bsp& bsp, size_t face, const P
 }
 
 namespace {
-
-float luminance(glm::vec3 colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 float area_of(const FaceTriangle& t)
 {

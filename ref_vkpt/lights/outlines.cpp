@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/lights/outlines.hpp"
 
+#include "ref_vkpt/lights/luminance.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 namespace vkpt {
 
@@ -21,15 +22,14 @@ uint32_t shorten_float(float value, uint32_t bits)
 
 shared::EmitterOutline make_outline(const shared::Emitter& emitter, float lightstyle)
 {
-    // As luminance() of shaders/lib/bsdf.glsl.
-    const float luminance = std::abs(glm::dot(emitter.radiance * lightstyle, glm::vec3(0.2126f, 0.7152f, 0.0722f)));
+    const float radiance = std::abs(luminance(emitter.radiance * lightstyle));
     if (emitter.type == shared::EMITTER_SPHERE)
-        return { emitter.p0, -luminance,
+        return { emitter.p0, -radiance,
             { std::bit_cast<uint32_t>(emitter.p1.x), std::bit_cast<uint32_t>(emitter.reach), 0, 0 } };
     const glm::vec3 first = emitter.p1 - emitter.p0, second = emitter.p2 - emitter.p0;
     constexpr uint32_t bits = shared::OUTLINE_BITS, more_bits = 22, left = (1u << (32 - bits)) - 1;
     const uint32_t y = shorten_float(second.y, more_bits), z = shorten_float(second.z, more_bits);
-    return { emitter.p0, luminance,
+    return { emitter.p0, radiance,
         { shorten_float(first.x, bits) | y >> bits, shorten_float(first.y, bits) | (y >> (32 - more_bits) & left),
             shorten_float(first.z, bits) | z >> bits,
             shorten_float(second.x, bits) | (z >> (32 - more_bits) & left) } };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/bright_parts.hpp"
 
+#include "ref_vkpt/lights/luminance.hpp"
 #include "ref_vkpt/scene/picture_files.hpp"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 #include <utility>
 
 namespace vkpt {
@@ -16,8 +16,6 @@ constexpr float least_brightness = 0.3f;
 constexpr size_t greatest_count = 4;
 constexpr float greatest_area = 0.5f;
 constexpr float least_share = 0.6f;
-
-float luminance(glm::vec3 colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 // The picture in a few cells, each the sum of the light of its texels.
 struct Cells {

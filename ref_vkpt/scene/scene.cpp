@@ -4,6 +4,7 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/frame/pass_statistics.hpp"
+#include "ref_vkpt/lights/luminance.hpp"
 #include "ref_vkpt/scene/entities.hpp"
 
 #include <algorithm>
@@ -179,9 +180,9 @@ void Scene::end_registration()
         if (model.registration != registration_)
             model = {};
     if (world_) {
-        const float luminance = glm::dot(sky_.average, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-        sky_.scale = world_->lit_sky_luminance > 0 && luminance > 0 ? world_->lit_sky_luminance / luminance
-                                                                    : EmissionScales().sky;
+        const float sky_luminance = luminance(sky_.average);
+        sky_.scale = world_->lit_sky_luminance > 0 && sky_luminance > 0 ? world_->lit_sky_luminance / sky_luminance
+                                                                        : EmissionScales().sky;
         set_sky_radiance(*world_, sky_.average * sky_.scale);
     }
     textures_.end_registration();

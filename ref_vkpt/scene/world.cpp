@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/world.hpp"
 
+#include "ref_vkpt/lights/luminance.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
 #include "ref_vkpt/scene/material_guess.hpp"
 
@@ -138,8 +139,6 @@ MapGeometry make_brush_geometry(
     }
     return geometry;
 }
-
-float luminance(glm::vec3 colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 float find_lit_sky_luminance(const Bsp& bsp, const StaticEmitters& emitters)
 {
