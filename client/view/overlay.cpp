@@ -21,9 +21,10 @@ struct Line {
 
 float plate_height(size_t lines) { return float(lines) * (ImGui::GetTextLineHeight() + 2) + 2 * padding - 2; }
 
-// Lines on a dark plate. Returns its width. `right`: the corner is the upper right one.
-// `right`: the corner is the right one. What is wider than `most_width` is cut.
-void draw_plate(ImVec2 corner, std::initializer_list<Line> lines, bool right = false, float most_width = 1e6f)
+constexpr float any_width = 1e6f;
+
+// Lines on a dark plate. `right`: the corner is the upper right one. What is wider than `most_width` is cut.
+void draw_plate(ImVec2 corner, std::initializer_list<Line> lines, bool right = false, float most_width = any_width)
 {
     ImDrawList* list = ImGui::GetBackgroundDrawList(); // behind the help
     const float step = ImGui::GetTextLineHeight() + 2;
@@ -32,10 +33,10 @@ void draw_plate(ImVec2 corner, std::initializer_list<Line> lines, bool right = f
         width = std::max(width, ImGui::CalcTextSize(line.text.c_str()).x);
     width = std::min(width, most_width);
     corner = { std::floor(right ? corner.x - width - 2 * padding : corner.x), std::floor(corner.y) };
-    list->AddRectFilled(
-        corner, { corner.x + width + 2 * padding, corner.y + plate_height(lines.size()) }, colour_plate);
+    const ImVec2 end { corner.x + width + 2 * padding, corner.y + plate_height(lines.size()) };
+    list->AddRectFilled(corner, end, colour_plate);
     float y = corner.y + padding;
-    list->PushClipRect(corner, { corner.x + width + 2 * padding, corner.y + plate_height(lines.size()) }, true);
+    list->PushClipRect(corner, end, true);
     for (const Line& line : lines) {
         list->AddText({ corner.x + padding, y }, line.colour, line.text.c_str());
         y += step;
@@ -67,7 +68,7 @@ void draw_side_label(const State& state, Side which)
             { describe_speed(side), colour_text } },
         is_b,
         state.split.is_on ? std::max(state.shown.width / 2 - 2 * (margin + padding), 0.0f)
-                          : 1e6f); // room for the other's
+                          : any_width); // room for the other's
 }
 
 void draw_divider(const State& state)

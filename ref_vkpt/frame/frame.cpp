@@ -31,11 +31,6 @@ constexpr VkAccessFlags shader_access = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SH
 Frame::Frame(Graphics& graphics, Workers& workers)
     : graphics_(graphics)
     , uploads_(graphics.gpu, MemoryKind::staging)
-    , triangles_(graphics.gpu, MemoryKind::geometry, "triangles")
-    , emitters_(graphics.gpu, MemoryKind::lights, "emitters")
-    , outlines_(graphics.gpu)
-    , light_lists_(graphics.gpu, MemoryKind::lights, "light list headers")
-    , dynamic_light_indices_(graphics.gpu, MemoryKind::lights, "dynamic light indices")
     , moving_writer_(workers)
     , structures_(graphics.gpu)
 {
@@ -68,7 +63,6 @@ Frame::~Frame() { vkDeviceWaitIdle(graphics_.device.handle); }
 void Frame::begin()
 {
     views_this_frame_ = 0;
-    map_is_in_use_ = false;
     uploads_.begin_frame(graphics_.slot());
     structures_.begin_frame(graphics_.slot());
     std::array<float, shared::LIGHT_LEVEL_LANES> lanes;

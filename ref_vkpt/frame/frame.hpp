@@ -108,6 +108,13 @@ public:
         std::span<InspectedLight> lights);
 
 private:
+    // What the device keeps of the scene from frame to frame; little of it is written in each.
+    struct SceneUploads {
+        explicit SceneUploads(const Gpu& gpu);
+        PrefixedUpload triangles, emitters;
+        OutlineUpload outlines;
+        KeptUpload light_lists, dynamic_light_indices;
+    };
     enum class Surfaces { camera, probes };
     // How much a pass has to do: workgroups, or launch indices where it is a ray generation shader.
     struct Work {
@@ -121,7 +128,6 @@ private:
     enum class Motion { unknown, known };
     void fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world, Motion motion);
     shared::BvhView write_moving(const MovingGeometry& moving, MovingTarget target);
-    void write_light_lists(shared::SceneView& out, const LightLists& lights, bool keeps);
     void fill_structures(
         shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target);
     uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
@@ -160,11 +166,8 @@ private:
 
     Graphics& graphics_;
     FrameUploads uploads_;
-    // Of the frame's first view of a map.
-    PrefixedUpload triangles_, emitters_;
-    OutlineUpload outlines_;
-    KeptUpload light_lists_, dynamic_light_indices_;
-    bool map_is_in_use_ = false; // in this frame
+    // By the view's number in the frame: all views are drawn after all have been described.
+    std::vector<SceneUploads> scene_uploads_;
     MovingWriter moving_writer_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace vkpt {
 
@@ -16,15 +15,6 @@ struct NoWorld {
     std::vector<uint32_t> indices;
     std::vector<shared::BspTreeNode> tree;
 };
-
-// A frame's own copy of what is the map's, with room for more behind it, which the result's memory is for.
-template <class T> Upload copy_whole(FrameUploads& uploads, const std::vector<T>& fixed, size_t more)
-{
-    // One record even where there is none: its address must be one.
-    const Upload upload = uploads.reserve(std::max<size_t>(fixed.size() + more, 1) * sizeof(T));
-    std::ranges::copy(fixed, upload.as<T>());
-    return { upload.mapped + fixed.size() * sizeof(T), upload.address };
-}
 
 NoWorld make_no_world(size_t emitter_count)
 {
@@ -51,6 +41,15 @@ GpuWorld upload_world(const World& world, Uploader& uploader)
     return gpu;
 }
 
+Frame::SceneUploads::SceneUploads(const Gpu& gpu)
+    : triangles(gpu, MemoryKind::geometry, "triangles")
+    , emitters(gpu, MemoryKind::lights, "emitters")
+    , outlines(gpu)
+    , light_lists(gpu, MemoryKind::lights, "light list headers")
+    , dynamic_light_indices(gpu, MemoryKind::lights, "dynamic light indices")
+{
+}
+
 void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world, Motion motion)
 {
     const CpuTimer timer("cpu upload");
@@ -58,23 +57,20 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     static const std::vector<shared::Emitter> no_emitters;
     const uint32_t slot = graphics_.slot();
     const MapGeometry* world = scene.world ? &scene.world->models[0] : nullptr;
-    // What the device keeps of the map is brought up to date for the first view that shows it. The frame's other views
-    // must not touch it, as all are drawn after all have been described; they get copies.
-    const bool keeps = world && gpu_world && !std::exchange(map_is_in_use_, true);
+    while (scene_uploads_.size() <= views_this_frame_)
+        scene_uploads_.emplace_back(graphics_.gpu);
+    SceneUploads& kept = scene_uploads_[views_this_frame_];
     const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
-    const std::vector<shared::Triangle>& fixed_triangles = world ? world->triangles : no_triangles;
-    const std::vector<shared::Emitter>& fixed_emitters = world ? world->emitters : no_emitters;
-    const size_t moving_triangles = scene.moving.triangle_count();
-    const Upload triangles = keeps ? triangles_.reserve(slot, fixed_triangles, version, moving_triangles)
-                                   : copy_whole(uploads_, fixed_triangles, moving_triangles);
+    const Upload triangles
+        = kept.triangles.reserve(slot, world ? world->triangles : no_triangles, version, scene.moving.triangle_count());
     const LightLists* lights = world ? &scene.world->light_lists : nullptr;
     const bool repeats = lights && lights->has_changed() && motion == Motion::known;
     const LightLists::Repeated repeated = repeats ? lights->repeat() : LightLists::Repeated();
     // Lights that have gone stay in the repeated lists: dark.
     const size_t emitter_count = std::max(
         scene.emitters.size(), repeats ? repeated.emitter_count - lights->static_emitter_count() : size_t(0));
-    const Upload emitters = keeps ? emitters_.reserve(slot, fixed_emitters, version, emitter_count)
-                                  : copy_whole(uploads_, fixed_emitters, emitter_count);
+    const std::vector<shared::Emitter>& fixed_emitters = world ? world->emitters : no_emitters;
+    const Upload emitters = kept.emitters.reserve(slot, fixed_emitters, version, emitter_count);
     auto* const end = std::ranges::copy(scene.emitters, emitters.as<shared::Emitter>()).out;
     std::fill(end, emitters.as<shared::Emitter>() + emitter_count, shared::Emitter {});
     if (repeats) {
@@ -86,18 +82,8 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     out.emitters = emitters.address;
     out.materials = uploads_.push(scene.materials);
     out.lightstyles = uploads_.push(scene.lightstyles);
-    if (keeps) {
-        out.emitter_outlines
-            = outlines_.write(slot, fixed_emitters, version, scene.emitters, emitter_count, scene.lightstyles);
-    } else {
-        // One record even where there is none: its address must be one.
-        const Upload outlines = uploads_.reserve(
-            std::max<size_t>(fixed_emitters.size() + emitter_count, 1) * sizeof(shared::EmitterOutline));
-        auto* const moving_outlines = outlines.as<shared::EmitterOutline>() + fixed_emitters.size();
-        write_outlines(outlines.as<shared::EmitterOutline>(), fixed_emitters.size(), fixed_emitters, scene.lightstyles);
-        write_outlines(moving_outlines, emitter_count, scene.emitters, scene.lightstyles);
-        out.emitter_outlines = outlines.address;
-    }
+    out.emitter_outlines
+        = kept.outlines.write(slot, fixed_emitters, version, scene.emitters, emitter_count, scene.lightstyles);
     out.trace_stack = graphics_.screen.trace_stack();
     out.sky = scene.sky;
     MovingTarget target;
@@ -133,25 +119,14 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     out.tree_count = scene.moving.triangle_count() > 0 ? 2 : 1;
     out.static_light_indices = gpu_world->light_indices.address();
     if (scene.kept_lights.lists.empty()) {
-        write_light_lists(out, *lights, keeps);
+        out.light_lists = kept.light_lists.write(slot, lights->lists());
+        out.dynamic_light_indices = kept.dynamic_light_indices.write(slot, lights->dynamic_indices());
     } else {
         out.light_lists = uploads_.push(scene.kept_lights.lists);
         out.dynamic_light_indices = uploads_.push(scene.kept_lights.dynamic_indices);
     }
     out.bsp_tree = gpu_world->bsp_tree.address();
     out.light_list_count = uint32_t(lights->lists().size());
-}
-
-// The static indices are the map's. Of the rest, only what has changed is written where the view may keep it.
-void Frame::write_light_lists(shared::SceneView& out, const LightLists& lights, bool keeps)
-{
-    if (!keeps) {
-        out.light_lists = uploads_.push(lights.lists());
-        out.dynamic_light_indices = uploads_.push(lights.dynamic_indices());
-        return;
-    }
-    out.light_lists = light_lists_.write(graphics_.slot(), lights.lists());
-    out.dynamic_light_indices = dynamic_light_indices_.write(graphics_.slot(), lights.dynamic_indices());
 }
 
 // What moves, right into the memory that the device reads.

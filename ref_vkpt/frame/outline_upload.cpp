@@ -12,13 +12,7 @@ VkDeviceAddress OutlineUpload::write(uint32_t frame_slot, std::span<const shared
     }
     Slot& slot = slots_[frame_slot];
     const size_t bytes = (fixed.size() + moving_count) * sizeof(shared::EmitterOutline);
-    const bool grows = !slot.buffer || bytes > slot.buffer.size();
-    if (grows) {
-        slot.buffer = Buffer();
-        slot.buffer
-            = Buffer(gpu_, bytes + bytes / 4 + 4096, BufferHome::upload, MemoryKind::lights, "emitter outlines");
-    }
-    if (grows || slot.version != version)
+    if (make_room(slot.buffer, gpu_, bytes, MemoryKind::lights, "emitter outlines") || slot.version != version)
         slot.scales.clear();
     slot.version = version;
     auto* const outlines = reinterpret_cast<shared::EmitterOutline*>(slot.buffer.mapped());

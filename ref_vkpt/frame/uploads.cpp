@@ -56,16 +56,23 @@ VkDeviceAddress FrameUploads::push(std::span<const std::byte> bytes)
     return upload.address;
 }
 
+bool make_room(Buffer& buffer, const Gpu& gpu, VkDeviceSize bytes, MemoryKind kind, const char* name)
+{
+    constexpr VkDeviceSize least_spare = 16384;
+    if (buffer && bytes <= buffer.size())
+        return false;
+    buffer = Buffer(); // first, so that both need not fit
+    buffer = Buffer(gpu, bytes + bytes / 4 + least_spare, BufferHome::upload, kind, name);
+    return true;
+}
+
 Upload PrefixedUpload::reserve(
     uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version, size_t rest_bytes)
 {
     Slot& slot = slots_[frame_slot];
     const VkDeviceSize bytes = prefix.size() + rest_bytes;
-    if (!slot.buffer || bytes > slot.buffer.size()) {
-        slot.buffer = Buffer();
-        slot.buffer = Buffer(gpu_, bytes + bytes / 4 + 65536, BufferHome::upload, kind_, name_);
+    if (make_room(slot.buffer, gpu_, bytes, kind_, name_))
         slot.version = 0;
-    }
     if (slot.version != prefix_version) {
         copy(slot.buffer.mapped(), prefix);
         slot.version = prefix_version;
@@ -76,11 +83,8 @@ Upload PrefixedUpload::reserve(
 VkDeviceAddress KeptUpload::write(uint32_t frame_slot, std::span<const std::byte> bytes)
 {
     Slot& slot = slots_[frame_slot];
-    if (!slot.buffer || bytes.size() > slot.buffer.size()) {
-        slot.buffer = Buffer();
-        slot.buffer = Buffer(gpu_, bytes.size() + bytes.size() / 4 + 4096, BufferHome::upload, kind_, name_);
+    if (make_room(slot.buffer, gpu_, bytes.size(), kind_, name_))
         slot.held.clear();
-    }
     write_changes(slot.buffer.mapped(), slot.held, bytes);
     return slot.buffer.address();
 }

@@ -50,6 +50,9 @@ private:
     uint32_t slot_ = 0;
 };
 
+// Room for `bytes`, and for some more to come. True: it is new memory, and empty.
+bool make_room(Buffer& buffer, const Gpu& gpu, VkDeviceSize bytes, MemoryKind kind, const char* name);
+
 // An array whose front part changes only with the map and whose rest changes every frame: the front is copied once per
 // frame in flight.
 class PrefixedUpload {

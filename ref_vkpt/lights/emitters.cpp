@@ -57,9 +57,8 @@ glm::vec3 normalise_colour(glm::vec3 colour)
     return greatest > 0 ? colour / greatest : glm::vec3(0);
 }
 
-glm::vec3 average_radiance(const BspTexinfo& texinfo, const AverageColour& colour, const EmissionScales& scales)
+glm::vec3 average_radiance(const BspTexinfo& texinfo, const PictureColour& picture, const EmissionScales& scales)
 {
-    const PictureColour picture = colour(texinfo.texture);
     const glm::vec3 average = glm::max(picture.average, glm::vec3(0));
     if ((texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0)
         return scales.face * float(texinfo.value) * picture.strength * normalise_colour(average);
@@ -130,24 +129,21 @@ std::vector<FaceTriangle> triangles_of_face(const Bsp& bsp, size_t face, const P
 {
     const glm::vec3 normal = bsp.face_normal(face);
     std::vector<FaceTriangle> triangles;
-    const auto append = [&](const std::vector<glm::vec3>& outline, int part, bool in_pieces) {
+    const auto append = [&](const std::vector<glm::vec3>& outline, int part) {
         for (const auto& [a, b, c] : triangulate(outline, normal))
-            triangles.push_back({ { outline[a], outline[b], outline[c] }, part, in_pieces });
+            triangles.push_back({ { outline[a], outline[b], outline[c] }, part });
     };
     if (classify(bsp.texinfos[bsp.faces[face].texinfo]) == Emission::face)
         for (const FacePiece& piece : cut_face(bsp, face, picture.parts, picture.size))
-            append(piece.outline, piece.part, true);
+            append(piece.outline, piece.part);
     if (triangles.empty())
-        append(face_outline(bsp, face), 0, false);
+        append(face_outline(bsp, face), FaceTriangle::whole);
     return triangles;
 }
 
 namespace {
 
-float area_of(const FaceTriangle& t)
-{
-    return 0.5f * glm::length(glm::cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
-}
+float area_of(const FaceTriangle& t) { return triangle_area(t.corners[0], t.corners[1], t.corners[2]); }
 
 // What the parts' colours are multiplied by, so that together they send what the whole face would if it had its average
 // radiance.
@@ -157,7 +153,7 @@ float scale_of_parts(
     float of_face = 0, of_parts = 0;
     for (const FaceTriangle& t : triangles) {
         of_face += area_of(t) * luminance(average_radiance);
-        if (t.part != FacePiece::dark)
+        if (t.part >= 0)
             of_parts += area_of(t) * luminance(parts[size_t(t.part)].average);
     }
     return of_parts > 0 ? of_face / of_parts : 0;
@@ -172,13 +168,12 @@ std::vector<shared::Emitter> emitters_of_face(
     const Emission emission = classify(texinfo);
     if (emission == Emission::none)
         return {};
-    const glm::vec3 radiance = average_radiance(texinfo, colour, scales);
+    const PictureColour picture = colour(texinfo.texture);
+    const glm::vec3 radiance = average_radiance(texinfo, picture, scales);
     if (!(max_component(radiance) > 0) && emission != Emission::sky)
         return {};
-    const PictureColour picture = colour(texinfo.texture);
     const std::vector<FaceTriangle> triangles = triangles_of_face(bsp, face, picture);
-    const bool in_pieces = !triangles.empty() && triangles[0].in_pieces;
-    const float scale = in_pieces ? scale_of_parts(triangles, picture.parts, radiance) : 0;
+    const float scale = scale_of_parts(triangles, picture.parts, radiance);
     std::vector<shared::Emitter> emitters;
     for (const FaceTriangle& triangle : triangles) {
         if (triangle.part == FacePiece::dark)
@@ -189,7 +184,8 @@ std::vector<shared::Emitter> emitters_of_face(
         emitter.p2 = triangle.corners[2];
         emitter.type = emitter_type(texinfo);
         emitter.area = area_of(triangle);
-        emitter.radiance = in_pieces ? scale * picture.parts[size_t(triangle.part)].average : radiance;
+        emitter.radiance
+            = triangle.part == FaceTriangle::whole ? radiance : scale * picture.parts[size_t(triangle.part)].average;
         emitters.push_back(emitter);
     }
     return emitters;

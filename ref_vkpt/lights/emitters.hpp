@@ -78,10 +78,9 @@ std::vector<std::array<uint32_t, 3>> triangulate(const std::vector<glm::vec3>& o
 // Every face's triangles, used for geometry and emitters alike. Where the face emits and its picture has bright parts,
 // those emit all of the face's light, in their colours.
 struct FaceTriangle {
+    static constexpr int whole = -2; // the face is in one piece
     std::array<glm::vec3, 3> corners;
-    int part; // FacePiece::dark, or whose light: an index of the picture's parts; 0 also where the face shines as a
-              // whole
-    bool in_pieces; // the face is cut
+    int part; // whose light: an index of the picture's parts, FacePiece::dark or `whole`
 };
 std::vector<FaceTriangle> triangles_of_face(const formats::Bsp& bsp, size_t face, const PictureColour& picture);
 

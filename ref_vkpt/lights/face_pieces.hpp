@@ -29,6 +29,7 @@ struct FacePiece {
 std::vector<FacePiece> cut_face(
     const formats::Bsp& bsp, size_t face, const std::vector<BrightPart>& parts, glm::ivec2 size);
 
+float triangle_area(glm::vec3 a, glm::vec3 b, glm::vec3 c);
 // The area of a convex outline.
 float measure_area(const std::vector<glm::vec3>& outline);
 

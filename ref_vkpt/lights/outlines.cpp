@@ -27,7 +27,8 @@ shared::EmitterOutline make_outline(const shared::Emitter& emitter, float lights
         return { emitter.p0, -radiance,
             { std::bit_cast<uint32_t>(emitter.p1.x), std::bit_cast<uint32_t>(emitter.reach), 0, 0 } };
     const glm::vec3 first = emitter.p1 - emitter.p0, second = emitter.p2 - emitter.p0;
-    constexpr uint32_t bits = shared::OUTLINE_BITS, more_bits = 22, left = (1u << (32 - bits)) - 1;
+    constexpr uint32_t bits = shared::OUTLINE_BITS, more_bits = shared::OUTLINE_MORE_BITS,
+                       left = (1u << (32 - bits)) - 1;
     const uint32_t y = shorten_float(second.y, more_bits), z = shorten_float(second.z, more_bits);
     return { emitter.p0, radiance,
         { shorten_float(first.x, bits) | y >> bits, shorten_float(first.y, bits) | (y >> (32 - more_bits) & left),

@@ -24,11 +24,16 @@ struct Cells {
         , height(std::min(image.height, greatest_side))
         , light(size_t(width) * size_t(height))
     {
-        for (int y = 0; y < image.height; y++)
+        std::vector<int> column(size_t(image.width)); // no division a texel
+        for (int x = 0; x < image.width; x++)
+            column[size_t(x)] = x * width / image.width;
+        for (int y = 0; y < image.height; y++) {
+            glm::vec3* const row = &at(0, y * height / image.height);
             for (int x = 0; x < image.width; x++) {
                 const formats::Rgba8& texel = image.at(x, y);
-                at(x * width / image.width, y * height / image.height) += linear_color(texel) * (float(texel.a) / 255);
+                row[column[size_t(x)]] += linear_color(texel) * (float(texel.a) / 255);
             }
+        }
         const float texels = float(image.width) * float(image.height) / float(width * height);
         for (glm::vec3& cell : light)
             cell /= texels;

@@ -69,7 +69,7 @@ private:
     void add_glow(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, float area, const shared::Material& material);
     void add_shell_light(glm::vec3 centre, const shared::Material& material);
     shared::Material mesh_material(const Entity& entity, const Model& model, const Model::Mesh& mesh) const;
-    void add_md2(const Model::Mesh& mesh, const Md2Pose& pose, const shared::Material& material, uint32_t mask);
+    bool add_md2(const Model::Mesh& mesh, const Md2Pose& pose, const shared::Material& material, uint32_t mask);
     Squeeze fit_weapon_fov() const;
 
     SceneSnapshot& snapshot_;
@@ -217,11 +217,14 @@ void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const M
     add_md2(mesh, pose, material, entity_mask(entity, material));
 }
 
-void SnapshotBuilder::add_md2(
+// False: it cannot be posed (MovingGeometry::add).
+bool SnapshotBuilder::add_md2(
     const Model::Mesh& mesh, const Md2Pose& pose, const shared::Material& material, uint32_t mask)
 {
-    if (snapshot_.moving.add(mesh.md2, pose, uint32_t(snapshot_.materials.size()), mask))
-        add_material(material);
+    if (!snapshot_.moving.add(mesh.md2, pose, uint32_t(snapshot_.materials.size()), mask))
+        return false;
+    add_material(material);
+    return true;
 }
 
 // Shells are entities of their own: the model inflated, glowing in the power-ups' colours.
@@ -244,8 +247,8 @@ void SnapshotBuilder::add_shell(const Entity& entity, const Model::Mesh& mesh, M
     material.emission = colour * shell_radiance;
     material.opacity = shell_opacity;
     material.flags = shared::MATERIAL_TRANSLUCENT;
-    add_md2(mesh, pose, material, entity_mask(entity, material));
-    if (!(entity.flags & RF_WEAPONMODEL) && mesh.md2->can_pose(pose)) // the weapon's is the player's once more
+    const bool is_shown = add_md2(mesh, pose, material, entity_mask(entity, material));
+    if (is_shown && !(entity.flags & RF_WEAPONMODEL)) // the weapon's is the player's once more
         add_shell_light(mesh.md2->bounds(pose).centre(), material);
 }
 
@@ -321,7 +324,7 @@ void SnapshotBuilder::add_beam(const Entity& entity)
     snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
     for (size_t i = first; i < loose.size(); i++) {
         const auto& [a, b, c] = loose[i].positions;
-        add_glow(a, b, c, 0.5f * glm::length(glm::cross(b - a, c - a)), material);
+        add_glow(a, b, c, triangle_area(a, b, c), material);
     }
 }
 

@@ -58,6 +58,13 @@ vec3 emitted_radiance(Emitter e, vec3 receiver)
     return e.radiance * reach_window(e, receiver);
 }
 
+// The angle of (x, y) from the axis, y > 0, given that of the same lengths with the shorter one upright.
+float unfold_angle(float angle, float y, float x)
+{
+    angle = y > abs(x) ? 0.5f * emitter_pi - angle : angle;
+    return x < 0.0f ? emitter_pi - angle : angle;
+}
+
 // atan(y, x) for y > 0, relative error 2e-7 (polynomial: Abramowitz and Stegun 1964, 4.4.49). Drivers' own cost several times
 // as much and may be less exact.
 float angle_above_axis(float y, float x)
@@ -68,8 +75,7 @@ float angle_above_axis(float y, float x)
     float series = 0.0429096138f + t2 * (-0.0161657367f + t2 * 0.0028662257f);
     series = -0.1420889944f + t2 * (0.1065626393f + t2 * (-0.0752896400f + t2 * series));
     float angle = tangent + tangent * t2 * (-0.3333314528f + t2 * (0.1999355085f + t2 * series));
-    angle = y > side ? 0.5f * emitter_pi - angle : angle;
-    return x < 0.0f ? emitter_pi - angle : angle;
+    return unfold_angle(angle, y, x);
 }
 
 // A triangle's solid angle is 2 atan(volume, this): Van Oosterom and Strackee 1983. Corners relative to the eye; volume: six times the

@@ -113,7 +113,7 @@ uint choose_place(LightListView list, float xi)
 // The emitter as light_contribution sees it: gray, of the same luminance.
 Emitter unpack_outline(EmitterOutline outline)
 {
-    const uint kept = ~0u << (32u - OUTLINE_BITS), left = ~kept;
+    const uint kept = ~0u << (32u - OUTLINE_BITS), left = ~kept, more = 32u - OUTLINE_MORE_BITS;
     bool is_sphere = floatBitsToInt(outline.radiance) < 0;
     uint w0 = outline.shape[0], w1 = outline.shape[1], w2 = outline.shape[2], w3 = outline.shape[3];
     Emitter e;
@@ -122,7 +122,7 @@ Emitter unpack_outline(EmitterOutline outline)
     e.p1 = outline.p0 + uintBitsToFloat(uvec3(w0 & kept, w1 & kept, w2 & kept));
     e.lightstyle = 0u;
     e.p2 = outline.p0
-        + uintBitsToFloat(uvec3(w3 & kept, (w0 << OUTLINE_BITS) | ((w1 & left) << 10u), (w2 << OUTLINE_BITS) | ((w3 & left) << 10u)));
+        + uintBitsToFloat(uvec3(w3 & kept, (w0 << OUTLINE_BITS) | ((w1 & left) << more), (w2 << OUTLINE_BITS) | ((w3 & left) << more)));
     e.area = 0.0f;
     e.radiance = vec3(abs(outline.radiance));
     e.reach = 0.0f;

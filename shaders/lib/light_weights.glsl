@@ -204,8 +204,7 @@ float quick_angle_above_axis(float y, float x)
     float tangent = quick_min(y, side) * inverse * inverse;
     float t2 = tangent * tangent;
     float angle = tangent * (0.995354f + t2 * (-0.288679f + t2 * 0.079331f));
-    angle = y > side ? 0.5f * emitter_pi - angle : angle;
-    return x < 0.0f ? emitter_pi - angle : angle;
+    return unfold_angle(angle, y, x);
 }
 
 bool is_below(vec3 heights, float limit)
