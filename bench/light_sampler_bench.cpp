@@ -21,6 +21,7 @@ struct Options {
     std::string base_folder, scene = "maps/vkpt1.bsp";
     int width = 640, height = 360, rounds = 9;
     std::vector<int> light_counts { 100, 10000 };
+    bool only_counts = false;
 };
 
 struct Case {
@@ -97,29 +98,44 @@ void print_costs(const Options& options)
         fmt::print("| `{}` | {} | {:.2f} | {:.0f} |\n", c.sampler, c.subset, median(ratios[c]), median(times[c]));
 }
 
-// A hall under ten thousand small triangles, of which `lights` shine: geometry is the same for every number.
-formats::Bsp make_hall(int lights)
+// What a hall under ten thousand small triangles differs in, apart from how many of them shine.
+struct Hall {
+    const char* name;
+    const char* title;
+    float triangle_size;
+    bool has_window; // a large lamp in a wall, which is what the rays of a surface meet
+};
+const Hall halls[] = {
+    { "window", "rays meet one large lamp, whatever the number of lights", 0.5f, true },
+    { "lamps", "rays meet more lamps where more shine", 4, false },
+};
+
+// Geometry is the same for every number of lights.
+formats::Bsp make_hall(const Hall& hall, int lights)
 {
     constexpr int side = 100, all = side * side;
     tests::MapBuilder map;
     const uint16_t wall = map.add_material("wall"), dark = map.add_material("lamp"),
                    lamp = map.add_material("lamp", 0, 400);
     map.add_room({ -512, -512, 0 }, { 512, 512, 200 }, wall);
+    if (hall.has_window)
+        map.add({ { -511, -400, 20 }, { -511, 400, 20 }, { -511, 400, 180 }, { -511, -400, 180 } }, lamp);
     for (int i = 0; i < all; i++) {
         const glm::vec3 at(float(i % side) * 10 - 495, float(i / side) * 10 - 495, 190);
         const bool shines = i * lights / all != (i + 1) * lights / all; // evenly spread
-        map.add({ at, at + glm::vec3(0, 4, 0), at + glm::vec3(4, 0, 0) }, shines ? lamp : dark);
+        map.add({ at, at + glm::vec3(0, hall.triangle_size, 0), at + glm::vec3(hall.triangle_size, 0, 0) },
+            shines ? lamp : dark);
     }
     return map.finish();
 }
 
-void print_counts(const Options& options)
+void print_counts(const Options& options, const Hall& hall)
 {
     tests::GameFolder folder;
     folder.add_wall("wall", 170);
     folder.add_wall("lamp", tests::white_index);
     for (const int count : options.light_counts)
-        folder.add_map(fmt::format("hall{}", count), make_hall(count));
+        folder.add_map(fmt::format("hall{}", count), make_hall(hall, count));
     std::map<std::pair<Case, int>, std::vector<double>> times;
     constexpr int frames = 3;
     for (int round = 0; round < options.rounds; round++)
@@ -135,7 +151,8 @@ void print_counts(const Options& options)
                 times[{ c, count }].push_back(median(few));
             }
         }
-    fmt::print("\nMilliseconds by number of lights, and ratio to the first\n\n| sampler |");
+    fmt::print("\n{}: {}; milliseconds by number of small lights, and ratio to the first\n\n| sampler |", hall.name,
+        hall.title);
     for (const int count : options.light_counts)
         fmt::print(" {} |", count);
     fmt::print("\n|---|");
@@ -168,13 +185,17 @@ int main(int argc, char** argv)
     program.add_option("--width", options.width)->check(CLI::Range(8, 8192));
     program.add_option("--height", options.height)->check(CLI::Range(8, 8192));
     program.add_option("--rounds", options.rounds)->check(CLI::Range(1, 1000));
-    program.add_option("--lights", options.light_counts, "Numbers of lights in a generated hall; at most 10000")
+    program.add_option("--lights", options.light_counts, "Numbers of lights in generated halls; at most 10000")
         ->check(CLI::Range(1, 10000));
+    program.add_flag("--only-counts", options.only_counts, "Leave the table of costs out");
     CLI11_PARSE(program, argc, argv);
     try {
-        print_costs(options);
-        std::fflush(stdout);
-        print_counts(options);
+        if (!options.only_counts)
+            print_costs(options);
+        for (const Hall& hall : halls) {
+            std::fflush(stdout);
+            print_counts(options, hall);
+        }
     } catch (const std::exception& error) {
         fmt::print(stderr, "vkpt_light_sampler_bench: {}\n", error.what());
         return 1;

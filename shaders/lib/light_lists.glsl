@@ -69,19 +69,47 @@ uint light_at(LightListView list, uint position)
     return list.tables.dynamic_indices.v[list.range.first_dynamic + position - list.range.static_count];
 }
 
-// Where an emitter stands in a sorted part of the list, -1: nowhere.
+// The lights of a repeated sample's list that were there when it was drawn, and those that were not. Static lights always were.
+LightListView counted_lights(LightListView list)
+{
+    list.range.dynamic_count = list.counted - list.range.static_count;
+    return list;
+}
+
+LightListView newcomers(LightListView list)
+{
+    list.range.first_dynamic += list.counted - list.range.static_count;
+    list.range.dynamic_count = light_count(list) - list.counted;
+    list.range.static_count = 0u;
+    list.counted = list.range.dynamic_count;
+    return list;
+}
+
+// Where an emitter stands in a sorted part of the list, -1: nowhere. Without duplicates, places are no farther apart than
+// indices: every index that is read bounds the place from both sides, and in a run of neighbouring emitters gives it away.
 int find_light_in(LightListView list, uint emitter, uint first, uint end)
 {
-    uint low = first;
-    uint high = end;
+    if (first >= end)
+        return -1;
+    uint lowest = light_at(list, first), highest = light_at(list, end - 1u);
+    if (emitter < lowest || emitter > highest)
+        return -1;
+    uint low = end - 1u - min(highest - emitter, end - 1u - first);
+    uint high = min(end, first + (emitter - lowest) + 1u);
     while (low < high) {
         uint middle = (low + high) / 2u;
-        if (light_at(list, middle) < emitter)
+        uint there = light_at(list, middle);
+        if (there == emitter)
+            return int(middle);
+        if (there < emitter) {
             low = middle + 1u;
-        else
+            high = min(high, middle + (emitter - there) + 1u);
+        } else {
             high = middle;
+            low = max(low, middle - min(there - emitter, middle));
+        }
     }
-    return low < end && light_at(list, low) == emitter ? int(low) : -1;
+    return -1;
 }
 
 // Where an emitter stands in the list, -1: nowhere.

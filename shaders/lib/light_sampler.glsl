@@ -11,6 +11,9 @@
 //     float light_probability(LightListView list, Surface s, uint emitter, LightRandom random, LightOptions options)
 //         The probability with which sample_light picks `emitter` (0: never, or not in the list), all random choices that
 //         do not decide about this emitter taken as given by `random`. Averaged over `random` it is the frequency.
+//     #define VKPT_NEWCOMERS_APART, before this file, without MIS only
+//         What it reports depends on the list's length whatever the lights: where an older sample is repeated, it is asked about
+//         the lights that its list held, and once more about those that have come.
 //
 // What MIS asks for (section 47.5.3): let `random` consist of some numbers U that the probability depends on and of others
 // that it is averaged over. Then sample_light must report light_probability of what it picked, for the same U, and the two
@@ -93,21 +96,6 @@ float mis_share(float own, float other)
 uint choose_uniformly(float xi, uint count)
 {
     return min(uint(xi * float(count)), count - 1u);
-}
-
-// A place in the list, all alike. Where an older sample is repeated, the number's old choice stands with the probability that it
-// still has, and what is left goes to the lights that have come.
-uint choose_place(LightListView list, float xi)
-{
-    uint count = light_count(list);
-    if (list.counted == count || list.counted == 0u)
-        return choose_uniformly(xi, count);
-    uint place = choose_uniformly(xi, list.counted);
-    float rest = xi * float(list.counted) - float(place);
-    float kept = float(list.counted) / float(count);
-    if (rest < kept)
-        return place;
-    return list.counted + choose_uniformly(quick_clamp((rest - kept) / (1.0f - kept), 0.0f, max_below_one), count - list.counted);
 }
 
 // The emitter as light_contribution sees it: gray, of the same luminance.

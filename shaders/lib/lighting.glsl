@@ -36,11 +36,9 @@ uint bsdf_ray_count()
     return light_sampler_mis ? max(bounces, 1u) : bounces;
 }
 
-// `bsdf_ray_follows`: a ray drawn by sample_bsdf leaves `s`, and its part is counted elsewhere (weigh_met_emitter).
-ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, bool bsdf_ray_follows)
+ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bool bsdf_ray_follows)
 {
     ReflectedLight result = ReflectedLight(vec3(0.0), vec3(0.0));
-    LightListView list = open_light_list_for(random, cluster);
     LightOptions options = light_options();
     LightSample light = sample_light(list, s, random, options);
     if (light.emitter < 0)
@@ -71,6 +69,25 @@ ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, b
     result.diffuse = bsdf.diffuse * incoming;
     result.specular = bsdf.specular * incoming;
     return result;
+}
+
+// `bsdf_ray_follows`: a ray drawn by sample_bsdf leaves `s`, and its part is counted elsewhere (weigh_met_emitter).
+ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, bool bsdf_ray_follows)
+{
+    LightListView list = open_light_list_for(random, cluster);
+#ifdef VKPT_NEWCOMERS_APART
+    ReflectedLight sum = ReflectedLight(vec3(0.0), vec3(0.0));
+    bool are_newcomers = false;
+    [[dont_unroll]] do {
+        ReflectedLight part = sample_list(are_newcomers ? newcomers(list) : counted_lights(list), s, random, bsdf_ray_follows);
+        sum.diffuse += part.diffuse;
+        sum.specular += part.specular;
+        are_newcomers = !are_newcomers;
+    } while (are_newcomers && list.counted < light_count(list));
+    return sum;
+#else
+    return sample_list(list, s, random, bsdf_ray_follows);
+#endif
 }
 
 // The share, by MIS, of the light of an emitter that a BSDF ray of density `bsdf_pdf` from `s` met at `point`; `random` and

@@ -5,6 +5,7 @@
 #ifndef VKPT_LIGHT_SAMPLER_RIS
 #define VKPT_LIGHT_SAMPLER_RIS
 
+#define VKPT_NEWCOMERS_APART
 #include "../lib/light_sampler.glsl"
 
 const bool light_sampler_mis = false;
@@ -29,7 +30,7 @@ float weigh_candidate(LightListView list, Surface s, uint emitter, vec2 point, L
 LightCandidate draw_candidate(LightListView list, Surface s, INOUT(uint) state, LightOptions options)
 {
     LightCandidate candidate;
-    candidate.emitter = light_at(list, choose_place(list, next_fast_random(state)));
+    candidate.emitter = light_at(list, choose_uniformly(next_fast_random(state), light_count(list)));
     float x = next_fast_random(state);
     float y = next_fast_random(state);
     candidate.point = vec2(x, y);

@@ -3,6 +3,7 @@
 #ifndef VKPT_LIGHT_SAMPLER_UNIFORM
 #define VKPT_LIGHT_SAMPLER_UNIFORM
 
+#define VKPT_NEWCOMERS_APART
 #include "../lib/light_sampler.glsl"
 
 const bool light_sampler_mis = false;
@@ -12,7 +13,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
     uint count = light_count(list);
     if (count == 0u)
         return no_light();
-    return make_light_sample(light_at(list, choose_place(list, random.light)), 1.0f / float(count), random);
+    return make_light_sample(light_at(list, choose_uniformly(random.light, count)), 1.0f / float(count), random);
 }
 
 float light_probability(LightListView list, Surface s, uint emitter, LightRandom random, LightOptions options)

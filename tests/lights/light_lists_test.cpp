@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <map>
 #include <random>
 #include <set>
 
@@ -260,6 +261,54 @@ TEST(LightLists, ShadersReadTheLists)
             const bool listed = at != expected.end() && *at == emitter;
             ASSERT_EQ(glsl::find_light(view, emitter), listed ? int(at - expected.begin()) : -1);
         }
+    }
+}
+
+// Lists as long and with gaps as wide as can be, of which a part has just come: every index is found, whichever it is.
+TEST(LightLists, ShadersFindPlacesInRepeatedLists)
+{
+    std::mt19937 rng(7);
+    const auto draw = [&](uint32_t least, uint32_t most) { return std::uniform_int_distribution(least, most)(rng); };
+    for (int round = 0; round < 300; round++) {
+        const uint32_t most_apart = 1u << draw(0, 12);
+        uint32_t next = draw(0, 1) ? 0 : draw(0, 5000);
+        const auto make_run = [&](size_t count) {
+            std::vector<uint32_t> run;
+            for (; run.size() < count; next += draw(1, most_apart))
+                run.push_back(next);
+            return run;
+        };
+        const std::vector<uint32_t> fixed = make_run(draw(0, 400));
+        const uint32_t behind_fixed = next;
+        std::vector<uint32_t> moving = make_run(draw(0, 40));
+        const uint32_t counted = uint32_t(fixed.size() + moving.size());
+        next = behind_fixed; // between the others' indices, where they left gaps
+        for (const uint32_t index : make_run(draw(0, 40)))
+            if (!std::binary_search(moving.begin(), moving.begin() + (counted - fixed.size()), index))
+                moving.push_back(index);
+        glsl::LightListView view {};
+        view.tables.static_indices.v = fixed.data();
+        view.tables.dynamic_indices.v = moving.data();
+        view.range.static_count = uint32_t(fixed.size());
+        view.range.dynamic_count = uint32_t(moving.size());
+        view.counted = counted;
+        std::map<uint32_t, int> places;
+        for (uint32_t i = 0; i < glsl::light_count(view); i++)
+            places[glsl::light_at(view, i)] = int(i);
+        for (const auto& [index, place] : places)
+            for (const uint32_t near : { index - 1, index, index + 1 }) {
+                const auto found = places.find(near);
+                ASSERT_EQ(glsl::find_light(view, near), found == places.end() ? -1 : found->second)
+                    << "round " << round;
+            }
+        ASSERT_EQ(glsl::find_light(view, 0xffffffffu), -1);
+        const glsl::LightListView before = glsl::counted_lights(view), come = glsl::newcomers(view);
+        ASSERT_EQ(glsl::light_count(before), counted);
+        ASSERT_EQ(glsl::light_count(come), places.size() - counted);
+        for (const auto& [index, place] : places)
+            ASSERT_EQ(uint32_t(place) < counted ? glsl::light_at(before, uint32_t(place))
+                                                : glsl::light_at(come, uint32_t(place) - counted),
+                index);
     }
 }
 
