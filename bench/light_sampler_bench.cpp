@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <map>
 #include <memory>
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace vkpt;
 
@@ -80,6 +82,71 @@ private:
     std::unique_ptr<client::Host> host_;
 };
 
+// A Run in a process of its own, as a process holds one module: so that runs of different maps can take turns.
+class RunApart {
+public:
+    RunApart(const Options& options, const std::string& base_folder, const std::string& scene)
+    {
+        int to_child[2], from_child[2];
+        if (pipe(to_child) != 0 || pipe(from_child) != 0)
+            throw client::Failure("no pipe to another process");
+        std::fflush(nullptr);
+        child_ = fork();
+        if (child_ < 0)
+            throw client::Failure("no other process");
+        close(to_child[child_ ? 0 : 1]);
+        close(from_child[child_ ? 1 : 0]);
+        if (child_ == 0)
+            serve(options, base_folder, scene, to_child[0], from_child[1]);
+        questions_ = to_child[1];
+        answers_ = from_child[0];
+    }
+    ~RunApart()
+    {
+        // Later processes hold this pipe open, too, so that closing it would tell nothing.
+        const size_t stop = all_cases.size();
+        [[maybe_unused]] const ssize_t written = write(questions_, &stop, sizeof stop);
+        close(questions_);
+        close(answers_);
+        waitpid(child_, nullptr, 0);
+    }
+    RunApart(const RunApart&) = delete;
+    RunApart& operator=(const RunApart&) = delete;
+
+    // As Run::measure, for a case of all_cases.
+    double measure(size_t wanted)
+    {
+        double milliseconds = 0;
+        if (write(questions_, &wanted, sizeof wanted) != sizeof wanted
+            || read(answers_, &milliseconds, sizeof milliseconds) != sizeof milliseconds)
+            throw client::Failure("the process of one map has ended");
+        return milliseconds;
+    }
+
+private:
+    // Never returns, nor lets anything of the other process's be destroyed twice.
+    [[noreturn]] static void serve(
+        const Options& options, const std::string& base_folder, const std::string& scene, int questions, int answers)
+    {
+        try {
+            Run run(options, base_folder, scene);
+            size_t wanted = 0;
+            while (read(questions, &wanted, sizeof wanted) == sizeof wanted && wanted < all_cases.size()) {
+                const double milliseconds = run.measure(all_cases[wanted]);
+                if (write(answers, &milliseconds, sizeof milliseconds) != sizeof milliseconds)
+                    break;
+            }
+        } catch (const std::exception& error) {
+            fmt::print(stderr, "vkpt_light_sampler_bench: {}\n", error.what());
+            _exit(1);
+        }
+        _exit(0);
+    }
+
+    pid_t child_ = -1;
+    int questions_ = -1, answers_ = -1;
+};
+
 void print_costs(const Options& options)
 {
     Run run(options, options.base_folder, options.scene);
@@ -136,21 +203,10 @@ void print_counts(const Options& options, const Hall& hall)
     folder.add_wall("lamp", tests::white_index);
     for (const int count : options.light_counts)
         folder.add_map(fmt::format("hall{}", count), make_hall(hall, count));
-    std::map<std::pair<Case, int>, std::vector<double>> times;
-    constexpr int frames = 3;
-    for (int round = 0; round < options.rounds; round++)
-        for (const int count : options.light_counts) {
-            Run run(options, folder.path(), fmt::format("maps/hall{}.bsp@-400,-400,100,10,45", count));
-            for (const Case& c : all_cases) {
-                if (c.sampler == "full" || c.subset != 8)
-                    continue;
-                run.measure(c);
-                std::vector<double> few;
-                for (int i = 0; i < frames; i++)
-                    few.push_back(run.measure(c));
-                times[{ c, count }].push_back(median(few));
-            }
-        }
+    std::vector<std::unique_ptr<RunApart>> runs;
+    for (const int count : options.light_counts)
+        runs.push_back(std::make_unique<RunApart>(
+            options, folder.path(), fmt::format("maps/hall{}.bsp@-400,-400,100,10,45", count)));
     fmt::print("\n{}: {}; milliseconds by number of small lights, and ratio to the first\n\n| sampler |", hall.name,
         hall.title);
     for (const int count : options.light_counts)
@@ -159,17 +215,20 @@ void print_counts(const Options& options, const Hall& hall)
     for (size_t i = 0; i < options.light_counts.size(); i++)
         fmt::print("---|");
     fmt::print("\n");
-    for (const Case& c : all_cases) {
-        const std::vector<double>& first = times[{ c, options.light_counts.front() }];
-        if (first.empty())
+    for (size_t which = 0; which < all_cases.size(); which++) {
+        if (all_cases[which].sampler == "full" || all_cases[which].subset != base.subset)
             continue;
-        fmt::print("| `{}` |", c.sampler);
-        for (const int count : options.light_counts) {
-            std::vector<double> ratios;
-            for (size_t i = 0; i < first.size(); i++)
-                ratios.push_back(times[{ c, count }][i] / first[i]);
-            fmt::print(" {:.0f} ({:.2f}) |", median(times[{ c, count }]), median(ratios));
-        }
+        std::vector<std::vector<double>> times(runs.size()), ratios(runs.size());
+        for (const auto& run : runs)
+            run->measure(which); // compiles it
+        for (int round = 0; round < options.rounds; round++)
+            for (size_t i = 0; i < runs.size(); i++) {
+                times[i].push_back(runs[i]->measure(which));
+                ratios[i].push_back(times[i].back() / times[0].back());
+            }
+        fmt::print("| `{}` |", all_cases[which].sampler);
+        for (size_t i = 0; i < runs.size(); i++)
+            fmt::print(" {:.0f} ({:.2f}) |", median(times[i]), median(ratios[i]));
         fmt::print("\n");
     }
 }

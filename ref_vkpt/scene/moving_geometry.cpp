@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstring>
 
 namespace vkpt {
@@ -40,6 +41,16 @@ void write_record(uint32_t* records, uint32_t slot, const Triangle& triangle, ui
     std::memcpy(records + size_t(slot) * bvh_triangle_words, &record, sizeof record);
 }
 
+// Three positions at `target`, a register at a time, so that four bytes behind them are spoilt: write what follows
+// afterwards.
+void write_corners(void* target, const Float4& a, const Float4& b, const Float4& c)
+{
+    auto* bytes = static_cast<std::byte*>(target);
+    std::memcpy(bytes, &a, sizeof a);
+    std::memcpy(bytes + sizeof(glm::vec3), &b, sizeof b);
+    std::memcpy(bytes + 2 * sizeof(glm::vec3), &c, sizeof c);
+}
+
 uint32_t normal_of(const Float4& point) { return std::bit_cast<std::array<uint32_t, 4>>(point)[3]; }
 
 void write_md2(const Md2Mesh& mesh, const std::vector<Float4>& points, bool mirrored, uint32_t material, uint32_t mask,
@@ -51,11 +62,22 @@ void write_md2(const Md2Mesh& mesh, const std::vector<Float4>& points, bool mirr
         const uint32_t* corners = &mesh.corners()[size_t(slot) * 3];
         const Float4 a = points[corners[0]], b = points[corners[second]], c = points[corners[third]];
         const auto& uvs = mesh.uvs()[slot];
-        const Triangle triangle { { to_vec3(a), to_vec3(b), to_vec3(c) }, { uvs[0], uvs[second], uvs[third] },
-            { normal_of(a), normal_of(b), normal_of(c) }, material, -1, -1 };
-        target.triangles[slot] = triangle;
-        if (target.records)
-            write_record(target.records, slot, triangle, target.first_id + slot, mask);
+        Triangle& triangle = target.triangles[slot];
+        write_corners(triangle.positions, a, b, c);
+        triangle.uvs[0] = uvs[0];
+        triangle.uvs[1] = uvs[second];
+        triangle.uvs[2] = uvs[third];
+        triangle.normals[0] = normal_of(a);
+        triangle.normals[1] = normal_of(b);
+        triangle.normals[2] = normal_of(c);
+        triangle.material = material;
+        triangle.emitter = triangle.cluster = -1;
+        triangle.padding = 0;
+        if (target.records) {
+            uint32_t* record = target.records + size_t(slot) * bvh_triangle_words;
+            write_corners(record, a, b, c);
+            record[offsetof(Record, id_and_mask) / sizeof *record] = id_and_mask(target.first_id + slot, mask);
+        }
     }
 }
 

@@ -284,12 +284,15 @@ void write_node(const Grid& grid, const Box4* boxes, const uint32_t* words, uint
     NodeBytes bytes = empty;
     Box4 planes[BVH_WIDTH];
     const NodeFrame frame = place_planes(grid, boxes, child_count, planes);
+    // Whole cells times this round to the quotients' whole numbers where these are whole: steps have one bit of
+    // mantissa.
+    const Float4 inverse_step = splat(1.0f) / frame.step;
     for (int axis = 0; axis < 3; axis++)
         bytes.corner[axis] = uint16_t(frame.corner[axis]);
     bytes.steps = uint16_t(frame.steps[0] | frame.steps[1] << BVH_STEP_BITS | frame.steps[2] << (2 * BVH_STEP_BITS));
     for (uint32_t slot = 0; slot < child_count; slot++) {
-        const Float4 high = (planes[slot].high - frame.corner) / frame.step;
-        const Int4 low_planes = __builtin_convertvector((planes[slot].low - frame.corner) / frame.step, Int4);
+        const Float4 high = (planes[slot].high - frame.corner) * inverse_step;
+        const Int4 low_planes = __builtin_convertvector((planes[slot].low - frame.corner) * inverse_step, Int4);
         Int4 high_planes = __builtin_convertvector(high, Int4);
         high_planes -= __builtin_convertvector(high_planes, Float4) < high; // upwards: true is -1
         for (int axis = 0; axis < 3; axis++) {

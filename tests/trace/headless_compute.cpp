@@ -155,18 +155,20 @@ void HeadlessCompute::create_device()
     REQUIRE_VK(vkAllocateCommandBuffers(device_, &commands, &commands_));
     VkFenceCreateInfo fence { VK_STRUCTURE_TYPE_FENCE_CREATE_INFO };
     REQUIRE_VK(vkCreateFence(device_, &fence, nullptr, &fence_));
+
+    constexpr uint32_t most_descriptors = 64;
+    const VkDescriptorPoolSize sizes[] = { { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, most_descriptors },
+        { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, most_descriptors } };
+    VkDescriptorPoolCreateInfo descriptors { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
+    descriptors.maxSets = most_descriptors;
+    descriptors.poolSizeCount = uint32_t(std::size(sizes));
+    descriptors.pPoolSizes = sizes;
+    REQUIRE_VK(vkCreateDescriptorPool(device_, &descriptors, nullptr, &descriptors_));
 }
 
-HeadlessCompute::Buffer HeadlessCompute::create_buffer(size_t bytes)
+// Host-visible.
+VkDeviceMemory HeadlessCompute::allocate(const VkMemoryRequirements& needed)
 {
-    Buffer& buffer = buffers_.emplace_back();
-    buffer.size = bytes;
-    VkBufferCreateInfo info { VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO };
-    info.size = std::max<size_t>(bytes, 16);
-    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    REQUIRE_VK(vkCreateBuffer(device_, &info, nullptr, &buffer.buffer));
-    VkMemoryRequirements needed;
-    vkGetBufferMemoryRequirements(device_, buffer.buffer, &needed);
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory);
     constexpr VkMemoryPropertyFlags wanted = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -179,8 +181,24 @@ HeadlessCompute::Buffer HeadlessCompute::create_buffer(size_t bytes)
     VkMemoryAllocateInfo allocation { VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO };
     allocation.pNext = &flags;
     allocation.allocationSize = needed.size;
-    allocation.memoryTypeIndex = type; // Vulkan promises that one was found
-    REQUIRE_VK(vkAllocateMemory(device_, &allocation, nullptr, &buffer.memory));
+    allocation.memoryTypeIndex = type;
+    VkDeviceMemory result = VK_NULL_HANDLE;
+    REQUIRE_VK(vkAllocateMemory(device_, &allocation, nullptr, &result));
+    return result;
+}
+
+HeadlessCompute::Buffer HeadlessCompute::create_buffer(size_t bytes)
+{
+    Buffer& buffer = buffers_.emplace_back();
+    buffer.size = bytes;
+    VkBufferCreateInfo info { VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO };
+    info.size = std::max<size_t>(bytes, 16);
+    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT
+        | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    REQUIRE_VK(vkCreateBuffer(device_, &info, nullptr, &buffer.buffer));
+    VkMemoryRequirements needed;
+    vkGetBufferMemoryRequirements(device_, buffer.buffer, &needed);
+    buffer.memory = allocate(needed);
     REQUIRE_VK(vkBindBufferMemory(device_, buffer.buffer, buffer.memory, 0));
     void* mapped = nullptr;
     REQUIRE_VK(vkMapMemory(device_, buffer.memory, 0, VK_WHOLE_SIZE, 0, &mapped));
@@ -198,8 +216,82 @@ HeadlessCompute::Buffer HeadlessCompute::create_buffer(std::span<const std::byte
     return buffer;
 }
 
-HeadlessCompute::Pipeline HeadlessCompute::create_pipeline(
-    std::span<const uint32_t> spirv, uint32_t push_bytes, std::span<const uint32_t> specialization)
+HeadlessCompute::Image HeadlessCompute::create_image(VkFormat format, uint32_t width, uint32_t height)
+{
+    Image& image = images_.emplace_back();
+    VkImageCreateInfo info { VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO };
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = format;
+    info.extent = { width, height, 1 };
+    info.mipLevels = info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.usage = VK_IMAGE_USAGE_STORAGE_BIT;
+    REQUIRE_VK(vkCreateImage(device_, &info, nullptr, &image.image));
+    VkMemoryRequirements needed;
+    vkGetImageMemoryRequirements(device_, image.image, &needed);
+    image.memory = allocate(needed);
+    REQUIRE_VK(vkBindImageMemory(device_, image.image, image.memory, 0));
+    VkImageViewCreateInfo view { VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO };
+    view.image = image.image;
+    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view.format = format;
+    view.subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1 };
+    REQUIRE_VK(vkCreateImageView(device_, &view, nullptr, &image.view));
+
+    VkCommandBufferBeginInfo begin { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
+    REQUIRE_VK(vkBeginCommandBuffer(commands_, &begin));
+    VkImageMemoryBarrier barrier { VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER };
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
+    barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image.image;
+    barrier.subresourceRange = view.subresourceRange;
+    vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 0,
+        nullptr, 0, nullptr, 1, &barrier);
+    REQUIRE_VK(vkEndCommandBuffer(commands_));
+    submit_and_wait();
+    return image;
+}
+
+void HeadlessCompute::create_set(Pipeline& pipeline, std::span<const Binding> bindings)
+{
+    const auto type_of = [](const Binding& binding) {
+        return binding.image ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    };
+    std::vector<VkDescriptorSetLayoutBinding> slots;
+    for (const Binding& binding : bindings)
+        slots.push_back({ uint32_t(slots.size()), type_of(binding), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr });
+    VkDescriptorSetLayoutCreateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO };
+    info.bindingCount = uint32_t(slots.size());
+    info.pBindings = slots.data();
+    REQUIRE_VK(vkCreateDescriptorSetLayout(device_, &info, nullptr, &pipeline.set_layout));
+    VkDescriptorSetAllocateInfo allocation { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO };
+    allocation.descriptorPool = descriptors_;
+    allocation.descriptorSetCount = 1;
+    allocation.pSetLayouts = &pipeline.set_layout;
+    REQUIRE_VK(vkAllocateDescriptorSets(device_, &allocation, &pipeline.set));
+    for (uint32_t slot = 0; slot < bindings.size(); slot++) {
+        const VkDescriptorImageInfo image { VK_NULL_HANDLE, bindings[slot].image, VK_IMAGE_LAYOUT_GENERAL };
+        VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
+        write.dstSet = pipeline.set;
+        write.dstBinding = slot;
+        write.descriptorCount = 1;
+        write.descriptorType = type_of(bindings[slot]);
+        write.pImageInfo = &image;
+        if (!bindings[slot].image) {
+            VkBufferViewCreateInfo view { VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO };
+            view.buffer = bindings[slot].texels;
+            view.format = bindings[slot].format;
+            view.range = VK_WHOLE_SIZE;
+            REQUIRE_VK(vkCreateBufferView(device_, &view, nullptr, &texel_views_.emplace_back()));
+            write.pTexelBufferView = &texel_views_.back();
+        }
+        vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+    }
+}
+
+HeadlessCompute::Pipeline HeadlessCompute::create_pipeline(std::span<const uint32_t> spirv, uint32_t push_bytes,
+    std::span<const uint32_t> specialization, std::span<const Binding> bindings)
 {
     Pipeline& pipeline = pipelines_.emplace_back();
     pipeline.push_bytes = push_bytes;
@@ -211,6 +303,11 @@ HeadlessCompute::Pipeline HeadlessCompute::create_pipeline(
     VkPipelineLayoutCreateInfo layout { VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO };
     layout.pushConstantRangeCount = 1;
     layout.pPushConstantRanges = &range;
+    if (!bindings.empty()) {
+        create_set(pipeline, bindings);
+        layout.setLayoutCount = 1;
+        layout.pSetLayouts = &pipeline.set_layout;
+    }
     REQUIRE_VK(vkCreatePipelineLayout(device_, &layout, nullptr, &pipeline.layout));
 
     std::vector<VkSpecializationMapEntry> entries;
@@ -235,6 +332,9 @@ double HeadlessCompute::dispatch(const Pipeline& pipeline, const void* push, uin
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     REQUIRE_VK(vkBeginCommandBuffer(commands_, &begin));
     vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline);
+    if (pipeline.set)
+        vkCmdBindDescriptorSets(
+            commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout, 0, 1, &pipeline.set, 0, nullptr);
     vkCmdPushConstants(commands_, pipeline.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline.push_bytes, push);
     vkCmdDispatch(commands_, groups, 1, 1);
     VkMemoryBarrier to_host { VK_STRUCTURE_TYPE_MEMORY_BARRIER };
@@ -244,15 +344,19 @@ double HeadlessCompute::dispatch(const Pipeline& pipeline, const void* push, uin
         nullptr, 0, nullptr);
     REQUIRE_VK(vkEndCommandBuffer(commands_));
 
+    auto start = std::chrono::steady_clock::now();
+    submit_and_wait();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void HeadlessCompute::submit_and_wait()
+{
     VkSubmitInfo submit { VK_STRUCTURE_TYPE_SUBMIT_INFO };
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands_;
-    auto start = std::chrono::steady_clock::now();
     REQUIRE_VK(vkQueueSubmit(queue_, 1, &submit, fence_));
     REQUIRE_VK(vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX));
-    double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     REQUIRE_VK(vkResetFences(device_, 1, &fence_));
-    return seconds;
 }
 
 void HeadlessCompute::free_buffers()
@@ -269,10 +373,19 @@ void HeadlessCompute::destroy()
     for (const Pipeline& pipeline : pipelines_) {
         vkDestroyPipeline(device_, pipeline.pipeline, nullptr);
         vkDestroyPipelineLayout(device_, pipeline.layout, nullptr);
+        vkDestroyDescriptorSetLayout(device_, pipeline.set_layout, nullptr);
         vkDestroyShaderModule(device_, pipeline.module, nullptr);
+    }
+    for (VkBufferView view : texel_views_)
+        vkDestroyBufferView(device_, view, nullptr);
+    for (const Image& image : images_) {
+        vkDestroyImageView(device_, image.view, nullptr);
+        vkDestroyImage(device_, image.image, nullptr);
+        vkFreeMemory(device_, image.memory, nullptr);
     }
     free_buffers();
     if (device_) {
+        vkDestroyDescriptorPool(device_, descriptors_, nullptr);
         vkDestroyFence(device_, fence_, nullptr);
         vkDestroyCommandPool(device_, pool_, nullptr);
         vkDestroyDevice(device_, nullptr);

@@ -26,8 +26,22 @@ public:
         std::byte* mapped = nullptr;
         size_t size = 0;
     };
+    // One level, one layer, in the general layout.
+    struct Image {
+        VkImage image = VK_NULL_HANDLE;
+        VkDeviceMemory memory = VK_NULL_HANDLE;
+        VkImageView view = VK_NULL_HANDLE;
+    };
+    // What a shader has at a binding of set 0: a buffer's texels, or a storage image.
+    struct Binding {
+        VkBuffer texels = VK_NULL_HANDLE;
+        VkFormat format = VK_FORMAT_UNDEFINED; // of the texels
+        VkImageView image = VK_NULL_HANDLE;
+    };
     struct Pipeline {
         VkShaderModule module = VK_NULL_HANDLE;
+        VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+        VkDescriptorSet set = VK_NULL_HANDLE; // where it has bindings
         VkPipelineLayout layout = VK_NULL_HANDLE;
         VkPipeline pipeline = VK_NULL_HANDLE;
         uint32_t push_bytes = 0;
@@ -49,9 +63,11 @@ public:
 
     void free_buffers();
 
-    // Entry point main; `specialization` sets the constants 0, 1, 2, ...
-    Pipeline create_pipeline(
-        std::span<const uint32_t> spirv, uint32_t push_bytes, std::span<const uint32_t> specialization);
+    Image create_image(VkFormat format, uint32_t width, uint32_t height);
+
+    // Entry point main; `specialization` sets the constants 0, 1, 2, ..., `bindings` the bindings 0, 1, 2, ...
+    Pipeline create_pipeline(std::span<const uint32_t> spirv, uint32_t push_bytes,
+        std::span<const uint32_t> specialization, std::span<const Binding> bindings = {});
 
     // Seconds from submission to completion.
     double dispatch(const Pipeline& pipeline, const void* push, uint32_t groups);
@@ -63,6 +79,9 @@ private:
     void create_instance(Validation validation);
     void choose_device();
     void create_device();
+    void create_set(Pipeline& pipeline, std::span<const Binding> bindings);
+    VkDeviceMemory allocate(const VkMemoryRequirements& needed);
+    void submit_and_wait();
     void destroy();
 
     VkInstance instance_ = VK_NULL_HANDLE;
@@ -75,6 +94,9 @@ private:
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
     std::vector<Buffer> buffers_;
+    std::vector<Image> images_;
+    std::vector<VkBufferView> texel_views_;
+    VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
     std::vector<Pipeline> pipelines_;
     std::string device_name_;
     std::vector<std::string> messages_;
