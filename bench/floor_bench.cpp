@@ -33,6 +33,8 @@ void run(int rounds)
              VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT })
         bindings.push_back({ .image = device.create_image(format, width, height).view });
     bindings.push_back({ .texels = source.buffer, .format = VK_FORMAT_R32G32B32A32_UINT });
+    std::vector<VkDescriptorType> types(4, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+    types.push_back(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
     struct Pass {
         const char* name;
         HeadlessCompute::Pipeline pipeline;
@@ -43,8 +45,8 @@ void run(int rounds)
              "four half floats, 64-bit", "four half floats, image", "no table, its indices", "table, 32-bit loads",
              "table, 64-bit loads", "table, texels" }) {
         const uint32_t mode = uint32_t(passes.size());
-        passes.push_back(
-            { name, device.create_pipeline(floor_spirv, sizeof push, std::span(&mode, 1), bindings), {} });
+        passes.push_back({ name, device.create_pipeline(floor_spirv, sizeof push, std::span(&mode, 1), types), {} });
+        device.bind(passes.back().pipeline, bindings);
         device.dispatch(passes.back().pipeline, &push, pixels / pixels_per_group); // compiles
     }
     for (int round = 0; round < rounds; round++)

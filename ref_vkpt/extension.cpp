@@ -89,7 +89,7 @@ void fill_trace(ModuleInfo& info, const Module& m)
     info.trace_backends = offered.data();
     info.trace_backend = name_of(m.frame.trace_backend()).data();
     if (const World* world = m.scene.world())
-        info.structure_bytes_per_triangle = m.frame.bytes_per_triangle(m.gpu_world, *world);
+        info.structure_bytes_per_triangle = m.frame.bytes_per_triangle(*world);
 }
 
 ModuleInfo module_info()

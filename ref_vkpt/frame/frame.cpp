@@ -158,6 +158,8 @@ uint32_t Frame::write_uniforms(const shared::FrameUniforms& uniforms)
 void Frame::bind(uint32_t uniform_offset) const
 {
     graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, uniform_offset);
+    if (backend_ == TraceBackend::software)
+        graphics_.bindings.bind_trees(commands_, trees_);
     if (backend_ == TraceBackend::pipeline)
         graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, uniform_offset);
 }

@@ -7,6 +7,7 @@
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/frame/outline_upload.hpp"
 #include "ref_vkpt/frame/render_scale.hpp"
+#include "ref_vkpt/frame/tree_tables.hpp"
 #include "ref_vkpt/frame/uploads.hpp"
 #include "ref_vkpt/frame/view_history.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
@@ -14,6 +15,7 @@
 #include "ref_vkpt/trace/backend.hpp"
 
 #include <chrono>
+#include <memory>
 #include <span>
 
 namespace vkpt {
@@ -26,7 +28,7 @@ struct GpuWorld {
     uint64_t version = 0; // another for every map; 0: not uploaded yet
 };
 // Waits for the map's tree. Usable after uploader.flush().
-GpuWorld upload_world(const World& world, Uploader& uploader);
+GpuWorld upload_world(const World& world, Uploader& uploader, bool is_cpu);
 
 // What a view of the world keeps from one of its frames to the next, beside its buffers.
 struct ViewState {
@@ -72,7 +74,7 @@ public:
         state_.radiance = nullptr;
     }
     // Bytes of the map's acceleration structure per triangle, in the backend that is used.
-    double bytes_per_triangle(const GpuWorld& gpu_world, const World& world) const;
+    double bytes_per_triangle(const World& world) const;
 
     // Forgets what was averaged: the next view is the first.
     void restart_accumulation() { state_.accumulated_frames = 0; }
@@ -110,7 +112,8 @@ public:
 private:
     // What the device keeps of the scene from frame to frame; little of it is written in each.
     struct SceneUploads {
-        explicit SceneUploads(const Gpu& gpu);
+        SceneUploads(const Gpu& gpu, const Bindings& bindings);
+        std::unique_ptr<TreeTables> trees; // stays where it is while other views come
         PrefixedUpload triangles, emitters;
         OutlineUpload outlines;
         KeptUpload light_lists, dynamic_light_indices;
@@ -127,7 +130,8 @@ private:
     // known: primary_visibility asks where moving things were in the last view.
     enum class Motion { unknown, known };
     void fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWorld* gpu_world, Motion motion);
-    shared::BvhView write_moving(const MovingGeometry& moving, MovingTarget target);
+    void write_trees(
+        shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, MovingTarget target);
     void fill_structures(
         shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target);
     uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
@@ -168,6 +172,7 @@ private:
     FrameUploads uploads_;
     // By the view's number in the frame: all views are drawn after all have been described.
     std::vector<SceneUploads> scene_uploads_;
+    VkDescriptorSet trees_ = VK_NULL_HANDLE; // of the view that is recorded
     MovingWriter moving_writer_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;

@@ -2,6 +2,8 @@
 // The part of the frame that brings the scene to the device: triangles, trees, emitters, light lists.
 #include "ref_vkpt/frame/frame.hpp"
 
+#include "ref_vkpt/trace/wide_tree.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -29,20 +31,23 @@ NoWorld make_no_world(size_t emitter_count)
 
 } // namespace
 
-GpuWorld upload_world(const World& world, Uploader& uploader)
+GpuWorld upload_world(const World& world, Uploader& uploader, bool is_cpu)
 {
     static uint64_t versions = 0;
     GpuWorld gpu;
-    gpu.bvh_nodes = uploader.make_buffer(world.bvh().nodes, MemoryKind::acceleration, "world BVH nodes");
-    gpu.bvh_triangles = uploader.make_buffer(world.bvh().triangles, MemoryKind::acceleration, "world BVH triangles");
+    if (!is_cpu) {
+        gpu.bvh_nodes = uploader.make_buffer(world.bvh().nodes, MemoryKind::acceleration, "world BVH nodes");
+        gpu.bvh_triangles = uploader.make_buffer(world.bvh().triangles, MemoryKind::acceleration, "world BVH triangles");
+    }
     gpu.light_indices = uploader.make_buffer(world.light_lists.static_indices(), MemoryKind::lights, "light lists");
     gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
     gpu.version = ++versions;
     return gpu;
 }
 
-Frame::SceneUploads::SceneUploads(const Gpu& gpu)
-    : triangles(gpu, MemoryKind::geometry, "triangles")
+Frame::SceneUploads::SceneUploads(const Gpu& gpu, const Bindings& bindings)
+    : trees(std::make_unique<TreeTables>(gpu, bindings))
+    , triangles(gpu, MemoryKind::geometry, "triangles")
     , emitters(gpu, MemoryKind::lights, "emitters")
     , outlines(gpu)
     , light_lists(gpu, MemoryKind::lights, "light list headers")
@@ -58,7 +63,7 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     const uint32_t slot = graphics_.slot();
     const MapGeometry* world = scene.world ? &scene.world->models[0] : nullptr;
     while (scene_uploads_.size() <= views_this_frame_)
-        scene_uploads_.emplace_back(graphics_.gpu);
+        scene_uploads_.emplace_back(graphics_.gpu, graphics_.bindings);
     SceneUploads& kept = scene_uploads_[views_this_frame_];
     const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
     const Upload triangles
@@ -96,27 +101,19 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
         out.previous_positions = previous.address;
         out.first_moving = scene.moving.first_id();
     }
-    shared::BvhView moving {};
     if (backend_ == TraceBackend::software)
-        moving = write_moving(scene.moving, target);
+        write_trees(out, scene, gpu_world, target);
     else
         fill_structures(out, scene, gpu_world, target);
 
     if (!world) {
         const NoWorld none = make_no_world(scene.emitters.size());
-        out.trees[0] = moving;
-        out.tree_count = 1;
         out.light_lists = uploads_.push(none.lists);
         out.static_light_indices = out.dynamic_light_indices = uploads_.push(none.indices);
         out.bsp_tree = uploads_.push(none.tree);
         out.light_list_count = 1;
         return;
     }
-    const Bvh& bvh = scene.world->bvh();
-    out.trees[0]
-        = { gpu_world->bvh_nodes.address(), gpu_world->bvh_triangles.address(), bvh.grid_origin, bvh.grid_scale };
-    out.trees[1] = moving;
-    out.tree_count = scene.moving.triangle_count() > 0 ? 2 : 1;
     out.static_light_indices = gpu_world->light_indices.address();
     if (scene.kept_lights.lists.empty()) {
         out.light_lists = kept.light_lists.write(slot, lights->lists());
@@ -129,17 +126,54 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     out.light_list_count = uint32_t(lights->lists().size());
 }
 
-// What moves, right into the memory that the device reads.
-shared::BvhView Frame::write_moving(const MovingGeometry& moving, MovingTarget target)
+// What moves goes right into the memory that the device reads.
+void Frame::write_trees(
+    shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, MovingTarget target)
 {
     const CpuTimer timer("cpu bvh");
-    const Upload nodes = uploads_.reserve(moving.node_count() * shared::BVH_NODE_BYTES);
+    const MovingGeometry& moving = scene.moving;
+    const Bvh* world = scene.world ? &scene.world->bvh() : nullptr;
     // One record even where there is none: its address must be one.
-    const Upload records = uploads_.reserve(std::max<size_t>(moving.triangle_count(), 1) * shared::BVH_TRIANGLE_BYTES);
-    target.nodes = nodes.as<uint32_t>();
-    target.records = records.as<uint32_t>();
+    const size_t record_count = std::max<size_t>(moving.triangle_count(), 1);
+    TreeTables& tables = *scene_uploads_[views_this_frame_].trees;
+    trees_ = tables.set(graphics_.slot());
+    shared::BvhView world_view {}, moving_view {};
+    if (graphics_.device.is_cpu) {
+        const TreeTables::Room room = tables.reserve(
+            graphics_.slot(), world, gpu_world ? gpu_world->version : UINT64_MAX, moving.node_count(), record_count);
+        target.nodes = room.nodes.as<uint32_t>();
+        target.records = room.triangles.as<uint32_t>();
+        world_view.nodes = room.nodes.address;
+        world_view.triangles = room.triangles.address;
+        moving_view.first_node = world ? uint32_t(world->nodes.size() / bvh_node_words) : 0;
+        moving_view.first_triangle = world ? uint32_t(world->triangles.size() / bvh_triangle_words) : 0;
+        moving_view.nodes = world_view.nodes + uint64_t(moving_view.first_node) * shared::BVH_NODE_BYTES;
+        moving_view.triangles = world_view.triangles + uint64_t(moving_view.first_triangle) * shared::BVH_TRIANGLE_BYTES;
+    } else {
+        const Upload nodes = uploads_.reserve(moving.node_count() * shared::BVH_NODE_BYTES);
+        const Upload records = uploads_.reserve(record_count * shared::BVH_TRIANGLE_BYTES);
+        target.nodes = nodes.as<uint32_t>();
+        target.records = records.as<uint32_t>();
+        moving_view.nodes = nodes.address;
+        moving_view.triangles = records.address;
+        if (gpu_world) {
+            world_view.nodes = gpu_world->bvh_nodes.address();
+            world_view.triangles = gpu_world->bvh_triangles.address();
+        }
+    }
     const Grid grid = moving_writer_.write(moving, target);
-    return { nodes.address, records.address, grid.origin, grid.scale };
+    moving_view.grid_origin = grid.origin;
+    moving_view.grid_scale = grid.scale;
+    if (!world) {
+        out.trees[0] = moving_view;
+        out.tree_count = 1;
+        return;
+    }
+    world_view.grid_origin = world->grid_origin;
+    world_view.grid_scale = world->grid_scale;
+    out.trees[0] = world_view;
+    out.trees[1] = moving_view;
+    out.tree_count = moving.triangle_count() > 0 ? 2 : 1;
 }
 
 void Frame::fill_structures(
@@ -173,12 +207,13 @@ void Frame::fill_structures(
     out.structure_ids[1] = view.ids[1];
 }
 
-double Frame::bytes_per_triangle(const GpuWorld& gpu_world, const World& world) const
+double Frame::bytes_per_triangle(const World& world) const
 {
     if (backend_ != TraceBackend::software)
         return structures_.world_bytes_per_triangle();
     const size_t count = world.models[0].triangles.size();
-    return count > 0 ? double(gpu_world.bvh_nodes.size() + gpu_world.bvh_triangles.size()) / double(count) : 0;
+    const Bvh& bvh = world.bvh();
+    return count > 0 ? double((bvh.nodes.size() + bvh.triangles.size()) * sizeof(uint32_t)) / double(count) : 0;
 }
 
 } // namespace vkpt

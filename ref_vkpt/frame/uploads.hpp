@@ -72,6 +72,8 @@ public:
     {
         return reserve(frame_slot, std::as_bytes(std::span(prefix)), prefix_version, rest_count * sizeof(T));
     }
+    // What was reserved last.
+    const Buffer& buffer(uint32_t frame_slot) const { return slots_[frame_slot].buffer; }
 
 private:
     struct Slot {

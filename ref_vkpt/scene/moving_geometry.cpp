@@ -22,6 +22,7 @@ static_assert(shared::BVH_ID_MASK == most_ids - 1);
 struct Record {
     glm::vec3 positions[3];
     uint32_t id_and_mask;
+    uint32_t padding[2] {};
 };
 static_assert(sizeof(Record) == shared::BVH_TRIANGLE_BYTES);
 
@@ -37,7 +38,7 @@ struct MeshTarget {
 void write_record(uint32_t* records, uint32_t slot, const Triangle& triangle, uint32_t id, uint32_t mask)
 {
     const Record record { { triangle.positions[0], triangle.positions[1], triangle.positions[2] },
-        id_and_mask(id, mask) };
+        id_and_mask(id, mask), {} };
     std::memcpy(records + size_t(slot) * bvh_triangle_words, &record, sizeof record);
 }
 

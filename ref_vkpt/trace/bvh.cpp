@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Makes the tree that shaders/lib/trace_software.glsl walks.
 //
-// Node, 88 bytes: for each axis eight 8-bit low planes (8 bytes), then eight high planes (8 bytes); at byte 48 the frame
+// Node, 96 bytes: for each axis eight 8-bit low planes (8 bytes), then eight high planes (8 bytes); at byte 48 the frame
 // that they count in, its corner as three 16-bit positions on the tree's grid and the steps between planes (5 bits an
-// axis); at byte 56 eight 32-bit child words (shaders/shared/trace.h). A child that is not there has inverted planes,
+// axis); at byte 56 eight 32-bit child words (shaders/shared/trace.h); eight bytes are free. A child that is not there has inverted planes,
 // and BVH_NO_CHILD in case a ray from very far away meets it all the same.
-// Triangle, 40 bytes, in leaf order: its three corners (floats), id | mask << 24.
+// Triangle, 48 bytes, in leaf order: its three corners (floats), id | mask << 24, eight free bytes.
 //
 // Why so: on two cores with AVX-512 through the Vulkan CPU driver, million rays a second per core for coherent camera
 // rays / one diffuse bounce / shadow rays in a middle-sized map were: 3.1 / 1.0 / 1.5 for a plain binary tree, 9.1
 // / 4.1 / 6.1 with four children and float boxes, 10 / 5.6 / 7.3 with eight, 14 / 6.5 / 9.1 with eight quantised ones,
-// which halve the loads; the driver's own ray query reached 1.3 / .71 / 1.1. Low and high planes stand apart so that a
-// ray's sign on an axis picks the near and far ones by address; the sizes let all of it be read by 64-bit loads.
+// which halve the loads; the driver's own ray query reached 1.3 / .71 / 1.1. All planes of an axis are one texel of 16
+// bytes, whose halves a ray's sign swaps, and the sizes are whole texels: read as such, nodes and triangles cost that
+// driver half of what 64-bit loads do (docs/benchmarks.md).
 #include "ref_vkpt/trace/bvh.hpp"
 
 #include "ref_vkpt/trace/wide_tree.hpp"

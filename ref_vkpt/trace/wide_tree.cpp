@@ -215,6 +215,7 @@ struct NodeBytes {
     uint16_t corner[3];
     uint16_t steps;
     uint32_t words[BVH_WIDTH];
+    uint32_t padding[2];
 };
 static_assert(offsetof(NodeBytes, corner) == BVH_FRAME_OFFSET && offsetof(NodeBytes, words) == BVH_CHILD_WORDS_OFFSET);
 static_assert(sizeof(NodeBytes) == BVH_NODE_BYTES);

@@ -44,7 +44,9 @@
     X(vkFreeMemory)                                                                                                    \
     X(vkMapMemory)                                                                                                     \
     X(vkCreateBuffer)                                                                                                  \
+    X(vkCreateBufferView)                                                                                              \
     X(vkDestroyBuffer)                                                                                                 \
+    X(vkDestroyBufferView)                                                                                             \
     X(vkGetBufferMemoryRequirements)                                                                                   \
     X(vkBindBufferMemory)                                                                                              \
     X(vkGetBufferDeviceAddress)                                                                                        \

@@ -87,6 +87,12 @@ VkPipeline Pipelines::make_compute_pipeline(std::string_view shader) const
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;
     info.stage.pName = "main";
+    // Constant 1 of lib/trace_software.glsl: whether trees are read as texels, its default (frame/tree_tables.hpp).
+    const VkBool32 has_texels = VK_FALSE;
+    const VkSpecializationMapEntry entry { 1, 0, sizeof has_texels };
+    const VkSpecializationInfo by_address { 1, &entry, sizeof has_texels, &has_texels };
+    if (!gpu_.device.is_cpu)
+        info.stage.pSpecializationInfo = &by_address;
     VkPipeline pipeline = VK_NULL_HANDLE;
     const VkResult result = vkCreateComputePipelines(gpu_.device.handle, cache_, 1, &info, nullptr, &pipeline);
     vkDestroyShaderModule(gpu_.device.handle, module, nullptr);

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Ray tracing in plain compute: walks the 8-wide BVH that ref_vkpt/trace/bvh.cpp builds (layout described there).
 //
-// One ray per lane. Measured against the alternatives on the CPU driver: 64-bit loads through buffer_reference become one
-// hardware gather each, where a storage buffer's become branches (half the speed); a stack in global memory beats private and
+// One ray per lane. Measured against the alternatives on the CPU driver: nodes and triangles come as texels, 16 bytes a lane, which
+// it loads lane by lane and transposes: half the time of 64-bit loads through buffer_reference, which become two hardware
+// gathers each, where a storage buffer's become branches (half the speed again); a stack in global memory beats private and
 // shared arrays by 10..30 % on incoherent rays; integer min/max on the float bits spares the driver's NaN handling.
 //
 // Extensions are enabled here, so include this before any declaration. A BvhView that comes straight from push constants or
 // from constant places of a uniform buffer is 14 % (camera rays), 7 % (bounces), 4 % (shadow rays) faster on that driver than
 // one that is fetched through a pointer or by an index: those are gathers, and gathers are what a ray's time goes into.
+//
+// Define VKPT_BVH_SET, the descriptor set of the two buffers of texels, where it is not 2. GPUs read by address:
+// specialization constant 1 is false there, see TreeTables.
 #ifndef VKPT_LIB_TRACE_SOFTWARE_GLSL
 #define VKPT_LIB_TRACE_SOFTWARE_GLSL
 
@@ -15,6 +19,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_control_flow_attributes : require
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -23,6 +28,12 @@
 #include "quick_floats.glsl"
 #include "ray.glsl"
 
+#ifndef VKPT_BVH_SET
+#define VKPT_BVH_SET 2
+#endif
+layout(constant_id = 1) const bool bvh_has_texels = true;
+layout(set = VKPT_BVH_SET, binding = 0) uniform utextureBuffer bvh_nodes;
+layout(set = VKPT_BVH_SET, binding = 1) uniform utextureBuffer bvh_triangles;
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer BvhWords64 { uint64_t words[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhWords32 { uint words[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhViews { BvhView views[]; };
@@ -59,11 +70,11 @@ void bvh_sort(inout int key[8])
     bvh_order(key[3], key[4]);
 }
 
-// A ray in the grid's coordinates, and where a node keeps the planes it enters and leaves by.
+// A ray in the grid's coordinates.
 struct BvhRay {
     vec3 origin, inverse;
-    uvec3 near_offset, far_offset; // bytes from a node's start
-    int t_min;                     // float bits, >= 0
+    bvec3 backwards; // enters by a node's high planes
+    int t_min;       // float bits, >= 0
 };
 
 BvhRay bvh_ray(BvhView bvh, vec3 origin, vec3 direction, int t_min)
@@ -71,11 +82,11 @@ BvhRay bvh_ray(BvhView bvh, vec3 origin, vec3 direction, int t_min)
     // A tiny slope for none keeps the slabs' distances finite; the boxes' margin (bvh.cpp) covers the difference.
     vec3 slope = mix(direction, vec3(1e-18), lessThan(abs(direction), vec3(1e-18)));
     vec3 inverse = 1.0 / (slope * bvh.grid_scale);
-    uvec3 low = uvec3(0u, 16u, 32u), backwards = uvec3(floatBitsToInt(inverse) >> 31) & 8u;
-    return BvhRay((origin - bvh.grid_origin) * bvh.grid_scale, inverse, low + backwards, low + (8u - backwards), t_min);
+    return BvhRay((origin - bvh.grid_origin) * bvh.grid_scale, inverse, lessThan(floatBitsToInt(inverse), ivec3(0)), t_min);
 }
 
-uvec2 bvh_load(uint64_t address) { return unpack32(BvhWords64(address).words[0]); }
+uvec2 bvh_load(uint64_t address, uint word) { return unpack32(BvhWords64(address).words[word]); }
+uvec4 bvh_load_texel(uint64_t address, uint texel) { return uvec4(bvh_load(address, texel * 2u), bvh_load(address, texel * 2u + 1u)); }
 
 // Distance to the 8-bit plane `child` of eight. Through int: the driver has no quick way from unsigned to float.
 int bvh_slab(uvec2 planes, int child, float start, float step)
@@ -84,13 +95,30 @@ int bvh_slab(uvec2 planes, int child, float start, float step)
     return floatBitsToInt(fma(float(plane), step, start));
 }
 
-// Entry distances of the children that the ray meets before t_max, ascending.
-void bvh_test_node(BvhRay ray, uint64_t node, int t_max, out int key[8])
+// A node's boxes: by axis low planes in the first half, high ones in the second; and their frame.
+struct BvhNode {
+    uvec4 x, y, z;
+    uvec2 frame;
+};
+
+BvhNode bvh_load_node(BvhView bvh, uint node)
 {
-    uvec2 near_x = bvh_load(node + uint64_t(ray.near_offset.x)), far_x = bvh_load(node + uint64_t(ray.far_offset.x));
-    uvec2 near_y = bvh_load(node + uint64_t(ray.near_offset.y)), far_y = bvh_load(node + uint64_t(ray.far_offset.y));
-    uvec2 near_z = bvh_load(node + uint64_t(ray.near_offset.z)), far_z = bvh_load(node + uint64_t(ray.far_offset.z));
-    uvec2 frame_words = bvh_load(node + uint64_t(BVH_FRAME_OFFSET));
+    if (bvh_has_texels) {
+        int first = int((bvh.first_node + node) * (BVH_NODE_BYTES / BVH_TEXEL_BYTES));
+        return BvhNode(texelFetch(bvh_nodes, first), texelFetch(bvh_nodes, first + 1), texelFetch(bvh_nodes, first + 2),
+            texelFetch(bvh_nodes, first + 3).xy);
+    }
+    uint64_t address = bvh.nodes + uint64_t(node * BVH_NODE_BYTES);
+    return BvhNode(bvh_load_texel(address, 0u), bvh_load_texel(address, 1u), bvh_load_texel(address, 2u), bvh_load(address, 6u));
+}
+
+// Entry distances of the children that the ray meets before t_max, ascending.
+void bvh_test_node(BvhRay ray, BvhNode node, int t_max, out int key[8])
+{
+    uvec2 near_x = ray.backwards.x ? node.x.zw : node.x.xy, far_x = ray.backwards.x ? node.x.xy : node.x.zw;
+    uvec2 near_y = ray.backwards.y ? node.y.zw : node.y.xy, far_y = ray.backwards.y ? node.y.xy : node.y.zw;
+    uvec2 near_z = ray.backwards.z ? node.z.zw : node.z.xy, far_z = ray.backwards.z ? node.z.xy : node.z.zw;
+    uvec2 frame_words = node.frame;
     // Distances to the frame's corner, and from plane to plane.
     vec3 corner = vec3(ivec3(frame_words.x & 0xffffu, frame_words.x >> 16, frame_words.y & 0xffffu));
     vec3 start = (corner - ray.origin) * ray.inverse;
@@ -108,16 +136,30 @@ void bvh_test_node(BvhRay ray, uint64_t node, int t_max, out int key[8])
     bvh_sort(key);
 }
 
+// Three corners, then id and mask.
+struct BvhTriangle {
+    uvec4 a, b;
+    uvec2 c;
+};
+
+BvhTriangle bvh_load_triangle(BvhView bvh, uint slot)
+{
+    if (bvh_has_texels) {
+        int first = int((bvh.first_triangle + slot) * (BVH_TRIANGLE_BYTES / BVH_TEXEL_BYTES));
+        return BvhTriangle(texelFetch(bvh_triangles, first), texelFetch(bvh_triangles, first + 1), texelFetch(bvh_triangles, first + 2).xy);
+    }
+    uint64_t address = bvh.triangles + uint64_t(slot * BVH_TRIANGLE_BYTES);
+    return BvhTriangle(bvh_load_texel(address, 0u), bvh_load_texel(address, 1u), bvh_load(address, 4u));
+}
+
 // Pluecker's edge tests: an edge's sign depends on nothing but its two corners and the ray, and comes out exactly opposite in
 // the triangle that shares it, so no ray passes between two triangles. Moeller and Trumbore's comparison, 2 % faster, let
 // 2.6 % of the rays through that were aimed at edges. Two-sided, t in (t_min, t_max), edges inclusive.
-bool bvh_test_triangle(uint64_t address, vec3 origin, vec3 direction, int t_min, int t_max, uint ray_mask, inout RawHit hit)
+bool bvh_test_triangle(BvhTriangle triangle, vec3 origin, vec3 direction, int t_min, int t_max, uint ray_mask, inout RawHit hit)
 {
-    BvhWords64 source = BvhWords64(address);
-    vec2 a = uintBitsToFloat(unpack32(source.words[0])), b = uintBitsToFloat(unpack32(source.words[1]));
-    vec2 c = uintBitsToFloat(unpack32(source.words[2])), d = uintBitsToFloat(unpack32(source.words[3]));
-    uvec2 e = unpack32(source.words[4]);
-    vec3 p0 = vec3(a, b.x) - origin, p1 = vec3(b.y, c) - origin, p2 = vec3(d, uintBitsToFloat(e.x)) - origin;
+    vec4 a = uintBitsToFloat(triangle.a), b = uintBitsToFloat(triangle.b);
+    uvec2 e = triangle.c;
+    vec3 p0 = a.xyz - origin, p1 = vec3(a.w, b.xy) - origin, p2 = vec3(b.zw, uintBitsToFloat(e.x)) - origin;
 
     // Each the weight of the corner opposite the edge, times `area`; all of one sign inside.
     vec3 weights = vec3(dot(cross(p1 - p2, p1 + p2), direction), dot(cross(p2 - p0, p2 + p0), direction),
@@ -159,7 +201,7 @@ void software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, inout
         if (int(current) >= 0) {
             uint child_words = current * BVH_NODE_BYTES + BVH_CHILD_WORDS_OFFSET;
             int key[8];
-            bvh_test_node(ray, bvh.nodes + uint64_t(current * BVH_NODE_BYTES), t_max, key);
+            bvh_test_node(ray, bvh_load_node(bvh, current), t_max, key);
             // Farthest first. Nested, because most nodes have few children in the way and the lanes then skip the rest at once.
             if (key[1] < bvh_key_none) {
                 if (key[2] < bvh_key_none) {
@@ -187,8 +229,7 @@ void software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, inout
                 current = BVH_NO_CHILD;
         }
         if (int(current) < 0 && current != BVH_NO_CHILD) {
-            uint64_t triangle = bvh.triangles + uint64_t((current & BVH_LEAF_FIRST_MASK) * BVH_TRIANGLE_BYTES);
-            if (bvh_test_triangle(triangle, origin, direction, ray.t_min, t_max, ray_mask, hit)) {
+            if (bvh_test_triangle(bvh_load_triangle(bvh, current & BVH_LEAF_FIRST_MASK), origin, direction, ray.t_min, t_max, ray_mask, hit)) {
                 t_max = floatBitsToInt(hit.t);
                 if (any_hit)
                     break;

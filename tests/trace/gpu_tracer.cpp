@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/trace/gpu_tracer.hpp"
 
+#include "ref_vkpt/trace/wide_tree.hpp"
 #include "shaders/shared/trace.h"
 
 #include "trace_rays_spirv.h"
@@ -11,10 +12,13 @@ namespace vkpt::tests {
 
 using namespace shared;
 
-std::array<HeadlessCompute::Pipeline, 2> create_trace_pipelines(HeadlessCompute& device)
+TracePipelines create_trace_pipelines(HeadlessCompute& device, bool by_texels)
 {
     auto create = [&](uint32_t any_hit) {
-        return device.create_pipeline(trace_rays_spirv, sizeof(TraceRaysPush), std::span(&any_hit, 1));
+        const uint32_t constants[] = { any_hit, by_texels };
+        constexpr VkDescriptorType trees[]
+            = { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER };
+        return device.create_pipeline(trace_rays_spirv, sizeof(TraceRaysPush), constants, trees);
     };
     return { create(0), create(1) };
 }
@@ -25,11 +29,22 @@ GpuTracer::GpuTracer(
     , hits_(device.create_buffer(rays.size() * sizeof(TestHit)))
     , groups_((uint32_t(rays.size()) + TRACE_RAYS_PER_GROUP - 1) / TRACE_RAYS_PER_GROUP)
 {
+    std::vector<uint32_t> nodes, triangles;
+    for (const Bvh& tree : trees) {
+        nodes.insert(nodes.end(), tree.nodes.begin(), tree.nodes.end());
+        triangles.insert(triangles.end(), tree.triangles.begin(), tree.triangles.end());
+    }
+    nodes_ = device.create_buffer_of(std::span<const uint32_t>(nodes));
+    triangles_ = device.create_buffer_of(std::span<const uint32_t>(triangles));
     std::vector<BvhView> views;
-    for (const Bvh& tree : trees)
-        views.push_back({ device.create_buffer_of(std::span<const uint32_t>(tree.nodes)).address,
-            device.create_buffer_of(std::span<const uint32_t>(tree.triangles)).address, tree.grid_origin,
-            tree.grid_scale });
+    uint32_t first_node = 0, first_triangle = 0;
+    for (const Bvh& tree : trees) {
+        views.push_back({ nodes_.address + uint64_t(first_node) * BVH_NODE_BYTES,
+            triangles_.address + uint64_t(first_triangle) * BVH_TRIANGLE_BYTES, first_node, first_triangle,
+            tree.grid_origin, tree.grid_scale });
+        first_node += uint32_t(tree.nodes.size() / bvh_node_words);
+        first_triangle += uint32_t(tree.triangles.size() / bvh_triangle_words);
+    }
     push_.rays = device.create_buffer_of(rays).address;
     push_.hits = hits_.address;
     if (!views.empty()) {
@@ -42,7 +57,13 @@ GpuTracer::GpuTracer(
     push_.ray_mask = ray_mask;
 }
 
-double GpuTracer::run(const HeadlessCompute::Pipeline& pipeline) { return device_.dispatch(pipeline, &push_, groups_); }
+double GpuTracer::run(const HeadlessCompute::Pipeline& pipeline)
+{
+    const HeadlessCompute::Binding bindings[] = { { .texels = nodes_.buffer, .format = VK_FORMAT_R32G32B32A32_UINT },
+        { .texels = triangles_.buffer, .format = VK_FORMAT_R32G32B32A32_UINT } };
+    device_.bind(pipeline, bindings);
+    return device_.dispatch(pipeline, &push_, groups_);
+}
 
 std::vector<TestHit> GpuTracer::hits() const
 {

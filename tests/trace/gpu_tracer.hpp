@@ -13,7 +13,9 @@
 namespace vkpt::tests {
 
 // [0] nearest hit, [1] any hit.
-std::array<HeadlessCompute::Pipeline, 2> create_trace_pipelines(HeadlessCompute& device);
+using TracePipelines = std::array<HeadlessCompute::Pipeline, 2>;
+// Trees read by texels, or by address.
+TracePipelines create_trace_pipelines(HeadlessCompute& device, bool by_texels = true);
 
 // Trees and rays, uploaded. Searches the trees in turn.
 class GpuTracer {
@@ -27,7 +29,7 @@ public:
 
 private:
     HeadlessCompute& device_;
-    HeadlessCompute::Buffer hits_;
+    HeadlessCompute::Buffer hits_, nodes_, triangles_;
     shared::TraceRaysPush push_ {};
     uint32_t groups_;
 };

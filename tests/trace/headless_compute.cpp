@@ -253,14 +253,11 @@ HeadlessCompute::Image HeadlessCompute::create_image(VkFormat format, uint32_t w
     return image;
 }
 
-void HeadlessCompute::create_set(Pipeline& pipeline, std::span<const Binding> bindings)
+void HeadlessCompute::create_set(Pipeline& pipeline, std::span<const VkDescriptorType> bindings)
 {
-    const auto type_of = [](const Binding& binding) {
-        return binding.image ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    };
     std::vector<VkDescriptorSetLayoutBinding> slots;
-    for (const Binding& binding : bindings)
-        slots.push_back({ uint32_t(slots.size()), type_of(binding), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr });
+    for (const VkDescriptorType type : bindings)
+        slots.push_back({ uint32_t(slots.size()), type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr });
     VkDescriptorSetLayoutCreateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO };
     info.bindingCount = uint32_t(slots.size());
     info.pBindings = slots.data();
@@ -270,13 +267,17 @@ void HeadlessCompute::create_set(Pipeline& pipeline, std::span<const Binding> bi
     allocation.descriptorSetCount = 1;
     allocation.pSetLayouts = &pipeline.set_layout;
     REQUIRE_VK(vkAllocateDescriptorSets(device_, &allocation, &pipeline.set));
+}
+
+void HeadlessCompute::bind(const Pipeline& pipeline, std::span<const Binding> bindings)
+{
     for (uint32_t slot = 0; slot < bindings.size(); slot++) {
         const VkDescriptorImageInfo image { VK_NULL_HANDLE, bindings[slot].image, VK_IMAGE_LAYOUT_GENERAL };
         VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
         write.dstSet = pipeline.set;
         write.dstBinding = slot;
         write.descriptorCount = 1;
-        write.descriptorType = type_of(bindings[slot]);
+        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         write.pImageInfo = &image;
         if (!bindings[slot].image) {
             VkBufferViewCreateInfo view { VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO };
@@ -284,6 +285,7 @@ void HeadlessCompute::create_set(Pipeline& pipeline, std::span<const Binding> bi
             view.format = bindings[slot].format;
             view.range = VK_WHOLE_SIZE;
             REQUIRE_VK(vkCreateBufferView(device_, &view, nullptr, &texel_views_.emplace_back()));
+            write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
             write.pTexelBufferView = &texel_views_.back();
         }
         vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
@@ -291,7 +293,7 @@ void HeadlessCompute::create_set(Pipeline& pipeline, std::span<const Binding> bi
 }
 
 HeadlessCompute::Pipeline HeadlessCompute::create_pipeline(std::span<const uint32_t> spirv, uint32_t push_bytes,
-    std::span<const uint32_t> specialization, std::span<const Binding> bindings)
+    std::span<const uint32_t> specialization, std::span<const VkDescriptorType> bindings)
 {
     Pipeline& pipeline = pipelines_.emplace_back();
     pipeline.push_bytes = push_bytes;
@@ -361,6 +363,9 @@ void HeadlessCompute::submit_and_wait()
 
 void HeadlessCompute::free_buffers()
 {
+    for (VkBufferView view : texel_views_)
+        vkDestroyBufferView(device_, view, nullptr);
+    texel_views_.clear();
     for (const Buffer& buffer : buffers_) {
         vkDestroyBuffer(device_, buffer.buffer, nullptr);
         vkFreeMemory(device_, buffer.memory, nullptr);
@@ -376,8 +381,6 @@ void HeadlessCompute::destroy()
         vkDestroyDescriptorSetLayout(device_, pipeline.set_layout, nullptr);
         vkDestroyShaderModule(device_, pipeline.module, nullptr);
     }
-    for (VkBufferView view : texel_views_)
-        vkDestroyBufferView(device_, view, nullptr);
     for (const Image& image : images_) {
         vkDestroyImageView(device_, image.view, nullptr);
         vkDestroyImage(device_, image.image, nullptr);

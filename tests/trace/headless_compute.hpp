@@ -65,9 +65,11 @@ public:
 
     Image create_image(VkFormat format, uint32_t width, uint32_t height);
 
-    // Entry point main; `specialization` sets the constants 0, 1, 2, ..., `bindings` the bindings 0, 1, 2, ...
+    // Entry point main; `specialization` sets the constants 0, 1, 2, ..., `bindings` are the types of the bindings 0, 1, 2, ...,
+    // which are filled by bind().
     Pipeline create_pipeline(std::span<const uint32_t> spirv, uint32_t push_bytes,
-        std::span<const uint32_t> specialization, std::span<const Binding> bindings = {});
+        std::span<const uint32_t> specialization, std::span<const VkDescriptorType> bindings = {});
+    void bind(const Pipeline& pipeline, std::span<const Binding> bindings);
 
     // Seconds from submission to completion.
     double dispatch(const Pipeline& pipeline, const void* push, uint32_t groups);
@@ -79,7 +81,7 @@ private:
     void create_instance(Validation validation);
     void choose_device();
     void create_device();
-    void create_set(Pipeline& pipeline, std::span<const Binding> bindings);
+    void create_set(Pipeline& pipeline, std::span<const VkDescriptorType> bindings);
     VkDeviceMemory allocate(const VkMemoryRequirements& needed);
     void submit_and_wait();
     void destroy();

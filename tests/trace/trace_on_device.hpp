@@ -5,6 +5,7 @@
 #include "tests/trace/gpu_tracer.hpp"
 
 #include <array>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <memory>
 #include <string>
@@ -17,7 +18,7 @@ protected:
     {
         try {
             device = std::make_unique<HeadlessCompute>(HeadlessCompute::Validation::on);
-            pipelines = create_trace_pipelines(*device);
+            pipelines = { create_trace_pipelines(*device), create_trace_pipelines(*device, false) };
         } catch (const NoDevice& reason) {
             why_not = reason.what();
         }
@@ -39,14 +40,17 @@ protected:
         std::span<const Bvh> trees, std::span<const shared::TestRay> rays, bool any_hit, uint32_t ray_mask)
     {
         GpuTracer tracer(*device, trees, rays, ray_mask);
-        tracer.run(pipelines[any_hit]);
+        tracer.run(pipelines[0][any_hit]);
         std::vector<shared::TestHit> hits = tracer.hits();
+        tracer.run(pipelines[1][any_hit]);
+        EXPECT_EQ(std::memcmp(tracer.hits().data(), hits.data(), hits.size() * sizeof hits[0]), 0)
+            << "trees read by address give other hits than read by texels";
         device->free_buffers();
         return hits;
     }
 
     static inline std::unique_ptr<HeadlessCompute> device;
-    static inline std::array<HeadlessCompute::Pipeline, 2> pipelines;
+    static inline std::array<TracePipelines, 2> pipelines; // by texels, by address
     static inline std::string why_not;
 };
 

@@ -36,7 +36,7 @@ struct TraceRaysPush {
     uint padding;
     BvhView first_tree;
 };
-VKPT_ASSERT_SIZE(TraceRaysPush, 88); // Vulkan promises room for 128
+VKPT_ASSERT_SIZE(TraceRaysPush, 96); // Vulkan promises room for 128
 
 VKPT_CONST uint TRACE_RAYS_GROUP = 64u; // lanes
 VKPT_CONST uint TRACE_RAYS_PER_GROUP = 64u * 8u; // every lane traces 8 rays: fewer lanes, fewer stacks

@@ -16,7 +16,7 @@ struct DecodedTriangle {
     glm::vec3 corners[3];
     uint32_t id_and_mask;
 };
-static_assert(sizeof(DecodedTriangle) == shared::BVH_TRIANGLE_BYTES);
+static_assert(sizeof(DecodedTriangle) <= shared::BVH_TRIANGLE_BYTES);
 DecodedTriangle decode_triangle(const Bvh& bvh, uint32_t slot);
 
 struct DecodedChild {
