@@ -7,7 +7,7 @@
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/frame/outline_upload.hpp"
 #include "ref_vkpt/frame/render_scale.hpp"
-#include "ref_vkpt/frame/tree_tables.hpp"
+#include "ref_vkpt/frame/scene_texels.hpp"
 #include "ref_vkpt/frame/uploads.hpp"
 #include "ref_vkpt/frame/view_history.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
@@ -113,10 +113,10 @@ private:
     // What the device keeps of the scene from frame to frame; little of it is written in each.
     struct SceneUploads {
         SceneUploads(const Gpu& gpu, const Bindings& bindings);
-        std::unique_ptr<TreeTables> trees; // stays where it is while other views come
-        PrefixedUpload triangles, emitters;
+        std::unique_ptr<SceneTexels> texels; // stays where it is while other views come
+        PrefixedUpload triangles, emitters, tree_nodes, tree_triangles;
         OutlineUpload outlines;
-        KeptUpload light_lists, dynamic_light_indices;
+        KeptUpload materials, light_lists, dynamic_light_indices;
     };
     enum class Surfaces { camera, probes };
     // How much a pass has to do: workgroups, or launch indices where it is a ray generation shader.
@@ -172,7 +172,7 @@ private:
     FrameUploads uploads_;
     // By the view's number in the frame: all views are drawn after all have been described.
     std::vector<SceneUploads> scene_uploads_;
-    VkDescriptorSet trees_ = VK_NULL_HANDLE; // of the view that is recorded
+    VkDescriptorSet texels_ = VK_NULL_HANDLE; // of the view that is recorded
     MovingWriter moving_writer_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;

@@ -37,7 +37,8 @@ GpuWorld upload_world(const World& world, Uploader& uploader, bool is_cpu)
     GpuWorld gpu;
     if (!is_cpu) {
         gpu.bvh_nodes = uploader.make_buffer(world.bvh().nodes, MemoryKind::acceleration, "world BVH nodes");
-        gpu.bvh_triangles = uploader.make_buffer(world.bvh().triangles, MemoryKind::acceleration, "world BVH triangles");
+        gpu.bvh_triangles
+            = uploader.make_buffer(world.bvh().triangles, MemoryKind::acceleration, "world BVH triangles");
     }
     gpu.light_indices = uploader.make_buffer(world.light_lists.static_indices(), MemoryKind::lights, "light lists");
     gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
@@ -46,10 +47,13 @@ GpuWorld upload_world(const World& world, Uploader& uploader, bool is_cpu)
 }
 
 Frame::SceneUploads::SceneUploads(const Gpu& gpu, const Bindings& bindings)
-    : trees(std::make_unique<TreeTables>(gpu, bindings))
+    : texels(std::make_unique<SceneTexels>(gpu, bindings))
     , triangles(gpu, MemoryKind::geometry, "triangles")
     , emitters(gpu, MemoryKind::lights, "emitters")
+    , tree_nodes(gpu, MemoryKind::acceleration, "BVH nodes")
+    , tree_triangles(gpu, MemoryKind::acceleration, "BVH triangles")
     , outlines(gpu)
+    , materials(gpu, MemoryKind::geometry, "materials")
     , light_lists(gpu, MemoryKind::lights, "light list headers")
     , dynamic_light_indices(gpu, MemoryKind::lights, "dynamic light indices")
 {
@@ -85,7 +89,7 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     }
     out.triangles = triangles.address;
     out.emitters = emitters.address;
-    out.materials = uploads_.push(scene.materials);
+    out.materials = kept.materials.write(slot, scene.materials);
     out.lightstyles = uploads_.push(scene.lightstyles);
     out.emitter_outlines
         = kept.outlines.write(slot, fixed_emitters, version, scene.emitters, emitter_count, scene.lightstyles);
@@ -105,6 +109,19 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
         write_trees(out, scene, gpu_world, target);
     else
         fill_structures(out, scene, gpu_world, target);
+    texels_ = kept.texels->set(slot);
+    if (graphics_.device.is_cpu) {
+        SceneTexels::Tables tables {};
+        if (backend_ == TraceBackend::software) {
+            tables[shared::TEXELS_TREE_NODES] = &kept.tree_nodes.buffer(slot);
+            tables[shared::TEXELS_TREE_TRIANGLES] = &kept.tree_triangles.buffer(slot);
+        }
+        tables[shared::TEXELS_TRIANGLES] = &kept.triangles.buffer(slot);
+        tables[shared::TEXELS_MATERIALS] = &kept.materials.buffer(slot);
+        tables[shared::TEXELS_EMITTERS] = &kept.emitters.buffer(slot);
+        tables[shared::TEXELS_OUTLINES] = &kept.outlines.buffer(slot);
+        kept.texels->bind(slot, tables);
+    }
 
     if (!world) {
         const NoWorld none = make_no_world(scene.emitters.size());
@@ -135,20 +152,26 @@ void Frame::write_trees(
     const Bvh* world = scene.world ? &scene.world->bvh() : nullptr;
     // One record even where there is none: its address must be one.
     const size_t record_count = std::max<size_t>(moving.triangle_count(), 1);
-    TreeTables& tables = *scene_uploads_[views_this_frame_].trees;
-    trees_ = tables.set(graphics_.slot());
     shared::BvhView world_view {}, moving_view {};
     if (graphics_.device.is_cpu) {
-        const TreeTables::Room room = tables.reserve(
-            graphics_.slot(), world, gpu_world ? gpu_world->version : UINT64_MAX, moving.node_count(), record_count);
-        target.nodes = room.nodes.as<uint32_t>();
-        target.records = room.triangles.as<uint32_t>();
-        world_view.nodes = room.nodes.address;
-        world_view.triangles = room.triangles.address;
+        // The map's and the moving things' one behind the other, for one buffer of texels.
+        static const std::vector<uint32_t> nothing;
+        SceneUploads& kept = scene_uploads_[views_this_frame_];
+        const uint32_t slot = graphics_.slot();
+        const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
+        const Upload nodes = kept.tree_nodes.reserve(
+            slot, world ? world->nodes : nothing, version, moving.node_count() * bvh_node_words);
+        const Upload records = kept.tree_triangles.reserve(
+            slot, world ? world->triangles : nothing, version, record_count * bvh_triangle_words);
+        target.nodes = nodes.as<uint32_t>();
+        target.records = records.as<uint32_t>();
+        world_view.nodes = nodes.address;
+        world_view.triangles = records.address;
         moving_view.first_node = world ? uint32_t(world->nodes.size() / bvh_node_words) : 0;
         moving_view.first_triangle = world ? uint32_t(world->triangles.size() / bvh_triangle_words) : 0;
         moving_view.nodes = world_view.nodes + uint64_t(moving_view.first_node) * shared::BVH_NODE_BYTES;
-        moving_view.triangles = world_view.triangles + uint64_t(moving_view.first_triangle) * shared::BVH_TRIANGLE_BYTES;
+        moving_view.triangles
+            = world_view.triangles + uint64_t(moving_view.first_triangle) * shared::BVH_TRIANGLE_BYTES;
     } else {
         const Upload nodes = uploads_.reserve(moving.node_count() * shared::BVH_NODE_BYTES);
         const Upload records = uploads_.reserve(record_count * shared::BVH_TRIANGLE_BYTES);

@@ -18,6 +18,7 @@ public:
     // Once a frame; the device has finished with this slot. `version`: another number whenever `fixed` changes.
     VkDeviceAddress write(uint32_t frame_slot, std::span<const shared::Emitter> fixed, uint64_t version,
         std::span<const shared::Emitter> moving, size_t moving_count, std::span<const float> scales);
+    const Buffer& buffer(uint32_t frame_slot) const { return slots_[frame_slot].buffer; }
 
 private:
     struct Slot {

@@ -2,7 +2,7 @@
 #include "ref_vkpt/frame/shader_warm_up.hpp"
 
 #include "ref_vkpt/engine/errors.hpp"
-#include "ref_vkpt/frame/tree_tables.hpp"
+#include "ref_vkpt/frame/scene_texels.hpp"
 #include "shaders/shared/frame.h"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ public:
             { output_.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, VK_ACCESS_SHADER_WRITE_BIT });
         bindings_.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, 0);
-        bindings_.bind_trees(commands_, trees_.set(0));
+        bindings_.bind_texels(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, texels_.set(0));
         constexpr std::array<std::byte, push_constant_bytes> push {};
         vkCmdPushConstants(
             commands_, bindings_.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, push_constant_bytes, push.data());
@@ -88,7 +88,7 @@ private:
     MemoryAllocator memory_ { *device_ };
     Gpu gpu_ { *device_, memory_ };
     Bindings bindings_ { gpu_, true };
-    TreeTables trees_ { gpu_, bindings_ };
+    SceneTexels texels_ { gpu_, bindings_ };
     Pipelines pipelines_ { gpu_, bindings_, "" };
     Buffer uniforms_;
     Image output_;

@@ -72,7 +72,6 @@ public:
     {
         return reserve(frame_slot, std::as_bytes(std::span(prefix)), prefix_version, rest_count * sizeof(T));
     }
-    // What was reserved last.
     const Buffer& buffer(uint32_t frame_slot) const { return slots_[frame_slot].buffer; }
 
 private:
@@ -103,6 +102,8 @@ public:
     {
         return write(frame_slot, std::as_bytes(std::span(items)));
     }
+
+    const Buffer& buffer(uint32_t frame_slot) const { return slots_[frame_slot].buffer; }
 
 private:
     struct Slot {

@@ -73,7 +73,6 @@ void write_md2(const Md2Mesh& mesh, const std::vector<Float4>& points, bool mirr
         triangle.normals[2] = normal_of(c);
         triangle.material = material;
         triangle.emitter = triangle.cluster = -1;
-        triangle.padding = 0;
         if (target.records) {
             uint32_t* record = target.records + size_t(slot) * bvh_triangle_words;
             write_corners(record, a, b, c);

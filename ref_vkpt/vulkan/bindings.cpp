@@ -3,8 +3,10 @@
 
 #include "ref_vkpt/engine/errors.hpp"
 #include "shaders/shared/frame.h"
+#include "shaders/shared/texels.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <iterator>
 #include <span>
@@ -18,7 +20,7 @@ constexpr uint32_t wanted_textures = 8192;
 
 enum FrameBinding : uint32_t { binding_uniforms, binding_output, binding_samplers };
 constexpr uint32_t binding_textures = 0;
-constexpr uint32_t tree_set_index = 2;
+constexpr uint32_t texel_set_index = 2;
 
 VkDescriptorSetLayout make_layout(VkDevice device, VkDescriptorSetLayoutCreateFlags flags, const void* next,
     std::span<const VkDescriptorSetLayoutBinding> bindings)
@@ -74,7 +76,7 @@ Bindings::~Bindings()
     vkDestroyPipelineLayout(device, pipeline_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, frame_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, texture_layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device, tree_layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device, texel_layout_, nullptr);
     for (VkSampler sampler : samplers_)
         vkDestroySampler(device, sampler, nullptr);
 }
@@ -126,13 +128,12 @@ void Bindings::create_layouts()
     texture_layout_ = make_layout(
         device, VK_DESCRIPTOR_SET_LAYOUT_CREATE_UPDATE_AFTER_BIND_POOL_BIT, &binding_flags, textures);
 
-    const VkDescriptorSetLayoutBinding trees[] = {
-        { 0, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr },
-        { 1, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr },
-    };
-    tree_layout_ = make_layout(device, 0, nullptr, trees);
+    std::array<VkDescriptorSetLayoutBinding, shared::TEXELS_COUNT> texels {};
+    for (uint32_t binding = 0; binding < texels.size(); binding++)
+        texels[binding] = { binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr };
+    texel_layout_ = make_layout(device, 0, nullptr, texels);
 
-    const VkDescriptorSetLayout sets[] = { frame_layout_, texture_layout_, tree_layout_ };
+    const VkDescriptorSetLayout sets[] = { frame_layout_, texture_layout_, texel_layout_ };
     const VkPushConstantRange push { VK_SHADER_STAGE_ALL, 0, push_constant_bytes };
     VkPipelineLayoutCreateInfo layout { VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO };
     layout.setLayoutCount = uint32_t(std::size(sets));
@@ -213,10 +214,9 @@ void Bindings::bind(VkCommandBuffer commands, VkPipelineBindPoint point, uint32_
         commands, point, pipeline_layout_, 0, uint32_t(std::size(sets)), sets, 1, &uniform_offset);
 }
 
-void Bindings::bind_trees(VkCommandBuffer commands, VkDescriptorSet trees) const
+void Bindings::bind_texels(VkCommandBuffer commands, VkPipelineBindPoint point, VkDescriptorSet texels) const
 {
-    vkCmdBindDescriptorSets(
-        commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_layout_, tree_set_index, 1, &trees, 0, nullptr);
+    vkCmdBindDescriptorSets(commands, point, pipeline_layout_, texel_set_index, 1, &texels, 0, nullptr);
 }
 
 } // namespace vkpt

@@ -5,8 +5,7 @@
 //   set 0, binding 2  samplers, see SAMPLER_*
 //   set 1, binding 0  sampled images, bindless; slot 0 is always a valid white picture. A set of its own because it is
 //                     updated while bound, which Vulkan forbids beside dynamic offsets.
-//   set 2, binding 0  buffer of texels: nodes of the trees of backend "software"; binding 1: their triangles. Each view has
-//                     a set of its own (frame/tree_tables.hpp).
+//   set 2             buffers of texels: the scene's tables, TEXELS_*. Each view has a set of its own (frame/scene_texels.hpp).
 // Push constants: 64 bytes, the pass's own.
 #pragma once
 
@@ -27,7 +26,7 @@ public:
     Bindings& operator=(const Bindings&) = delete;
 
     VkPipelineLayout pipeline_layout() const { return pipeline_layout_; }
-    VkDescriptorSetLayout tree_layout() const { return tree_layout_; }
+    VkDescriptorSetLayout texel_layout() const { return texel_layout_; }
     uint32_t max_textures() const { return max_textures_; }
 
     void bind_uniforms(const Buffer& buffer, VkDeviceSize bytes_per_frame);
@@ -38,7 +37,7 @@ public:
     void remove_texture(uint32_t slot);
 
     void bind(VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset) const;
-    void bind_trees(VkCommandBuffer commands, VkDescriptorSet trees) const;
+    void bind_texels(VkCommandBuffer commands, VkPipelineBindPoint point, VkDescriptorSet texels) const;
 
 private:
     void create_layouts();
@@ -48,7 +47,7 @@ private:
     Gpu gpu_;
     uint32_t max_textures_;
     std::vector<VkSampler> samplers_;
-    VkDescriptorSetLayout frame_layout_ = VK_NULL_HANDLE, texture_layout_ = VK_NULL_HANDLE, tree_layout_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout frame_layout_ = VK_NULL_HANDLE, texture_layout_ = VK_NULL_HANDLE, texel_layout_ = VK_NULL_HANDLE;
     VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
     VkDescriptorPool frame_pool_ = VK_NULL_HANDLE, texture_pool_ = VK_NULL_HANDLE;
     VkDescriptorSet frame_set_ = VK_NULL_HANDLE, texture_set_ = VK_NULL_HANDLE;

@@ -28,6 +28,15 @@ std::vector<char> read_file(const std::string& path)
 enum RayStage : uint32_t { stage_generation, stage_miss, stage_closest_hit, stage_any_hit, stage_count };
 enum RayGroup : uint32_t { group_generation, group_miss, group_hit, group_count };
 
+// Constant 1 of lib/texels.glsl, whether tables are read as texels: its default on CPU drivers, elsewhere not.
+const VkSpecializationInfo* table_access(const Device& device)
+{
+    static constexpr VkBool32 as_texels = VK_FALSE;
+    static constexpr VkSpecializationMapEntry entry { 1, 0, sizeof as_texels };
+    static constexpr VkSpecializationInfo by_address { 1, &entry, sizeof as_texels, &as_texels };
+    return device.is_cpu ? nullptr : &by_address;
+}
+
 VkRayTracingShaderGroupCreateInfoKHR make_group(uint32_t general, uint32_t closest_hit, uint32_t any_hit)
 {
     VkRayTracingShaderGroupCreateInfoKHR group { VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR };
@@ -87,12 +96,7 @@ VkPipeline Pipelines::make_compute_pipeline(std::string_view shader) const
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;
     info.stage.pName = "main";
-    // Constant 1 of lib/trace_software.glsl: whether trees are read as texels, its default (frame/tree_tables.hpp).
-    const VkBool32 has_texels = VK_FALSE;
-    const VkSpecializationMapEntry entry { 1, 0, sizeof has_texels };
-    const VkSpecializationInfo by_address { 1, &entry, sizeof has_texels, &has_texels };
-    if (!gpu_.device.is_cpu)
-        info.stage.pSpecializationInfo = &by_address;
+    info.stage.pSpecializationInfo = table_access(gpu_.device);
     VkPipeline pipeline = VK_NULL_HANDLE;
     const VkResult result = vkCreateComputePipelines(gpu_.device.handle, cache_, 1, &info, nullptr, &pipeline);
     vkDestroyShaderModule(gpu_.device.handle, module, nullptr);
@@ -138,6 +142,7 @@ VkPipeline Pipelines::make_ray_pipeline(std::string_view shader) const
         stages[i].stage = kinds[i];
         stages[i].module = make_module(names[i]);
         stages[i].pName = "main";
+        stages[i].pSpecializationInfo = table_access(gpu_.device);
     }
     VkRayTracingShaderGroupCreateInfoKHR groups[group_count];
     groups[group_generation] = make_group(stage_generation, VK_SHADER_UNUSED_KHR, VK_SHADER_UNUSED_KHR);

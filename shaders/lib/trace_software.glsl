@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Ray tracing in plain compute: walks the 8-wide BVH that ref_vkpt/trace/bvh.cpp builds (layout described there).
 //
-// One ray per lane. Measured against the alternatives on the CPU driver: nodes and triangles come as texels, 16 bytes a lane, which
-// it loads lane by lane and transposes: half the time of 64-bit loads through buffer_reference, which become two hardware
-// gathers each, where a storage buffer's become branches (half the speed again); a stack in global memory beats private and
+// One ray per lane. Measured against the alternatives on the CPU driver: nodes and triangles come as texels (texels.glsl), in half the time
+// of 64-bit loads through buffer_reference, which become hardware gathers; a storage buffer's become branches (half the speed
+// again); a stack in global memory beats private and
 // shared arrays by 10..30 % on incoherent rays; integer min/max on the float bits spares the driver's NaN handling.
 //
 // Extensions are enabled here, so include this before any declaration. A BvhView that comes straight from push constants or
 // from constant places of a uniform buffer is 14 % (camera rays), 7 % (bounces), 4 % (shadow rays) faster on that driver than
 // one that is fetched through a pointer or by an index: those are gathers, and gathers are what a ray's time goes into.
-//
-// Define VKPT_BVH_SET, the descriptor set of the two buffers of texels, where it is not 2. GPUs read by address:
-// specialization constant 1 is false there, see TreeTables.
 #ifndef VKPT_LIB_TRACE_SOFTWARE_GLSL
 #define VKPT_LIB_TRACE_SOFTWARE_GLSL
 
@@ -27,13 +24,10 @@
 #include "../shared/trace.h"
 #include "quick_floats.glsl"
 #include "ray.glsl"
+#include "texels.glsl"
 
-#ifndef VKPT_BVH_SET
-#define VKPT_BVH_SET 2
-#endif
-layout(constant_id = 1) const bool bvh_has_texels = true;
-layout(set = VKPT_BVH_SET, binding = 0) uniform utextureBuffer bvh_nodes;
-layout(set = VKPT_BVH_SET, binding = 1) uniform utextureBuffer bvh_triangles;
+VKPT_TEXELS(bvh_nodes, TEXELS_TREE_NODES)
+VKPT_TEXELS(bvh_triangles, TEXELS_TREE_TRIANGLES)
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer BvhWords64 { uint64_t words[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhWords32 { uint words[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhViews { BvhView views[]; };
@@ -85,9 +79,6 @@ BvhRay bvh_ray(BvhView bvh, vec3 origin, vec3 direction, int t_min)
     return BvhRay((origin - bvh.grid_origin) * bvh.grid_scale, inverse, lessThan(floatBitsToInt(inverse), ivec3(0)), t_min);
 }
 
-uvec2 bvh_load(uint64_t address, uint word) { return unpack32(BvhWords64(address).words[word]); }
-uvec4 bvh_load_texel(uint64_t address, uint texel) { return uvec4(bvh_load(address, texel * 2u), bvh_load(address, texel * 2u + 1u)); }
-
 // Distance to the 8-bit plane `child` of eight. Through int: the driver has no quick way from unsigned to float.
 int bvh_slab(uvec2 planes, int child, float start, float step)
 {
@@ -101,16 +92,12 @@ struct BvhNode {
     uvec2 frame;
 };
 
+#define BVH_NODE_TEXEL(i) VKPT_TEXEL(bvh_nodes, bvh.first_node, bvh.nodes, BVH_NODE_BYTES, node, i)
 BvhNode bvh_load_node(BvhView bvh, uint node)
 {
-    if (bvh_has_texels) {
-        int first = int((bvh.first_node + node) * (BVH_NODE_BYTES / BVH_TEXEL_BYTES));
-        return BvhNode(texelFetch(bvh_nodes, first), texelFetch(bvh_nodes, first + 1), texelFetch(bvh_nodes, first + 2),
-            texelFetch(bvh_nodes, first + 3).xy);
-    }
-    uint64_t address = bvh.nodes + uint64_t(node * BVH_NODE_BYTES);
-    return BvhNode(bvh_load_texel(address, 0u), bvh_load_texel(address, 1u), bvh_load_texel(address, 2u), bvh_load(address, 6u));
+    return BvhNode(BVH_NODE_TEXEL(0u), BVH_NODE_TEXEL(1u), BVH_NODE_TEXEL(2u), BVH_NODE_TEXEL(3u).xy);
 }
+#undef BVH_NODE_TEXEL
 
 // Entry distances of the children that the ray meets before t_max, ascending.
 void bvh_test_node(BvhRay ray, BvhNode node, int t_max, out int key[8])
@@ -142,15 +129,12 @@ struct BvhTriangle {
     uvec2 c;
 };
 
+#define BVH_TRIANGLE_TEXEL(i) VKPT_TEXEL(bvh_triangles, bvh.first_triangle, bvh.triangles, BVH_TRIANGLE_BYTES, slot, i)
 BvhTriangle bvh_load_triangle(BvhView bvh, uint slot)
 {
-    if (bvh_has_texels) {
-        int first = int((bvh.first_triangle + slot) * (BVH_TRIANGLE_BYTES / BVH_TEXEL_BYTES));
-        return BvhTriangle(texelFetch(bvh_triangles, first), texelFetch(bvh_triangles, first + 1), texelFetch(bvh_triangles, first + 2).xy);
-    }
-    uint64_t address = bvh.triangles + uint64_t(slot * BVH_TRIANGLE_BYTES);
-    return BvhTriangle(bvh_load_texel(address, 0u), bvh_load_texel(address, 1u), bvh_load(address, 4u));
+    return BvhTriangle(BVH_TRIANGLE_TEXEL(0u), BVH_TRIANGLE_TEXEL(1u), BVH_TRIANGLE_TEXEL(2u).xy);
 }
+#undef BVH_TRIANGLE_TEXEL
 
 // Pluecker's edge tests: an edge's sign depends on nothing but its two corners and the ray, and comes out exactly opposite in
 // the triangle that shares it, so no ray passes between two triangles. Moeller and Trumbore's comparison, 2 % faster, let

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Entries of the scene's tables, read by 64-bit loads. The CPU driver makes gathers of eight lanes out of every load, and they
+// Entries of the scene's tables, by loads as wide as can be: as texels where frame.glsl has defined VKPT_SCENE_TEXELS (see
+// texels.glsl), else of 64 bits. The CPU driver makes gathers of eight lanes out of every load by address, and they
 // cost the same for 32 and 64 bits; on processors that are slowed down against data sampling that is about 10 ns each, and
-// most of the time of the passes that trace or light. GPUs merge loads of either width.
+// most of the time of the passes that trace or light. GPUs merge loads of any width.
 #ifndef VKPT_LIB_WIDE_LOADS
 #define VKPT_LIB_WIDE_LOADS
 
@@ -13,84 +14,84 @@
 #else
 #define VKPT_FETCH(type, table, index) fetch_##type(uint64_t(table), index)
 
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer WideWords { uint64_t v[]; };
+#include "texels.glsl"
 
-uvec2 load_pair(WideWords words, uint index) { return unpack32(words.v[index]); }
-vec2 load_float_pair(WideWords words, uint index) { return uintBitsToFloat(unpack32(words.v[index])); }
+#ifdef VKPT_SCENE_TEXELS
+VKPT_TEXELS(triangle_texels, TEXELS_TRIANGLES)
+VKPT_TEXELS(material_texels, TEXELS_MATERIALS)
+VKPT_TEXELS(emitter_texels, TEXELS_EMITTERS)
+VKPT_TEXELS(outline_texels, TEXELS_OUTLINES)
+#define VKPT_ENTRY_TEXEL(name, table, bytes, index, i) VKPT_TEXEL(name, 0u, table, bytes, index, i)
+#else
+#define VKPT_ENTRY_TEXEL(name, table, bytes, index, i) load_texel((table) + uint64_t((index) * (bytes)), i)
+#endif
 
 // `table`: an address, a multiple of 8.
-Emitter fetch_Emitter(uint64_t table, uint index)
-{
-    WideWords words = WideWords(table + uint64_t(index) * 64ul);
-    vec2 a = load_float_pair(words, 0u), c = load_float_pair(words, 2u), e = load_float_pair(words, 4u);
-    uvec2 b = load_pair(words, 1u), d = load_pair(words, 3u);
-    vec2 f = load_float_pair(words, 5u), g = load_float_pair(words, 6u), h = load_float_pair(words, 7u);
-    return Emitter(vec3(a, uintBitsToFloat(b.x)), b.y, vec3(c, uintBitsToFloat(d.x)), d.y, vec3(e, f.x), f.y, vec3(g, h.x), h.y);
-}
-
-EmitterOutline fetch_EmitterOutline(uint64_t table, uint index)
-{
-    WideWords words = WideWords(table + uint64_t(index * 32u));
-    vec2 a = load_float_pair(words, 0u), b = load_float_pair(words, 1u);
-    uvec2 c = load_pair(words, 2u), d = load_pair(words, 3u);
-    return EmitterOutline(vec3(a, b.x), b.y, uint[4](c.x, c.y, d.x, d.y));
-}
-
 LightList fetch_LightList(uint64_t table, uint index)
 {
-    WideWords words = WideWords(table + uint64_t(index) * 16ul);
-    uvec2 a = load_pair(words, 0u), b = load_pair(words, 1u);
-    return LightList(a.x, a.y, b.x, b.y);
+    uvec4 words = load_texel(table + uint64_t(index * 16u), 0u);
+    return LightList(words.x, words.y, words.z, words.w);
 }
 
 BspTreeNode fetch_BspTreeNode(uint64_t table, uint index)
 {
-    WideWords words = WideWords(table + uint64_t(index) * 24ul);
-    vec2 a = load_float_pair(words, 0u), b = load_float_pair(words, 1u);
-    ivec2 c = ivec2(load_pair(words, 2u));
-    return BspTreeNode(vec3(a, b.x), b.y, c.x, c.y);
+    uint64_t address = table + uint64_t(index * 24u);
+    uvec4 a = load_texel(address, 0u);
+    ivec2 b = ivec2(unpack32(TexelWords(address).v[2]));
+    return BspTreeNode(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), b.x, b.y);
+}
+
+Emitter fetch_Emitter(uint64_t table, uint index)
+{
+    uvec4 a = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 0u), b = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 1u),
+          c = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 2u), d = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 3u);
+    return Emitter(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), uintBitsToFloat(c.w),
+        uintBitsToFloat(d.xyz), uintBitsToFloat(d.w));
+}
+
+EmitterOutline fetch_EmitterOutline(uint64_t table, uint index)
+{
+    uvec4 a = VKPT_ENTRY_TEXEL(outline_texels, table, 32u, index, 0u), b = VKPT_ENTRY_TEXEL(outline_texels, table, 32u, index, 1u);
+    return EmitterOutline(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uint[4](b.x, b.y, b.z, b.w));
 }
 
 Triangle fetch_Triangle(uint64_t table, uint index)
 {
-    WideWords words = WideWords(table + uint64_t(index) * 88ul);
-    vec2 a = load_float_pair(words, 0u), b = load_float_pair(words, 1u), c = load_float_pair(words, 2u),
-         d = load_float_pair(words, 3u), e = load_float_pair(words, 4u), f = load_float_pair(words, 5u),
-         g = load_float_pair(words, 6u);
-    uvec2 h = load_pair(words, 7u), i = load_pair(words, 8u), j = load_pair(words, 9u), k = load_pair(words, 10u);
+    vec4 a = uintBitsToFloat(VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 0u));
+    vec4 b = uintBitsToFloat(VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 1u));
+    vec4 c = uintBitsToFloat(VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 2u));
+    uvec4 d = VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 3u), e = VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 4u);
+    uvec4 f = VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 5u);
     Triangle result;
-    result.positions[0] = vec3(a, b.x);
-    result.positions[1] = vec3(b.y, c);
-    result.positions[2] = vec3(d, e.x);
-    result.uvs[0] = vec2(e.y, f.x);
-    result.uvs[1] = vec2(f.y, g.x);
-    result.uvs[2] = vec2(g.y, uintBitsToFloat(h.x));
-    result.normals[0] = h.y;
-    result.normals[1] = i.x;
-    result.normals[2] = i.y;
-    result.material = j.x;
-    result.emitter = int(j.y);
-    result.cluster = int(k.x);
-    result.padding = k.y;
+    result.positions[0] = a.xyz;
+    result.positions[1] = vec3(a.w, b.xy);
+    result.positions[2] = vec3(b.zw, c.x);
+    result.uvs[0] = c.yz;
+    result.uvs[1] = vec2(c.w, uintBitsToFloat(d.x));
+    result.uvs[2] = uintBitsToFloat(d.yz);
+    result.normals[0] = d.w;
+    result.normals[1] = e.x;
+    result.normals[2] = e.y;
+    result.material = e.z;
+    result.emitter = int(e.w);
+    result.cluster = int(f.x);
     return result;
 }
 
 Material fetch_Material(uint64_t table, uint index)
 {
-    WideWords words = WideWords(table + uint64_t(index) * 56ul);
-    vec2 a = load_float_pair(words, 0u), b = load_float_pair(words, 1u), c = load_float_pair(words, 2u),
-         d = load_float_pair(words, 3u);
-    uvec2 e = load_pair(words, 4u), f = load_pair(words, 5u), g = load_pair(words, 6u);
+    uvec4 a = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 0u), b = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 1u),
+          c = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 2u), d = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 3u);
     Material result;
-    result.tint = vec3(a, b.x);
-    result.opacity = b.y;
-    result.emission = vec3(c, d.x);
-    result.roughness = d.y;
-    result.metallic = uintBitsToFloat(e.x);
-    result.texture = e.y;
-    result.flags = f.x;
-    result.uv_scroll = uintBitsToFloat(uvec2(f.y, g.x));
-    result.lightstyle = g.y;
+    result.tint = uintBitsToFloat(a.xyz);
+    result.opacity = uintBitsToFloat(a.w);
+    result.emission = uintBitsToFloat(b.xyz);
+    result.roughness = uintBitsToFloat(b.w);
+    result.metallic = uintBitsToFloat(c.x);
+    result.texture = c.y;
+    result.flags = c.z;
+    result.uv_scroll = uintBitsToFloat(uvec2(c.w, d.x));
+    result.lightstyle = d.y;
     return result;
 }
 

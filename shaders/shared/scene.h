@@ -29,9 +29,9 @@ struct Triangle {
     uint material;     // index into the material table
     int emitter;       // index into the emitter table, or EMITTER_UNLISTED, EMITTER_DIM
     int cluster;       // PVS cluster if all of it lies in one, else -1: look it up by position
-    uint padding;      // to 8 bytes, for 64-bit loads
+    uint padding[3];   // to whole texels, see texels.h
 };
-VKPT_ASSERT_SIZE(Triangle, 88);
+VKPT_ASSERT_SIZE(Triangle, 96);
 
 VKPT_CONST uint MATERIAL_SKY = 1u;         // radiance comes from the sky
 VKPT_CONST uint MATERIAL_WARP = 2u;        // liquid: turbulent texture, refracting surface
@@ -49,8 +49,9 @@ struct Material {
     uint flags;           // MATERIAL_*
     vec2 uv_scroll;       // added to uv, already multiplied by time
     uint lightstyle;      // scales emission
+    uint padding[2];      // to whole texels, see texels.h
 };
-VKPT_ASSERT_SIZE(Material, 56);
+VKPT_ASSERT_SIZE(Material, 64);
 
 VKPT_CONST uint EMITTER_TRIANGLE = 0u; // one-sided, front as in Triangle
 VKPT_CONST uint EMITTER_SPHERE = 1u;   // p0 centre, p1.x radius

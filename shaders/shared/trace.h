@@ -13,7 +13,6 @@ VKPT_CONST uint BVH_WIDTH = 8u;
 VKPT_CONST uint BVH_NODE_BYTES = 96u;
 VKPT_CONST uint BVH_FRAME_OFFSET = 48u; // bytes from a node's start
 VKPT_CONST uint BVH_CHILD_WORDS_OFFSET = 56u;
-VKPT_CONST uint BVH_TEXEL_BYTES = 16u; // of which nodes and triangles are whole numbers, so that they can be read by texels
 // Steps between a node's planes: the float 1's bits + (step << BVH_STEP_SHIFT), that is 1, 1.5, 2, 3, 4, 6, ... cells.
 VKPT_CONST uint BVH_STEP_SHIFT = 22u;
 VKPT_CONST uint BVH_STEP_BITS = 5u;

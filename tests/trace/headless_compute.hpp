@@ -65,8 +65,8 @@ public:
 
     Image create_image(VkFormat format, uint32_t width, uint32_t height);
 
-    // Entry point main; `specialization` sets the constants 0, 1, 2, ..., `bindings` are the types of the bindings 0, 1, 2, ...,
-    // which are filled by bind().
+    // Entry point main; `specialization` sets the constants 0, 1, 2, ..., `bindings` are the types of the bindings 0,
+    // 1, 2, ..., which are filled by bind().
     Pipeline create_pipeline(std::span<const uint32_t> spirv, uint32_t push_bytes,
         std::span<const uint32_t> specialization, std::span<const VkDescriptorType> bindings = {});
     void bind(const Pipeline& pipeline, std::span<const Binding> bindings);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Traces a buffer of rays with the software backend. A group takes runs of 64 rays.
 #extension GL_GOOGLE_include_directive : require
-#define VKPT_BVH_SET 0
+#define VKPT_TEXEL_SET 0
 #include "shaders/lib/trace_software.glsl"
 #include "tests/trace/trace_rays.h"
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The scene's tables as buffers of texels: their bindings in descriptor set 2 (lib/texels.glsl, frame/scene_texels.hpp).
+#ifndef VKPT_SHARED_TEXELS_H
+#define VKPT_SHARED_TEXELS_H
+
+#include "language.h"
+
+VKPT_SHARED_BEGIN
+
+VKPT_CONST uint TEXEL_BYTES = 16u; // four 32-bit words; every entry of these tables is a whole number of texels
+
+VKPT_CONST uint TEXELS_TREE_NODES = 0u;     // of all trees of backend "software", one behind the other
+VKPT_CONST uint TEXELS_TREE_TRIANGLES = 1u; // those of the trees, in the order of their leaves
+VKPT_CONST uint TEXELS_TRIANGLES = 2u;      // Triangle
+VKPT_CONST uint TEXELS_MATERIALS = 3u;      // Material
+VKPT_CONST uint TEXELS_EMITTERS = 4u;       // Emitter
+VKPT_CONST uint TEXELS_OUTLINES = 5u;       // EmitterOutline
+VKPT_CONST uint TEXELS_COUNT = 6u;
+
+VKPT_SHARED_END
+
+#endif
