@@ -59,12 +59,14 @@ void main()
     if (gl_LocalInvocationIndex != 0u)
         return;
     ExposureBuffer state = ExposureBuffer(frame.exposure);
-    float measured = average_log2();
+    // Views without a world are mostly nothing: models are shown in them as in ordinary light, whatever their share.
+    bool has_world = (frame.flags & FRAME_NO_WORLD) == 0u;
+    float measured = has_world ? average_log2() : log2(reference_luminance);
     // Nothing seen yet: start where the picture is.
     float previous = state.v.valid != 0u ? state.v.adapted_log2 : measured;
     float adapted = mix(measured, previous, exp(-frame.frame_seconds * frame.cvars.pt_exposure_speed));
     float automatic = middle_grey / reference_luminance * exp2(-adaptation * (adapted - log2(reference_luminance)));
-    float base = frame.cvars.pt_exposure > 0.0 ? frame.cvars.pt_exposure : clamp(automatic, 0.01, 100.0);
+    float base = has_world && frame.cvars.pt_exposure > 0.0 ? frame.cvars.pt_exposure : clamp(automatic, 0.01, 100.0);
     state.v.adapted_log2 = adapted;
     state.v.valid = 1u;
     state.v.exposure = base * exp2(frame.cvars.pt_exposure_bias);

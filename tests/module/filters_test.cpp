@@ -106,6 +106,32 @@ TEST_F(Filters, AMenuLeavesTheGamesHistoryAlone)
     EXPECT_LT(error_between(with, without), 0.1 * error_between(anew, without));
 }
 
+// However little of the menu's view it fills.
+TEST_F(Filters, AMenusModelIsShownAsItsPicture)
+{
+    session_->set("pt_exposure", 0);
+    const auto shown = [](float distance) {
+        engine::Entity entity
+            = make_entity(session_->module().register_model(cube_path_.c_str()), { distance, 0, 0 });
+        entity.flags = engine::RF_FULLBRIGHT;
+        session_->look({ 0, 0, 0 }, { 1, 0, 0 });
+        session_->view.flags = engine::RDF_NOWORLDMODEL;
+        session_->view.entities = &entity;
+        session_->view.entity_count = 1;
+        session_->draw(12);
+        session_->view.entity_count = 0;
+        const formats::Image picture = session_->capture_display();
+        return picture.at(picture.width / 2, picture.height / 2);
+    };
+    const formats::Rgba8 near = shown(14), far = shown(60);
+    session_->set("pt_exposure", 1);
+    EXPECT_NEAR(near.r, far.r, 2);
+    EXPECT_NEAR(near.g, far.g, 2);
+    // Red as its picture, not washed out.
+    EXPECT_GT(far.r, 150);
+    EXPECT_LT(far.g, 60);
+}
+
 TEST_F(Filters, PauseKeepsTheHistoryAndRewindDropsIt)
 {
     session_->set("flt_taa", "off");
