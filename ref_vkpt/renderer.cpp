@@ -310,7 +310,7 @@ static void upload_world_if_needed()
 {
     Module& m = *running;
     if (m.gpu_world.version == 0 && m.scene.world())
-        m.gpu_world = upload_world(*m.scene.world(), m.graphics.uploader, m.graphics.device.is_cpu);
+        m.gpu_world = upload_world(*m.scene.world(), m.graphics.uploader, m.graphics.device);
 }
 
 void end_registration()

@@ -55,12 +55,13 @@ float average_log2()
 
 void main()
 {
-    count_luminances();
+    // Views without a world are mostly nothing: models are shown in them as in ordinary light, whatever their share.
+    bool has_world = (frame.flags & FRAME_NO_WORLD) == 0u;
+    if (has_world)
+        count_luminances();
     if (gl_LocalInvocationIndex != 0u)
         return;
     ExposureBuffer state = ExposureBuffer(frame.exposure);
-    // Views without a world are mostly nothing: models are shown in them as in ordinary light, whatever their share.
-    bool has_world = (frame.flags & FRAME_NO_WORLD) == 0u;
     float measured = has_world ? average_log2() : log2(reference_luminance);
     // Nothing seen yet: start where the picture is.
     float previous = state.v.valid != 0u ? state.v.adapted_log2 : measured;

@@ -157,12 +157,9 @@ uint32_t Frame::write_uniforms(const shared::FrameUniforms& uniforms)
 
 void Frame::bind(uint32_t uniform_offset) const
 {
-    graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, uniform_offset);
-    graphics_.bindings.bind_texels(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, texels_);
-    if (backend_ == TraceBackend::pipeline) {
-        graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, uniform_offset);
-        graphics_.bindings.bind_texels(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, texels_);
-    }
+    graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, uniform_offset, texels_);
+    if (backend_ == TraceBackend::pipeline)
+        graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, uniform_offset, texels_);
 }
 
 // What one pass wrote, the next one reads.

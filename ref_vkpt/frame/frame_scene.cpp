@@ -31,11 +31,11 @@ NoWorld make_no_world(size_t emitter_count)
 
 } // namespace
 
-GpuWorld upload_world(const World& world, Uploader& uploader, bool is_cpu)
+GpuWorld upload_world(const World& world, Uploader& uploader, const Device& device)
 {
     static uint64_t versions = 0;
     GpuWorld gpu;
-    if (!is_cpu) {
+    if (!device.reads_texels()) {
         gpu.bvh_nodes = uploader.make_buffer(world.bvh().nodes, MemoryKind::acceleration, "world BVH nodes");
         gpu.bvh_triangles
             = uploader.make_buffer(world.bvh().triangles, MemoryKind::acceleration, "world BVH triangles");
@@ -110,7 +110,7 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     else
         fill_structures(out, scene, gpu_world, target);
     texels_ = kept.texels->set(slot);
-    if (graphics_.device.is_cpu) {
+    if (graphics_.device.reads_texels()) {
         SceneTexels::Tables tables {};
         if (backend_ == TraceBackend::software) {
             tables[shared::TEXELS_TREE_NODES] = &kept.tree_nodes.buffer(slot);
@@ -152,38 +152,24 @@ void Frame::write_trees(
     const Bvh* world = scene.world ? &scene.world->bvh() : nullptr;
     // One record even where there is none: its address must be one.
     const size_t record_count = std::max<size_t>(moving.triangle_count(), 1);
-    shared::BvhView world_view {}, moving_view {};
-    if (graphics_.device.is_cpu) {
-        // The map's and the moving things' one behind the other, for one buffer of texels.
-        static const std::vector<uint32_t> nothing;
-        SceneUploads& kept = scene_uploads_[views_this_frame_];
-        const uint32_t slot = graphics_.slot();
-        const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
-        const Upload nodes = kept.tree_nodes.reserve(
-            slot, world ? world->nodes : nothing, version, moving.node_count() * bvh_node_words);
-        const Upload records = kept.tree_triangles.reserve(
-            slot, world ? world->triangles : nothing, version, record_count * bvh_triangle_words);
-        target.nodes = nodes.as<uint32_t>();
-        target.records = records.as<uint32_t>();
-        world_view.nodes = nodes.address;
-        world_view.triangles = records.address;
-        moving_view.first_node = world ? uint32_t(world->nodes.size() / bvh_node_words) : 0;
-        moving_view.first_triangle = world ? uint32_t(world->triangles.size() / bvh_triangle_words) : 0;
-        moving_view.nodes = world_view.nodes + uint64_t(moving_view.first_node) * shared::BVH_NODE_BYTES;
-        moving_view.triangles
-            = world_view.triangles + uint64_t(moving_view.first_triangle) * shared::BVH_TRIANGLE_BYTES;
-    } else {
-        const Upload nodes = uploads_.reserve(moving.node_count() * shared::BVH_NODE_BYTES);
-        const Upload records = uploads_.reserve(record_count * shared::BVH_TRIANGLE_BYTES);
-        target.nodes = nodes.as<uint32_t>();
-        target.records = records.as<uint32_t>();
-        moving_view.nodes = nodes.address;
-        moving_view.triangles = records.address;
-        if (gpu_world) {
-            world_view.nodes = gpu_world->bvh_nodes.address();
-            world_view.triangles = gpu_world->bvh_triangles.address();
-        }
+    // Where tables are texels, the map's tree and the moving things' stand one behind the other.
+    static const std::vector<uint32_t> nothing;
+    const Bvh* front = graphics_.device.reads_texels() ? world : nullptr;
+    SceneUploads& kept = scene_uploads_[views_this_frame_];
+    const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
+    const Upload nodes = kept.tree_nodes.reserve(
+        graphics_.slot(), front ? front->nodes : nothing, version, moving.node_count() * bvh_node_words);
+    const Upload records = kept.tree_triangles.reserve(
+        graphics_.slot(), front ? front->triangles : nothing, version, record_count * bvh_triangle_words);
+    target.nodes = nodes.as<uint32_t>();
+    target.records = records.as<uint32_t>();
+    shared::BvhView moving_view {};
+    if (front) {
+        moving_view.first_node = uint32_t(front->nodes.size() / bvh_node_words);
+        moving_view.first_triangle = uint32_t(front->triangles.size() / bvh_triangle_words);
     }
+    moving_view.nodes = nodes.address + uint64_t(moving_view.first_node) * shared::BVH_NODE_BYTES;
+    moving_view.triangles = records.address + uint64_t(moving_view.first_triangle) * shared::BVH_TRIANGLE_BYTES;
     const Grid grid = moving_writer_.write(moving, target);
     moving_view.grid_origin = grid.origin;
     moving_view.grid_scale = grid.scale;
@@ -192,9 +178,8 @@ void Frame::write_trees(
         out.tree_count = 1;
         return;
     }
-    world_view.grid_origin = world->grid_origin;
-    world_view.grid_scale = world->grid_scale;
-    out.trees[0] = world_view;
+    out.trees[0] = { front ? nodes.address : gpu_world->bvh_nodes.address(),
+        front ? records.address : gpu_world->bvh_triangles.address(), 0, 0, world->grid_origin, world->grid_scale };
     out.trees[1] = moving_view;
     out.tree_count = moving.triangle_count() > 0 ? 2 : 1;
 }

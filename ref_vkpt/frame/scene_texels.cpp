@@ -11,18 +11,9 @@ SceneTexels::SceneTexels(const Gpu& gpu, const Bindings& bindings)
 {
     const VkDescriptorPoolSize size { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
         uint32_t(slots_.size() * shared::TEXELS_COUNT) };
-    VkDescriptorPoolCreateInfo pool { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
-    pool.maxSets = uint32_t(slots_.size());
-    pool.poolSizeCount = 1;
-    pool.pPoolSizes = &size;
-    VKPT_CHECK(vkCreateDescriptorPool(gpu.device.handle, &pool, nullptr, &pool_));
-    const VkDescriptorSetLayout layout = bindings.texel_layout();
+    pool_ = make_descriptor_pool(gpu.device.handle, 0, uint32_t(slots_.size()), std::span(&size, 1));
     for (uint32_t slot = 0; slot < slots_.size(); slot++) {
-        VkDescriptorSetAllocateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO };
-        info.descriptorPool = pool_;
-        info.descriptorSetCount = 1;
-        info.pSetLayouts = &layout;
-        VKPT_CHECK(vkAllocateDescriptorSets(gpu.device.handle, &info, &slots_[slot].set));
+        slots_[slot].set = make_descriptor_set(gpu.device.handle, pool_, bindings.texel_layout());
         bind(slot, {});
     }
 }

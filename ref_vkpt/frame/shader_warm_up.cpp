@@ -61,8 +61,7 @@ public:
         record_barrier(commands_,
             { output_.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, VK_ACCESS_SHADER_WRITE_BIT });
-        bindings_.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, 0);
-        bindings_.bind_texels(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, texels_.set(0));
+        bindings_.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, 0, texels_.set(0));
         constexpr std::array<std::byte, push_constant_bytes> push {};
         vkCmdPushConstants(
             commands_, bindings_.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, push_constant_bytes, push.data());

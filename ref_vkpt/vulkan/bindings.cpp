@@ -20,7 +20,6 @@ constexpr uint32_t wanted_textures = 8192;
 
 enum FrameBinding : uint32_t { binding_uniforms, binding_output, binding_samplers };
 constexpr uint32_t binding_textures = 0;
-constexpr uint32_t texel_set_index = 2;
 
 VkDescriptorSetLayout make_layout(VkDevice device, VkDescriptorSetLayoutCreateFlags flags, const void* next,
     std::span<const VkDescriptorSetLayoutBinding> bindings)
@@ -34,12 +33,14 @@ VkDescriptorSetLayout make_layout(VkDevice device, VkDescriptorSetLayoutCreateFl
     return layout;
 }
 
-VkDescriptorPool make_pool(
-    VkDevice device, VkDescriptorPoolCreateFlags flags, std::span<const VkDescriptorPoolSize> sizes)
+} // namespace
+
+VkDescriptorPool make_descriptor_pool(VkDevice device, VkDescriptorPoolCreateFlags flags, uint32_t sets,
+    std::span<const VkDescriptorPoolSize> sizes)
 {
     VkDescriptorPoolCreateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
     info.flags = flags;
-    info.maxSets = 1;
+    info.maxSets = sets;
     info.poolSizeCount = uint32_t(sizes.size());
     info.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
@@ -47,7 +48,7 @@ VkDescriptorPool make_pool(
     return pool;
 }
 
-VkDescriptorSet make_set(VkDevice device, VkDescriptorPool pool, VkDescriptorSetLayout layout)
+VkDescriptorSet make_descriptor_set(VkDevice device, VkDescriptorPool pool, VkDescriptorSetLayout layout)
 {
     VkDescriptorSetAllocateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO };
     info.descriptorPool = pool;
@@ -57,8 +58,6 @@ VkDescriptorSet make_set(VkDevice device, VkDescriptorPool pool, VkDescriptorSet
     VKPT_CHECK(vkAllocateDescriptorSets(device, &info, &set));
     return set;
 }
-
-} // namespace
 
 Bindings::Bindings(const Gpu& gpu, bool anisotropic)
     : gpu_(gpu), max_textures_(std::min(wanted_textures, gpu.device.max_textures))
@@ -152,10 +151,10 @@ void Bindings::create_sets()
         { VK_DESCRIPTOR_TYPE_SAMPLER, shared::SAMPLER_COUNT },
     };
     const VkDescriptorPoolSize textures[] = { { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, max_textures_ } };
-    frame_pool_ = make_pool(device, 0, frame);
-    texture_pool_ = make_pool(device, VK_DESCRIPTOR_POOL_CREATE_UPDATE_AFTER_BIND_BIT, textures);
-    frame_set_ = make_set(device, frame_pool_, frame_layout_);
-    texture_set_ = make_set(device, texture_pool_, texture_layout_);
+    frame_pool_ = make_descriptor_pool(device, 0, 1, frame);
+    texture_pool_ = make_descriptor_pool(device, VK_DESCRIPTOR_POOL_CREATE_UPDATE_AFTER_BIND_BIT, 1, textures);
+    frame_set_ = make_descriptor_set(device, frame_pool_, frame_layout_);
+    texture_set_ = make_descriptor_set(device, texture_pool_, texture_layout_);
 }
 
 void Bindings::bind_uniforms(const Buffer& buffer, VkDeviceSize bytes_per_frame)
@@ -207,16 +206,12 @@ uint32_t Bindings::add_texture(const Image& image)
 
 void Bindings::remove_texture(uint32_t slot) { free_slots_.push_back(slot); }
 
-void Bindings::bind(VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset) const
+void Bindings::bind(
+    VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset, VkDescriptorSet texels) const
 {
-    const VkDescriptorSet sets[] = { frame_set_, texture_set_ };
-    vkCmdBindDescriptorSets(
-        commands, point, pipeline_layout_, 0, uint32_t(std::size(sets)), sets, 1, &uniform_offset);
-}
-
-void Bindings::bind_texels(VkCommandBuffer commands, VkPipelineBindPoint point, VkDescriptorSet texels) const
-{
-    vkCmdBindDescriptorSets(commands, point, pipeline_layout_, texel_set_index, 1, &texels, 0, nullptr);
+    const VkDescriptorSet sets[] = { frame_set_, texture_set_, texels };
+    const uint32_t count = uint32_t(std::size(sets)) - (texels ? 0 : 1);
+    vkCmdBindDescriptorSets(commands, point, pipeline_layout_, 0, count, sets, 1, &uniform_offset);
 }
 
 } // namespace vkpt

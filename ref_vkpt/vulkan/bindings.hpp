@@ -11,10 +11,16 @@
 
 #include "ref_vkpt/vulkan/resources.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace vkpt {
+
+// For as many sets as asked for, which live as long as the pool.
+VkDescriptorPool make_descriptor_pool(VkDevice device, VkDescriptorPoolCreateFlags flags, uint32_t sets,
+    std::span<const VkDescriptorPoolSize> sizes);
+VkDescriptorSet make_descriptor_set(VkDevice device, VkDescriptorPool pool, VkDescriptorSetLayout layout);
 
 inline constexpr uint32_t push_constant_bytes = 64;
 
@@ -36,8 +42,9 @@ public:
     // The slot may be handed out again; the device must be idle.
     void remove_texture(uint32_t slot);
 
-    void bind(VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset) const;
-    void bind_texels(VkCommandBuffer commands, VkPipelineBindPoint point, VkDescriptorSet texels) const;
+    // texels: for set 2; none where no shader reads the scene.
+    void bind(VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset,
+        VkDescriptorSet texels = VK_NULL_HANDLE) const;
 
 private:
     void create_layouts();

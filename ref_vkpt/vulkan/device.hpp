@@ -47,6 +47,8 @@ public:
     VkPhysicalDeviceMemoryProperties memory {};
     std::string driver;
     bool is_cpu = false;
+    // Whether shaders read the scene's tables as texels (lib/texels.glsl) or by address.
+    bool reads_texels() const { return is_cpu; }
     bool has_swapchain = false;
     bool has_debug_utils = false;
     bool has_anisotropy = false;

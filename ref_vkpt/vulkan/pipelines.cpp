@@ -2,6 +2,7 @@
 #include "ref_vkpt/vulkan/pipelines.hpp"
 
 #include "ref_vkpt/engine/errors.hpp"
+#include "shaders/shared/texels.h"
 
 #include <algorithm>
 #include <cassert>
@@ -28,13 +29,13 @@ std::vector<char> read_file(const std::string& path)
 enum RayStage : uint32_t { stage_generation, stage_miss, stage_closest_hit, stage_any_hit, stage_count };
 enum RayGroup : uint32_t { group_generation, group_miss, group_hit, group_count };
 
-// Constant 1 of lib/texels.glsl, whether tables are read as texels: its default on CPU drivers, elsewhere not.
+// Of lib/texels.glsl: whether tables are read as texels, which is its default.
 const VkSpecializationInfo* table_access(const Device& device)
 {
     static constexpr VkBool32 as_texels = VK_FALSE;
-    static constexpr VkSpecializationMapEntry entry { 1, 0, sizeof as_texels };
+    static constexpr VkSpecializationMapEntry entry { shared::TEXELS_CONSTANT, 0, sizeof as_texels };
     static constexpr VkSpecializationInfo by_address { 1, &entry, sizeof as_texels, &as_texels };
-    return device.is_cpu ? nullptr : &by_address;
+    return device.reads_texels() ? nullptr : &by_address;
 }
 
 VkRayTracingShaderGroupCreateInfoKHR make_group(uint32_t general, uint32_t closest_hit, uint32_t any_hit)

@@ -77,13 +77,12 @@ ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, b
     LightListView list = open_light_list_for(random, cluster);
 #ifdef VKPT_NEWCOMERS_APART
     ReflectedLight sum = ReflectedLight(vec3(0.0), vec3(0.0));
-    bool are_newcomers = false;
-    [[dont_unroll]] do {
-        ReflectedLight part = sample_list(are_newcomers ? newcomers(list) : counted_lights(list), s, random, bsdf_ray_follows);
+    uint parts = list.counted < light_count(list) ? 2u : 1u;
+    [[dont_unroll]] for (uint i = 0u; i < parts; i++) {
+        ReflectedLight part = sample_list(i == 0u ? counted_lights(list) : newcomers(list), s, random, bsdf_ray_follows);
         sum.diffuse += part.diffuse;
         sum.specular += part.specular;
-        are_newcomers = !are_newcomers;
-    } while (are_newcomers && list.counted < light_count(list));
+    }
     return sum;
 #else
     return sample_list(list, s, random, bsdf_ray_follows);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Tables that are read as texels, 16 bytes at once. The CPU driver loads a texel lane by lane and transposes, in 20 ns for the
 // 16 lanes of a vector; by buffer references it makes gathers of eight lanes out of every load, which take 40 ns for as much
-// (docs/benchmarks.md, "The floor"). GPUs read by address: specialization constant 1 is false there.
+// (docs/benchmarks.md, "The floor"). GPUs read by address, see Device::reads_texels.
 // Needs GL_EXT_samplerless_texture_functions. Define VKPT_TEXEL_SET where it is not 2.
 #ifndef VKPT_LIB_TEXELS
 #define VKPT_LIB_TEXELS
@@ -12,7 +12,7 @@
 #define VKPT_TEXEL_SET 2
 #endif
 
-layout(constant_id = 1) const bool tables_are_texels = true;
+layout(constant_id = TEXELS_CONSTANT) const bool tables_are_texels = true;
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TexelWords { uint64_t v[]; };
 

@@ -9,6 +9,8 @@ VKPT_SHARED_BEGIN
 
 VKPT_CONST uint TEXEL_BYTES = 16u; // four 32-bit words; every entry of these tables is a whole number of texels
 
+VKPT_CONST uint TEXELS_CONSTANT = 1u; // the specialization constant that tells whether tables are read as texels
+
 VKPT_CONST uint TEXELS_TREE_NODES = 0u;     // of all trees of backend "software", one behind the other
 VKPT_CONST uint TEXELS_TREE_TRIANGLES = 1u; // those of the trees, in the order of their leaves
 VKPT_CONST uint TEXELS_TRIANGLES = 2u;      // Triangle

@@ -48,15 +48,16 @@ protected:
     }
 
     // A menu with a model before the picture.
-    static void draw_menu()
+    static void draw_menu(float distance = 40, int entity_flags = 0, int frames = 1)
     {
-        const engine::Entity entity = make_entity(session_->module().register_model(cube_path_.c_str()), { 40, 0, 0 });
+        engine::Entity entity = make_entity(session_->module().register_model(cube_path_.c_str()), { distance, 0, 0 });
+        entity.flags = entity_flags;
         const engine::RefDef world = session_->view;
         session_->look({ 0, 0, 0 }, { 1, 0, 0 });
         session_->view.flags = engine::RDF_NOWORLDMODEL;
         session_->view.entities = &entity;
         session_->view.entity_count = 1;
-        session_->draw();
+        session_->draw(frames);
         session_->view = world;
     }
 
@@ -111,15 +112,7 @@ TEST_F(Filters, AMenusModelIsShownAsItsPicture)
 {
     session_->set("pt_exposure", 0);
     const auto shown = [](float distance) {
-        engine::Entity entity
-            = make_entity(session_->module().register_model(cube_path_.c_str()), { distance, 0, 0 });
-        entity.flags = engine::RF_FULLBRIGHT;
-        session_->look({ 0, 0, 0 }, { 1, 0, 0 });
-        session_->view.flags = engine::RDF_NOWORLDMODEL;
-        session_->view.entities = &entity;
-        session_->view.entity_count = 1;
-        session_->draw(12);
-        session_->view.entity_count = 0;
+        draw_menu(distance, engine::RF_FULLBRIGHT, 12);
         const formats::Image picture = session_->capture_display();
         return picture.at(picture.width / 2, picture.height / 2);
     };
