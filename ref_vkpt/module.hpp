@@ -19,6 +19,8 @@ namespace vkpt {
 
 struct Module {
     explicit Module(const GraphicsSettings& settings);
+    // Waits for the device: any of the members may have what it still reads.
+    ~Module();
 
     Workers workers;
     Graphics graphics;

@@ -206,6 +206,8 @@ Module::Module(const GraphicsSettings& settings)
 {
 }
 
+Module::~Module() { vkDeviceWaitIdle(graphics.device.handle); }
+
 Module* module() { return running.get(); }
 
 namespace renderer {

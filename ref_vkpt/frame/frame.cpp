@@ -58,8 +58,6 @@ Frame::Frame(Graphics& graphics, Workers& workers)
     graphics.uploader.flush();
 }
 
-Frame::~Frame() { vkDeviceWaitIdle(graphics_.device.handle); }
-
 void Frame::begin()
 {
     views_this_frame_ = 0;

@@ -52,7 +52,6 @@ struct ParkedView {
 class Frame {
 public:
     Frame(Graphics& graphics, Workers& workers);
-    ~Frame();
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
 

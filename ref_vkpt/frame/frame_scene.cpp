@@ -120,6 +120,8 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
         tables[shared::TEXELS_MATERIALS] = &kept.materials.buffer(slot);
         tables[shared::TEXELS_EMITTERS] = &kept.emitters.buffer(slot);
         tables[shared::TEXELS_OUTLINES] = &kept.outlines.buffer(slot);
+        if (gpu_world)
+            tables[shared::TEXELS_STATIC_LIGHTS] = &gpu_world->light_indices;
         kept.texels->bind(slot, tables);
     }
 

@@ -31,13 +31,16 @@ void SceneTexels::bind(uint32_t frame_slot, const Tables& tables)
 {
     Slot& slot = slots_[frame_slot];
     for (uint32_t binding = 0; binding < shared::TEXELS_COUNT; binding++) {
-        const Buffer& buffer = tables[binding] ? *tables[binding] : empty_;
         vkDestroyBufferView(gpu_.device.handle, slot.views[binding], nullptr);
         slot.views[binding] = VK_NULL_HANDLE;
+        const bool single_words = binding == shared::TEXELS_STATIC_LIGHTS;
+        const VkDeviceSize bytes = single_words ? sizeof(uint32_t) : shared::TEXEL_BYTES;
+        const bool is_empty = !tables[binding] || tables[binding]->size() < bytes;
+        const Buffer& buffer = is_empty ? empty_ : *tables[binding];
         VkBufferViewCreateInfo view { VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO };
         view.buffer = buffer.handle();
-        view.format = VK_FORMAT_R32G32B32A32_UINT;
-        view.range = buffer.size() / shared::TEXEL_BYTES * shared::TEXEL_BYTES;
+        view.format = single_words ? VK_FORMAT_R32_UINT : VK_FORMAT_R32G32B32A32_UINT;
+        view.range = buffer.size() / bytes * bytes;
         VKPT_CHECK(vkCreateBufferView(gpu_.device.handle, &view, nullptr, &slot.views[binding]));
         VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
         write.dstSet = slot.set;

@@ -65,7 +65,7 @@ uint light_count(LightListView list)
 uint light_at(LightListView list, uint position)
 {
     if (position < list.range.static_count)
-        return list.tables.static_indices.v[list.range.first_static + position];
+        return VKPT_FETCH(LightIndex, list.tables.static_indices, list.range.first_static + position);
     return list.tables.dynamic_indices.v[list.range.first_dynamic + position - list.range.static_count];
 }
 

@@ -32,37 +32,36 @@ SubsetChoice choose_subset(uint count, float xi, uint subset_length)
     return choice;
 }
 
-// Listing 47-1 from line 6 on.
+// Listing 47-1 from line 6 on. It keeps the sums of the weights so far instead of the weights: they are sorted, so that the second
+// sweep is a search that halves what is left, and a light's chance is its interval to the last bit.
 LightSample sample_subset_in_two_sweeps(
     LightListView list, LightPredictor predictor, SubsetChoice choice, LightRandom random)
 {
     uint count = light_count(list);
-    float weights[max_subset_length];
+    float sums[max_subset_length];
     float total = 0.0f;
     uint length_used = 0u;
     for (uint position = choice.offset; position < count && length_used < max_subset_length; position += choice.stride) {
-        float weight = weigh_light(list, predictor, position);
-        weights[length_used] = weight;
-        total += weight;
+        total += weigh_light(list, predictor, position);
+        sums[length_used] = total;
         length_used += 1u;
     }
     if (!(total > 0.0f))
         return no_light();
 
-    // Lights of weight 0 own no interval. Rounding may leave a rest behind the last one: that belongs to the last with weight.
-    float threshold = choice.rest * total;
-    uint chosen = 0u;
-    float mass = 0.0f;
-    for (uint i = 0u; i < length_used; i++) {
-        if (weights[i] <= 0.0f)
-            continue;
-        chosen = i;
-        mass = weights[i];
-        if (threshold < mass)
-            break;
-        threshold -= mass;
+    // The first sum above the threshold, which rounding must not lift to the last one: its light has weight.
+    float threshold = quick_min(choice.rest * total, total * max_below_one);
+    uint low = 0u, high = length_used - 1u;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (sums[middle] > threshold)
+            high = middle;
+        else
+            low = middle + 1u;
     }
-    uint emitter = light_at(list, choice.offset + chosen * choice.stride);
+    float before = sums[max(low, 1u) - 1u];
+    float mass = sums[low] - (low > 0u ? before : 0.0f);
+    uint emitter = light_at(list, choice.offset + low * choice.stride);
     return make_light_sample(emitter, mass / (total * float(choice.stride)), random);
 }
 

@@ -21,6 +21,7 @@ VKPT_TEXELS(triangle_texels, TEXELS_TRIANGLES)
 VKPT_TEXELS(material_texels, TEXELS_MATERIALS)
 VKPT_TEXELS(emitter_texels, TEXELS_EMITTERS)
 VKPT_TEXELS(outline_texels, TEXELS_OUTLINES)
+VKPT_TEXELS(static_light_texels, TEXELS_STATIC_LIGHTS)
 #define VKPT_ENTRY_TEXEL(name, table, bytes, index, i) VKPT_TEXEL(name, 0u, table, bytes, index, i)
 #else
 #define VKPT_ENTRY_TEXEL(name, table, bytes, index, i) load_texel((table) + uint64_t((index) * (bytes)), i)
@@ -39,6 +40,18 @@ BspTreeNode fetch_BspTreeNode(uint64_t table, uint index)
     uvec4 a = load_texel(address, 0u);
     ivec2 b = ivec2(unpack32(TexelWords(address).v[2]));
     return BspTreeNode(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), b.x, b.y);
+}
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightIndexWords { uint v[]; };
+
+// Of the static lights.
+uint fetch_LightIndex(uint64_t table, uint index)
+{
+#ifdef VKPT_SCENE_TEXELS
+    if (tables_are_texels)
+        return texelFetch(static_light_texels, int(index)).x;
+#endif
+    return LightIndexWords(table).v[index];
 }
 
 Emitter fetch_Emitter(uint64_t table, uint index)
