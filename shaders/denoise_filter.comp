@@ -20,7 +20,7 @@ void filter_pixel(uvec2 pixel, uint index)
     uvec2 guide = load_guide(index);
     uvec4 bits = load_element(push.source, index, uvec4(0u));
     if (guide_depth(guide) <= 0.0) {
-        store_element(push.target, index, bits);
+        store_element(push.target.address, index, bits);
         return;
     }
     FilteredLight light = unpack_filtered(bits);
@@ -47,7 +47,7 @@ void filter_pixel(uvec2 pixel, uint index)
     result.specular = specular.light / specular.weight;
     result.diffuse_deviation = filtered_deviation(diffuse, light.diffuse_deviation);
     result.specular_deviation = filtered_deviation(specular, light.specular_deviation);
-    store_element(push.target, index, pack_filtered(result));
+    store_element(push.target.address, index, pack_filtered(result));
 }
 
 VKPT_RUN_OVER_PIXELS(filter_pixel)

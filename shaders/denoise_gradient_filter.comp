@@ -27,7 +27,7 @@ void filter_stratum(uvec2 stratum, uint number)
             sum += load_element(push.source, uint(place.y) * count.x + uint(place.x), vec4(0.0)) * (way.x == 0 || way.y == 0 ? 0.125 : 0.0625)
                 * (tap == 4u ? 2.0 : 1.0);
     }
-    store_element(push.target, number, sum);
+    store_element(push.target.address, number, sum);
 }
 
 VKPT_RUN_OVER_STRATA(filter_stratum)

@@ -15,7 +15,7 @@ void spread_pixel(uvec2 pixel, uint index)
     uvec2 guide = load_guide(index);
     uvec4 bits = load_element(push.source, index, uvec4(0u));
     if (guide_depth(guide) <= 0.0) {
-        store_element(push.target, index, bits);
+        store_element(push.target.address, index, bits);
         return;
     }
     FilteredLight light = unpack_filtered(bits);
@@ -34,7 +34,7 @@ void spread_pixel(uvec2 pixel, uint index)
     float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;
     FilteredLight result = FilteredLight(diffuse.light * diffuse_scale, sqrt(diffuse.variance) * diffuse_scale,
         specular.light * specular_scale, sqrt(specular.variance) * specular_scale);
-    store_element(push.target, index, pack_filtered(result));
+    store_element(push.target.address, index, pack_filtered(result));
 }
 
 VKPT_RUN_OVER_PIXELS(spread_pixel)

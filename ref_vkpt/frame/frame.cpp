@@ -124,7 +124,7 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     shared::FrameUniforms uniforms {};
     uniforms.camera = view.camera;
     uniforms.pixel_offset = glm::vec2(0.5f);
-    uniforms.screen = graphics_.screen.addresses();
+    uniforms.screen = graphics_.screen.rows();
     uniforms.exposure = exposure_.address();
     uniforms.statistics = statistics_.address() + graphics_.slot() * sizeof(shared::FrameStatistics);
     uniforms.ltc = ltc_.address();
@@ -155,9 +155,10 @@ uint32_t Frame::write_uniforms(const shared::FrameUniforms& uniforms)
 
 void Frame::bind(uint32_t uniform_offset) const
 {
-    graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, uniform_offset, texels_);
+    const Bindings::ViewSets sets { scene_texels_, graphics_.screen.texels() };
+    graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, uniform_offset, sets);
     if (backend_ == TraceBackend::pipeline)
-        graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, uniform_offset, texels_);
+        graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, uniform_offset, sets);
 }
 
 // What one pass wrote, the next one reads.

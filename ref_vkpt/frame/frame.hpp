@@ -171,7 +171,7 @@ private:
     FrameUploads uploads_;
     // By the view's number in the frame: all views are drawn after all have been described.
     std::vector<SceneUploads> scene_uploads_;
-    VkDescriptorSet texels_ = VK_NULL_HANDLE; // of the view that is recorded
+    VkDescriptorSet scene_texels_ = VK_NULL_HANDLE; // of the view that is recorded
     MovingWriter moving_writer_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;

@@ -89,7 +89,7 @@ void Frame::begin_filters(
     uniforms.offset_change = last.pixel_offset - 0.5f - (key.pixel_offset - 0.5f) * uniforms.previous_scale;
     state_.history.keep(key);
     graphics_.screen.exchange_history();
-    uniforms.screen = graphics_.screen.addresses();
+    uniforms.screen = graphics_.screen.rows();
 }
 
 void Frame::record_denoiser(const shared::FrameUniforms& uniforms)
@@ -113,10 +113,10 @@ void Frame::record_gradient(const shared::FrameUniforms& uniforms)
 {
     if (!(uniforms.flags & shared::FRAME_HISTORY))
         return;
-    const shared::ScreenBuffers& screen = graphics_.screen.addresses();
+    const shared::ScreenBuffers& screen = graphics_.screen.rows();
     const uint32_t groups = stratum_groups(uniforms.size);
     record_pass("denoise_gradient", groups);
-    uint64_t source = screen.gradient_a, target = screen.gradient_b;
+    shared::ScreenBuffer source = screen.gradient_a, target = screen.gradient_b;
     for (uint32_t level = 0; level < gradient_levels; level++) {
         record_level("denoise_gradient_filter", shared::FilterPush { source, target, 1u << level, level }, groups);
         std::swap(source, target);
@@ -131,7 +131,7 @@ void Frame::record_bloom(const shared::FrameUniforms& uniforms)
         glm::uvec2 size;
     };
     std::array<Level, bloom_levels> levels;
-    uint64_t address = uniforms.screen.bloom;
+    uint64_t address = uniforms.screen.bloom.address;
     glm::uvec2 size = (uniforms.resolved_size + shared::BLOOM_FIRST_STEP - 1u) / shared::BLOOM_FIRST_STEP;
     for (Level& level : levels) {
         level = { address, size };
@@ -158,14 +158,15 @@ bool Frame::wants_bloom(const shared::FrameUniforms& uniforms)
 // The first level's result is what the next view accumulates on; the last one's lies in filter_b.
 void Frame::record_spatial_filter(uint32_t groups)
 {
-    const shared::ScreenBuffers& screen = graphics_.screen.addresses();
+    const shared::ScreenBuffers& screen = graphics_.screen.rows();
     record_level("denoise_filter", shared::FilterPush { screen.filter_a, screen.filtered, 1, 0 }, groups);
     static_assert(std::size(spread_ways) % 2 == 0);
-    uint64_t source = screen.filtered, target = screen.filter_a;
+    const shared::ScreenBuffer* source = &screen.filtered;
+    const shared::ScreenBuffer* target = &screen.filter_a;
     for (const glm::ivec2 way : spread_ways) {
-        record_level("denoise_spread", shared::SpreadPush { source, target, way }, groups);
+        record_level("denoise_spread", shared::SpreadPush { *source, *target, way }, groups);
         source = target;
-        target = target == screen.filter_a ? screen.filter_b : screen.filter_a;
+        target = target == &screen.filter_a ? &screen.filter_b : &screen.filter_a;
     }
 }
 

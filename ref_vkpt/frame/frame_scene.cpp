@@ -109,7 +109,7 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
         write_trees(out, scene, gpu_world, target);
     else
         fill_structures(out, scene, gpu_world, target);
-    texels_ = kept.texels->set(slot);
+    scene_texels_ = kept.texels->set(slot);
     if (graphics_.device.reads_texels()) {
         SceneTexels::Tables tables {};
         if (backend_ == TraceBackend::software) {

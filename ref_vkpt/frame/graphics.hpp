@@ -63,7 +63,7 @@ public:
     Uploader uploader { gpu };
     Bindings bindings { gpu, true };
     Pipelines pipelines;
-    Screen screen { gpu };
+    Screen screen { gpu, bindings };
     FrameTimer timer { device };
 
 private:

@@ -32,7 +32,7 @@ public:
 private:
     struct Slot {
         VkDescriptorSet set = VK_NULL_HANDLE;
-        std::array<VkBufferView, shared::TEXELS_COUNT> views {};
+        std::array<TexelView, shared::TEXELS_COUNT> views;
     };
 
     Gpu gpu_;

@@ -2,7 +2,8 @@
 #include "ref_vkpt/frame/screen.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <bit>
+#include <span>
 
 namespace vkpt {
 
@@ -16,6 +17,25 @@ uint32_t pixel_groups(glm::uvec2 size)
 {
     const uint32_t tiles = (size.x + 7) / 8 * ((size.y + 7) / 8);
     return (tiles + shared::PIXEL_TILES_PER_GROUP - 1) / shared::PIXEL_TILES_PER_GROUP;
+}
+
+ScreenTexels::ScreenTexels(const Gpu& gpu, const Bindings& bindings)
+    : gpu_(gpu)
+    , empty_(gpu, 0, BufferHome::device, MemoryKind::images, "empty screen buffer")
+{
+    const VkDescriptorPoolSize size { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, shared::SCREEN_BUFFER_COUNT };
+    pool_ = make_descriptor_pool(gpu.device.handle, 0, 1, std::span(&size, 1));
+    set_ = make_descriptor_set(gpu.device.handle, pool_, bindings.screen_layout());
+    for (uint32_t number = 0; number < shared::SCREEN_BUFFER_COUNT; number++)
+        bind(number, empty_, 1);
+}
+
+ScreenTexels::~ScreenTexels() { vkDestroyDescriptorPool(gpu_.device.handle, pool_, nullptr); }
+
+void ScreenTexels::bind(uint32_t number, const Buffer& buffer, uint32_t words)
+{
+    views_[number] = TexelView(gpu_, buffer, words);
+    write_texels(gpu_.device.handle, set_, 0, number, views_[number]);
 }
 
 bool Screen::resize_output(VkExtent2D size)
@@ -33,50 +53,49 @@ bool Screen::resize_output(VkExtent2D size)
     return true;
 }
 
-bool Screen::must_grow(glm::uvec2 size) const { return pixel_count(size) > pixels_ || pixel_groups(size) > groups_; }
+bool Screen::must_grow(glm::uvec2 size) const
+{
+    return pixel_count(size) > view_.pixels || pixel_groups(size) > view_.groups;
+}
 
 bool Screen::reserve_pixels(glm::uvec2 size)
 {
     if (!must_grow(size))
         return false;
-    pixels_ = std::max(pixels_, pixel_count(size));
-    groups_ = std::max(groups_, pixel_groups(size));
+    view_.pixels = std::max(view_.pixels, pixel_count(size));
+    view_.groups = std::max(view_.groups, pixel_groups(size));
+    if (!view_.texels)
+        view_.texels = std::make_unique<ScreenTexels>(gpu_, bindings_);
     const auto renew = [&](Buffer& buffer, size_t bytes, const char* name) {
         buffer = Buffer(); // given back before the new one is asked for
         buffer = Buffer(gpu_, bytes, BufferHome::device, MemoryKind::images, name);
-        return buffer.address();
+    };
+    const auto renew_row = [&](Row row, size_t elements, size_t element_bytes, const char* name) {
+        Buffer& buffer = view_.buffers[row];
+        renew(buffer, elements * element_bytes, name);
+        const bool as_texels = gpu_.device.reads_texels() && std::has_single_bit(element_bytes);
+        if (as_texels)
+            view_.texels->bind(row, buffer, uint32_t(element_bytes / sizeof(uint32_t)));
+        return shared::ScreenBuffer { buffer.address(), row, 0 };
     };
     using namespace shared;
     // However the pixels are arranged, and with blocks that the edge cuts.
-    const size_t strata = pixels_ / 3 + 1;
-#define VKPT_SCREEN_BUFFER(type, name) addresses_.name = renew(buffers_[row_##name], pixels_ * sizeof(type), #name);
-#define VKPT_STRATUM_BUFFER(type, name) addresses_.name = renew(buffers_[row_##name], strata * sizeof(type), #name);
+    const size_t strata = view_.pixels / 3 + 1;
+#define VKPT_SCREEN_BUFFER(type, name) view_.rows.name = renew_row(row_##name, view_.pixels, sizeof(type), #name);
+#define VKPT_STRATUM_BUFFER(type, name) view_.rows.name = renew_row(row_##name, strata, sizeof(type), #name);
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
-    const size_t lanes = size_t(groups_) * PIXEL_GROUP_SIZE;
-    renew(trace_stack_, lanes * TRACE_STACK_BYTES_PER_LANE, "trace stack");
+    const size_t lanes = size_t(view_.groups) * PIXEL_GROUP_SIZE;
+    renew(view_.trace_stack, lanes * TRACE_STACK_BYTES_PER_LANE, "trace stack");
     return true;
 }
 
 void Screen::exchange_history()
 {
 #define VKPT_SCREEN_BUFFER(type, name)
-#define VKPT_HISTORY_BUFFER(type, name) std::swap(addresses_.name, addresses_.previous_##name);
+#define VKPT_HISTORY_BUFFER(type, name) std::swap(view_.rows.name, view_.rows.previous_##name);
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
 }
-
-void Screen::exchange(ViewBuffers& other)
-{
-    std::swap(pixels_, other.pixels);
-    std::swap(groups_, other.groups);
-    std::swap(buffers_, other.buffers);
-    std::swap(trace_stack_, other.trace_stack);
-    std::swap(addresses_, other.addresses);
-}
-
-const Buffer& Screen::accumulated() const { return buffers_[row_accumulated]; }
-
-const Buffer& Screen::radiance() const { return buffers_[row_radiance]; }
 
 } // namespace vkpt

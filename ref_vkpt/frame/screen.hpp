@@ -2,23 +2,46 @@
 // The pictures of a frame: the one that is shown, and the per-pixel buffers of shaders/shared/screen_buffers.def.
 #pragma once
 
+#include "ref_vkpt/vulkan/bindings.hpp"
 #include "ref_vkpt/vulkan/resources.hpp"
 #include "shaders/shared/frame.h"
 
 #include <array>
+#include <memory>
+#include <utility>
 
 namespace vkpt {
+
+// Descriptor set 3: the per-pixel buffers as texels, for the drivers that read tables so (Device::reads_texels). Others read by
+// address, and find empty ones here.
+class ScreenTexels {
+public:
+    ScreenTexels(const Gpu& gpu, const Bindings& bindings);
+    ~ScreenTexels();
+    ScreenTexels(const ScreenTexels&) = delete;
+    ScreenTexels& operator=(const ScreenTexels&) = delete;
+
+    // `words`: 32-bit words of an element. The device must not use the set.
+    void bind(uint32_t number, const Buffer& buffer, uint32_t words);
+    VkDescriptorSet set() const { return set_; }
+
+private:
+    Gpu gpu_;
+    Buffer empty_;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    std::array<TexelView, shared::SCREEN_BUFFER_COUNT> views_;
+};
 
 class Screen {
     enum Row {
 #define VKPT_SCREEN_BUFFER(type, name) row_##name,
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
-        row_count
     };
 
 public:
-    explicit Screen(const Gpu& gpu) : gpu_(gpu) { }
+    Screen(const Gpu& gpu, const Bindings& bindings) : gpu_(gpu), bindings_(bindings) { }
 
     // The device must be idle if this changes anything. True: the output image is new (layout UNDEFINED).
     bool resize_output(VkExtent2D size);
@@ -28,30 +51,30 @@ public:
     void exchange_history();
     bool must_grow(glm::uvec2 size) const;
 
-    // The per-pixel buffers of a view that is not being drawn; at first there are none.
+    // The per-pixel buffers of one view; at first there are none.
     struct ViewBuffers {
-        size_t pixels = 0;
-        uint32_t groups = 0;
-        std::array<Buffer, row_count> buffers;
+        size_t pixels = 0;   // that every buffer has room for
+        uint32_t groups = 0; // that the trace stack has room for
+        std::array<Buffer, shared::SCREEN_BUFFER_COUNT> buffers;
+        std::unique_ptr<ScreenTexels> texels;
         Buffer trace_stack;
-        shared::ScreenBuffers addresses {};
+        shared::ScreenBuffers rows {};
     };
-    void exchange(ViewBuffers& other);
+    // Takes up another view's and leaves there those of the view drawn so far.
+    void exchange(ViewBuffers& other) { std::swap(view_, other); }
 
     const Image& output() const { return output_; }
-    const shared::ScreenBuffers& addresses() const { return addresses_; }
-    VkDeviceAddress trace_stack() const { return trace_stack_.address(); }
-    const Buffer& accumulated() const;
-    const Buffer& radiance() const;
+    const shared::ScreenBuffers& rows() const { return view_.rows; }
+    VkDescriptorSet texels() const { return view_.texels->set(); }
+    VkDeviceAddress trace_stack() const { return view_.trace_stack.address(); }
+    const Buffer& accumulated() const { return view_.buffers[row_accumulated]; }
+    const Buffer& radiance() const { return view_.buffers[row_radiance]; }
 
 private:
     Gpu gpu_;
+    const Bindings& bindings_;
     Image output_;
-    size_t pixels_ = 0;   // that every buffer has room for
-    uint32_t groups_ = 0; // that the trace stack has room for
-    std::array<Buffer, row_count> buffers_;
-    Buffer trace_stack_;
-    shared::ScreenBuffers addresses_ {};
+    ViewBuffers view_;
 };
 
 // Workgroups of a pass over a view of this size; see VKPT_RUN_OVER_PIXELS.

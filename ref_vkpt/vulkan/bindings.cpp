@@ -59,6 +59,19 @@ VkDescriptorSet make_descriptor_set(VkDevice device, VkDescriptorPool pool, VkDe
     return set;
 }
 
+void write_texels(VkDevice device, VkDescriptorSet set, uint32_t binding, uint32_t element, const TexelView& view)
+{
+    const VkBufferView handle = view.handle();
+    VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
+    write.dstSet = set;
+    write.dstBinding = binding;
+    write.dstArrayElement = element;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    write.pTexelBufferView = &handle;
+    vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
+}
+
 Bindings::Bindings(const Gpu& gpu, bool anisotropic)
     : gpu_(gpu), max_textures_(std::min(wanted_textures, gpu.device.max_textures))
 {
@@ -75,7 +88,8 @@ Bindings::~Bindings()
     vkDestroyPipelineLayout(device, pipeline_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, frame_layout_, nullptr);
     vkDestroyDescriptorSetLayout(device, texture_layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device, texel_layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device, scene_layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device, screen_layout_, nullptr);
     for (VkSampler sampler : samplers_)
         vkDestroySampler(device, sampler, nullptr);
 }
@@ -130,9 +144,13 @@ void Bindings::create_layouts()
     std::array<VkDescriptorSetLayoutBinding, shared::TEXELS_COUNT> texels {};
     for (uint32_t binding = 0; binding < texels.size(); binding++)
         texels[binding] = { binding, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr };
-    texel_layout_ = make_layout(device, 0, nullptr, texels);
+    scene_layout_ = make_layout(device, 0, nullptr, texels);
+    const VkDescriptorSetLayoutBinding screen[] = {
+        { 0, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, shared::SCREEN_BUFFER_COUNT, VK_SHADER_STAGE_ALL, nullptr },
+    };
+    screen_layout_ = make_layout(device, 0, nullptr, screen);
 
-    const VkDescriptorSetLayout sets[] = { frame_layout_, texture_layout_, texel_layout_ };
+    const VkDescriptorSetLayout sets[] = { frame_layout_, texture_layout_, scene_layout_, screen_layout_ };
     const VkPushConstantRange push { VK_SHADER_STAGE_ALL, 0, push_constant_bytes };
     VkPipelineLayoutCreateInfo layout { VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO };
     layout.setLayoutCount = uint32_t(std::size(sets));
@@ -207,10 +225,10 @@ uint32_t Bindings::add_texture(const Image& image)
 void Bindings::remove_texture(uint32_t slot) { free_slots_.push_back(slot); }
 
 void Bindings::bind(
-    VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset, VkDescriptorSet texels) const
+    VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset, const ViewSets& view) const
 {
-    const VkDescriptorSet sets[] = { frame_set_, texture_set_, texels };
-    const uint32_t count = uint32_t(std::size(sets)) - (texels ? 0 : 1);
+    const VkDescriptorSet sets[] = { frame_set_, texture_set_, view.scene, view.screen };
+    const uint32_t count = uint32_t(std::size(sets)) - (view.scene ? 0 : 2);
     vkCmdBindDescriptorSets(commands, point, pipeline_layout_, 0, count, sets, 1, &uniform_offset);
 }
 

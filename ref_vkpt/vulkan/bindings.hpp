@@ -6,6 +6,7 @@
 //   set 1, binding 0  sampled images, bindless; slot 0 is always a valid white picture. A set of its own because it is
 //                     updated while bound, which Vulkan forbids beside dynamic offsets.
 //   set 2             buffers of texels: the scene's tables, TEXELS_*. Each view has a set of its own (frame/scene_texels.hpp).
+//   set 3             buffers of texels: those of screen_buffers.def, of each view (frame/screen.hpp)
 // Push constants: 64 bytes, the pass's own.
 #pragma once
 
@@ -22,6 +23,9 @@ VkDescriptorPool make_descriptor_pool(VkDevice device, VkDescriptorPoolCreateFla
     std::span<const VkDescriptorPoolSize> sizes);
 VkDescriptorSet make_descriptor_set(VkDevice device, VkDescriptorPool pool, VkDescriptorSetLayout layout);
 
+// `element`: of an array.
+void write_texels(VkDevice device, VkDescriptorSet set, uint32_t binding, uint32_t element, const TexelView& view);
+
 inline constexpr uint32_t push_constant_bytes = 64;
 
 class Bindings {
@@ -32,7 +36,8 @@ public:
     Bindings& operator=(const Bindings&) = delete;
 
     VkPipelineLayout pipeline_layout() const { return pipeline_layout_; }
-    VkDescriptorSetLayout texel_layout() const { return texel_layout_; }
+    VkDescriptorSetLayout scene_layout() const { return scene_layout_; }
+    VkDescriptorSetLayout screen_layout() const { return screen_layout_; }
     uint32_t max_textures() const { return max_textures_; }
 
     void bind_uniforms(const Buffer& buffer, VkDeviceSize bytes_per_frame);
@@ -42,9 +47,16 @@ public:
     // The slot may be handed out again; the device must be idle.
     void remove_texture(uint32_t slot);
 
-    // texels: for set 2; none where no shader reads the scene.
-    void bind(VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset,
-        VkDescriptorSet texels = VK_NULL_HANDLE) const;
+    // Sets 2 and 3 of a view; none where no shader reads either.
+    struct ViewSets {
+        VkDescriptorSet scene = VK_NULL_HANDLE;
+        VkDescriptorSet screen = VK_NULL_HANDLE;
+    };
+    void bind(VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset, const ViewSets& view) const;
+    void bind(VkCommandBuffer commands, VkPipelineBindPoint point, uint32_t uniform_offset) const
+    {
+        bind(commands, point, uniform_offset, {});
+    }
 
 private:
     void create_layouts();
@@ -54,7 +66,8 @@ private:
     Gpu gpu_;
     uint32_t max_textures_;
     std::vector<VkSampler> samplers_;
-    VkDescriptorSetLayout frame_layout_ = VK_NULL_HANDLE, texture_layout_ = VK_NULL_HANDLE, texel_layout_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout frame_layout_ = VK_NULL_HANDLE, texture_layout_ = VK_NULL_HANDLE;
+    VkDescriptorSetLayout scene_layout_ = VK_NULL_HANDLE, screen_layout_ = VK_NULL_HANDLE;
     VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
     VkDescriptorPool frame_pool_ = VK_NULL_HANDLE, texture_pool_ = VK_NULL_HANDLE;
     VkDescriptorSet frame_set_ = VK_NULL_HANDLE, texture_set_ = VK_NULL_HANDLE;

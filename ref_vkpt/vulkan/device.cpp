@@ -133,6 +133,7 @@ const char* require_features(const Features& has, Features& use)
         VKPT_FEATURE(v12, descriptorIndexing),
         VKPT_FEATURE(v12, runtimeDescriptorArray),
         VKPT_FEATURE(v12, shaderSampledImageArrayNonUniformIndexing),
+        VKPT_FEATURE(v12, shaderUniformTexelBufferArrayDynamicIndexing),
         VKPT_FEATURE(v12, descriptorBindingPartiallyBound),
         VKPT_FEATURE(v12, descriptorBindingSampledImageUpdateAfterBind),
         VKPT_FEATURE(v12, descriptorBindingUpdateUnusedWhilePending),

@@ -47,8 +47,9 @@ public:
     VkPhysicalDeviceMemoryProperties memory {};
     std::string driver;
     bool is_cpu = false;
-    // Whether shaders read the scene's tables as texels (lib/texels.glsl) or by address.
-    bool reads_texels() const { return is_cpu; }
+    // Whether shaders read tables and screen buffers as texels (lib/texels.glsl) or by address. Tables may grow to so many.
+    static constexpr uint32_t least_texels = 1u << 27;
+    bool reads_texels() const { return is_cpu && properties.limits.maxTexelBufferElements >= least_texels; }
     bool has_swapchain = false;
     bool has_debug_utils = false;
     bool has_anisotropy = false;

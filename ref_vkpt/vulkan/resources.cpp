@@ -6,8 +6,19 @@
 
 namespace vkpt {
 
+namespace {
+
+constexpr VkDeviceSize least_buffer_bytes = 16;
+
+VkFormat texel_format(uint32_t words)
+{
+    return words == 1 ? VK_FORMAT_R32_UINT : words == 2 ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT;
+}
+
+} // namespace
+
 Buffer::Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind kind, std::string_view name)
-    : device_(gpu.device.handle), size_(std::max<VkDeviceSize>(bytes, 1))
+    : device_(gpu.device.handle), size_(std::max<VkDeviceSize>(bytes, least_buffer_bytes))
 {
     VkBufferCreateInfo info { VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO };
     info.size = size_;
@@ -57,6 +68,28 @@ void Buffer::swap(Buffer& other) noexcept
     std::swap(size_, other.size_);
     std::swap(address_, other.address_);
     std::swap(allocation_, other.allocation_);
+}
+
+TexelView::TexelView(const Gpu& gpu, const Buffer& buffer, uint32_t words) : device_(gpu.device.handle)
+{
+    const VkDeviceSize texel_bytes = words * sizeof(uint32_t);
+    VkBufferViewCreateInfo info { VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO };
+    info.buffer = buffer.handle();
+    info.format = texel_format(words);
+    info.range = buffer.size() / texel_bytes * texel_bytes;
+    VKPT_CHECK(vkCreateBufferView(device_, &info, nullptr, &handle_));
+}
+
+TexelView::~TexelView()
+{
+    if (handle_)
+        vkDestroyBufferView(device_, handle_, nullptr);
+}
+
+void TexelView::swap(TexelView& other) noexcept
+{
+    std::swap(device_, other.device_);
+    std::swap(handle_, other.handle_);
 }
 
 Image::Image(const Gpu& gpu, const ImageSettings& settings, std::string_view name)

@@ -25,7 +25,7 @@ enum class BufferHome {
 class Buffer {
 public:
     Buffer() = default;
-    // At least one byte is made, so that an empty list has an address, too.
+    // At least 16 bytes are made, so that an empty list has an address and a texel, too.
     Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind kind, std::string_view name);
     Buffer(Buffer&& other) noexcept { swap(other); }
     Buffer& operator=(Buffer&& other) noexcept
@@ -49,6 +49,28 @@ private:
     VkDeviceSize size_ = 0;
     VkDeviceAddress address_ = 0;
     Allocation allocation_;
+};
+
+// A buffer as texels of 1, 2 or 4 words of 32 bits, which shaders read as numbers without sign. The buffer must outlive it.
+class TexelView {
+public:
+    TexelView() = default;
+    TexelView(const Gpu& gpu, const Buffer& buffer, uint32_t words);
+    TexelView(TexelView&& other) noexcept { swap(other); }
+    TexelView& operator=(TexelView&& other) noexcept
+    {
+        swap(other);
+        return *this;
+    }
+    ~TexelView();
+
+    VkBufferView handle() const { return handle_; }
+
+private:
+    void swap(TexelView& other) noexcept;
+
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkBufferView handle_ = VK_NULL_HANDLE;
 };
 
 struct ImageSettings {

@@ -82,7 +82,7 @@ float specular_fall(float pixels, float reach)
 }
 
 // The tap at `there`, which is `way` (pixels) off and counts for `kernel` if all is alike, `fall` times of it for the specular lobe.
-void add_neighbour(inout Sums diffuse, inout Sums specular, Pixel pixel, uint64_t source, uint there, vec2 way, float kernel, float fall)
+void add_neighbour(inout Sums diffuse, inout Sums specular, Pixel pixel, ScreenBuffer source, uint there, vec2 way, float kernel, float fall)
 {
     uvec2 guide = load_guide(there);
     FilteredLight light = unpack_filtered(load_element(source, there, uvec4(0u)));

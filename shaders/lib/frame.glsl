@@ -16,14 +16,15 @@
 
 #define VKPT_SCENE_TEXELS
 #include "../shared/frame.h"
+#include "texels.glsl"
 #include "whole_numbers.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 2) uniform sampler samplers[SAMPLER_COUNT];
 layout(set = 1, binding = 0) uniform texture2D textures[];
 
-// An element of a buffer; the last parameter of load_element tells its type. By 64-bit loads and stores where its size allows it
-// (see wide_loads.glsl).
+// An element of a buffer at an address; the last parameter of load_element tells its type. By 64-bit loads and stores where its
+// size allows it (see wide_loads.glsl).
 #define VKPT_ELEMENT(type)                                                                                             \
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer type##_elements { type v[]; };                 \
     type load_element(uint64_t address, uint index, type unused) { return type##_elements(address).v[index]; }         \
@@ -31,7 +32,6 @@ layout(set = 1, binding = 0) uniform texture2D textures[];
 VKPT_ELEMENT(float)
 VKPT_ELEMENT(uint)
 VKPT_ELEMENT(vec3)
-VKPT_ELEMENT(uvec3)
 #undef VKPT_ELEMENT
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ElementWords { uint64_t v[]; };
@@ -48,11 +48,25 @@ void store_element(uint64_t address, uint index, uvec4 value)
     ElementWords(address).v[index * 2u] = pack64(value.xy);
     ElementWords(address).v[index * 2u + 1u] = pack64(value.zw);
 }
-
-vec2 load_element(uint64_t address, uint index, vec2 unused) { return uintBitsToFloat(load_element(address, index, uvec2(0u))); }
 void store_element(uint64_t address, uint index, vec2 value) { store_element(address, index, floatBitsToUint(value)); }
-vec4 load_element(uint64_t address, uint index, vec4 unused) { return uintBitsToFloat(load_element(address, index, uvec4(0u))); }
 void store_element(uint64_t address, uint index, vec4 value) { store_element(address, index, floatBitsToUint(value)); }
+
+// An element of a screen buffer. Texels may be fetched at any time: a pass must not load what it has stored.
+layout(set = 3, binding = 0) uniform utextureBuffer screen_texels[SCREEN_BUFFER_COUNT];
+
+uvec4 load_element(ScreenBuffer buffer_, uint index, uvec4 unused)
+{
+    return tables_are_texels ? texelFetch(screen_texels[buffer_.texels], int(index)) : load_element(buffer_.address, index, uvec4(0u));
+}
+uvec2 load_element(ScreenBuffer buffer_, uint index, uvec2 unused)
+{
+    return tables_are_texels ? texelFetch(screen_texels[buffer_.texels], int(index)).xy : load_element(buffer_.address, index, uvec2(0u));
+}
+vec2 load_element(ScreenBuffer buffer_, uint index, vec2 unused) { return uintBitsToFloat(load_element(buffer_, index, uvec2(0u))); }
+vec4 load_element(ScreenBuffer buffer_, uint index, vec4 unused) { return uintBitsToFloat(load_element(buffer_, index, uvec4(0u))); }
+uint load_element(ScreenBuffer buffer_, uint index, uint unused) { return load_element(buffer_.address, index, 0u); }
+float load_element(ScreenBuffer buffer_, uint index, float unused) { return load_element(buffer_.address, index, 0.0); }
+vec3 load_element(ScreenBuffer buffer_, uint index, vec3 unused) { return load_element(buffer_.address, index, vec3(0.0)); }
 
 // Whole numbers from -2^22 to 2^22. CPU drivers convert floats to integers lane by lane, because of what lies beyond the range.
 int whole_to_int(float whole) { return floatBitsToInt(whole + 12582912.0) - 0x4b400000; }
@@ -61,7 +75,7 @@ ivec2 whole_to_int(vec2 whole) { return floatBitsToInt(whole + 12582912.0) - 0x4
 // load_NAME(pixel index) and store_NAME(pixel index, value) for every screen buffer
 #define VKPT_SCREEN_BUFFER(type, name)                                                                                 \
     type load_##name(uint pixel) { return load_element(frame.screen.name, pixel, type(0)); }                           \
-    void store_##name(uint pixel, type value) { store_element(frame.screen.name, pixel, value); }
+    void store_##name(uint pixel, type value) { store_element(frame.screen.name.address, pixel, value); }
 #include "../shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
 

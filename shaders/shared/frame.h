@@ -50,11 +50,23 @@ struct ExposureState {
     uint valid; // 0: no frame seen yet
 };
 
+struct ScreenBuffer {
+    uint64_t address;
+    uint texels; // its number in descriptor set 3, where tables are read as texels
+    uint unused;
+};
+
 struct ScreenBuffers {
-#define VKPT_SCREEN_BUFFER(type, name) uint64_t name;
+#define VKPT_SCREEN_BUFFER(type, name) ScreenBuffer name;
 #include "screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
 };
+
+VKPT_CONST uint SCREEN_BUFFER_COUNT = 0u
+#define VKPT_SCREEN_BUFFER(type, name) +1u
+#include "screen_buffers.def"
+#undef VKPT_SCREEN_BUFFER
+    ;
 
 // What the passes count for the CPU.
 struct FrameStatistics {
@@ -73,16 +85,16 @@ struct BloomPush {
 
 // What one level of the denoiser's spatial filter is told (push constants).
 struct FilterPush {
-    uint64_t source; // of the type of the buffer `filtered`
-    uint64_t target;
+    ScreenBuffer source; // of the type of the buffer `filtered`
+    ScreenBuffer target;
     uint step;       // pixels between taps
     uint level;      // from 0
 };
 
 // What denoise_spread.comp is told (push constants).
 struct SpreadPush {
-    uint64_t source; // of the type of the buffer `filtered`
-    uint64_t target;
+    ScreenBuffer source; // of the type of the buffer `filtered`
+    ScreenBuffer target;
     ivec2 way;       // pixels to the first tap
 };
 
