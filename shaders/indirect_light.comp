@@ -56,7 +56,7 @@ bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
     if (raw.triangle == TRACE_MISS)
         return false; // outside of a closed map; a view without a world has no sky that lights
     path.ray_length = raw.t;
-    HitSurface hit = fetch_surface(raw, ray, raw.t * bounce_cone_spread);
+    HitSurface hit = fetch_surface(raw, ray, raw.t * bounce_cone_spread, PICTURE_TEXEL);
     path.radiance += path.throughput * count_emission(path, bsdf, hit, pixel_random);
     if ((hit.flags & MATERIAL_SKY) != 0u || path.vertex >= uint(frame.cvars.pt_bounces))
         return false;

@@ -118,7 +118,7 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
         return false;
     }
     path.path_length += raw.t;
-    HitSurface hit = fetch_surface(raw, path.ray, path.path_length * cone_spread);
+    HitSurface hit = fetch_surface(raw, path.ray, path.path_length * cone_spread, PICTURE_SMOOTH);
     Surface s = hit.surface;
     if ((hit.flags & MATERIAL_SKY) != 0u) {
         path.emitted += path.throughput * sky_radiance(path.ray.direction);

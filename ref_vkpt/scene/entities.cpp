@@ -87,6 +87,12 @@ uint32_t SnapshotBuilder::add_material(const shared::Material& material)
     return uint32_t(snapshot_.materials.size() - 1);
 }
 
+static void show_picture(shared::Material& material, const Texture& picture)
+{
+    material.texture = picture.slot;
+    material.texture_size = picture.packed_size;
+}
+
 shared::Material SnapshotBuilder::plain_material() const
 {
     shared::Material material {};
@@ -94,7 +100,7 @@ shared::Material SnapshotBuilder::plain_material() const
     material.opacity = 1;
     material.roughness = defaults_.roughness;
     material.metallic = defaults_.metallic;
-    material.texture = textures_.white().slot;
+    show_picture(material, textures_.white());
     return material;
 }
 
@@ -171,7 +177,7 @@ shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Mode
             skin = mesh.skins[0];
     }
     if (skin)
-        material.texture = skin->slot;
+        show_picture(material, *skin);
     const SurfaceGuess guess = guess_surface(model.name, defaults_);
     material.roughness = guess.roughness;
     material.metallic = guess.metallic;
@@ -298,7 +304,7 @@ void SnapshotBuilder::add_sprite(const Entity& entity, const Model::Sprite& spri
     if (!picture)
         return;
     shared::Material material = plain_material();
-    material.texture = picture->slot;
+    show_picture(material, *picture);
     material.tint = glm::vec3(unlit_radiance);
     material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
     material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_ALPHA_TEST

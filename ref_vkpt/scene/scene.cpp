@@ -36,8 +36,8 @@ void list_lights(SceneSnapshot& snapshot, World& world)
 
 WorldPicture describe(const Texture& texture)
 {
-    return { texture.slot, texture.width, texture.height, texture.average, texture.has_alpha, texture.missing,
-        texture.parts };
+    return { texture.slot, texture.packed_size, texture.width, texture.height, texture.average, texture.has_alpha,
+        texture.missing, texture.parts };
 }
 
 } // namespace

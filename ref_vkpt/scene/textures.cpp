@@ -125,6 +125,7 @@ Texture* TextureStore::make_missing_wall(std::string_view name)
     texture->name = name;
     texture->path = PictureFiles::original_paths(name, TextureUse::wall).front();
     texture->slot = grey_->slot;
+    texture->packed_size = grey_->packed_size;
     texture->width = texture->height = missing_size;
     texture->average = grey_->average;
     texture->missing = true;
@@ -168,6 +169,7 @@ void TextureStore::upload(Texture& texture, const formats::Image& pixels)
     upload_pending_ = true;
 
     texture.slot = bindings_.add_texture(texture.image);
+    texture.packed_size = settings.width | settings.height << 16;
     texture.width = pixels.width;
     texture.height = pixels.height;
     const PictureMeasure measure = measure_picture(pixels);

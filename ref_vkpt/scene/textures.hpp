@@ -24,6 +24,7 @@ struct Texture {
     std::string file; // what was read; empty: missing
     TextureUse use = TextureUse::wall;
     uint32_t slot = 0; // bindless index
+    uint32_t packed_size = 0x10001; // of what is in the slot, see shared::Material::texture_size
     int width = 0, height = 0; // of the original picture
     glm::vec3 average { 1 }; // see PictureMeasure
     std::vector<BrightPart> parts; // of walls

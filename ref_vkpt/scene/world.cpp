@@ -193,6 +193,7 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
         material.roughness = guess.roughness;
         material.metallic = guess.metallic;
         material.texture = pictures[i].slot;
+        material.texture_size = pictures[i].packed_size;
         material.flags = (texinfo.flags & SURF_SKY ? shared::MATERIAL_SKY : 0)
             | (texinfo.flags & SURF_WARP ? shared::MATERIAL_WARP : 0)
             | (is_translucent(texinfo) ? shared::MATERIAL_TRANSLUCENT : 0)

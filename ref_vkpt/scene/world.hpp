@@ -34,7 +34,7 @@ struct MapGeometry {
 
 // A picture as materials need it.
 struct WorldPicture {
-    uint32_t slot = 0;
+    uint32_t slot = 0, packed_size = 0x10001; // see Texture
     int width = 64, height = 64; // texels of texinfo space
     glm::vec3 average { 0.5f };  // linear
     bool has_alpha = false;

@@ -36,10 +36,10 @@ LightTables light_tables()
 float lightstyle_scale(uint lightstyle) { return LightstyleBuffer(frame.scene.lightstyles).v[lightstyle]; }
 
 // Ray cones (Akenine-Moeller et al., Ray Tracing Gems, chapter 20): the mip whose texel is as large as the ray's footprint.
-float choose_mip(Triangle triangle, vec2 picture_size, float cone_width, float cosine)
+float choose_mip(Triangle triangle, vec2 size, float cone_width, float cosine)
 {
     vec3 e1 = triangle.positions[1] - triangle.positions[0], e2 = triangle.positions[2] - triangle.positions[0];
-    vec2 t1 = (triangle.uvs[1] - triangle.uvs[0]) * picture_size, t2 = (triangle.uvs[2] - triangle.uvs[0]) * picture_size;
+    vec2 t1 = (triangle.uvs[1] - triangle.uvs[0]) * size, t2 = (triangle.uvs[2] - triangle.uvs[0]) * size;
     float texels = abs(t1.x * t2.y - t1.y * t2.x), area = length(cross(e1, e2));
     float footprint = cone_width / quick_max(abs(cosine), 0.1);
     return 0.5 * log2(quick_max(texels / quick_max(area, 1e-12), 1e-12)) + log2(quick_max(footprint, 1e-6));
@@ -52,8 +52,29 @@ vec2 warp_uv(vec2 uv)
     return uv + amplitude * sin(uv.yx * cycles * 0.5 + frame.time * speed);
 }
 
-// `cone_width`: the ray's footprint there, in units. `view`: unit, towards the ray's origin.
-HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width)
+// How pictures are read, at the level of detail that the ray's footprint asks for.
+const int PICTURE_SMOOTH = 0; // between eight texels
+const int PICTURE_TEXEL = 1;  // one texel: enough for bounces, where what is sharp is noise among other noise
+
+uvec2 picture_size(Material material) { return uvec2(material.texture_size & 0xffffu, material.texture_size >> 16u); }
+
+// Both the index and what is made of it have to be called nonuniform, or the CPU driver takes the first lane's picture for all.
+vec4 sample_picture(Material material, vec2 uv, float mip)
+{
+    return textureLod(nonuniformEXT(sampler2D(textures[nonuniformEXT(material.texture)], samplers[SAMPLER_REPEAT])), uv, mip);
+}
+
+vec4 fetch_texel(Material material, vec2 uv, float mip)
+{
+    uvec2 first = picture_size(material);
+    int level = clamp(whole_to_int(floor(mip + 0.5)), 0, findMSB(max(first.x, first.y)));
+    ivec2 size = ivec2(max(first >> uint(level), 1u));
+    ivec2 texel = clamp(whole_to_int(floor(fract(uv) * vec2(size))), ivec2(0), size - 1);
+    return texelFetch(nonuniformEXT(sampler2D(textures[nonuniformEXT(material.texture)], samplers[SAMPLER_REPEAT])), texel, level);
+}
+
+// `cone_width`: the ray's footprint there, in units. `way`: PICTURE_*.
+HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
 {
     Triangle triangle = fetch_Triangle(frame.scene.triangles, hit.triangle);
     Material material = fetch_Material(frame.scene.materials, triangle.material);
@@ -77,10 +98,8 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width)
     vec2 uv = interpolate_uv(triangle, b) + material.uv_scroll;
     if ((material.flags & MATERIAL_WARP) != 0u)
         uv = warp_uv(uv);
-    uint slot = nonuniformEXT(material.texture);
-    vec2 picture_size = vec2(textureSize(sampler2D(textures[nonuniformEXT(slot)], samplers[SAMPLER_REPEAT]), 0));
-    float mip = choose_mip(triangle, picture_size, cone_width, dot(s.geometric_normal, s.view));
-    vec4 picture = textureLod(sampler2D(textures[nonuniformEXT(slot)], samplers[SAMPLER_REPEAT]), uv, mip);
+    float mip = choose_mip(triangle, vec2(ivec2(picture_size(material))), cone_width, dot(s.geometric_normal, s.view));
+    vec4 picture = way == PICTURE_TEXEL ? fetch_texel(material, uv, mip) : sample_picture(material, uv, mip);
 
     s.albedo = quick_clamp(picture.rgb * material.tint, 0.0, 1.0);
     s.roughness = material.roughness;

@@ -105,6 +105,7 @@ Material fetch_Material(uint64_t table, uint index)
     result.flags = c.z;
     result.uv_scroll = uintBitsToFloat(uvec2(c.w, d.x));
     result.lightstyle = d.y;
+    result.texture_size = d.z;
     return result;
 }
 

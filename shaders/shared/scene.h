@@ -49,7 +49,8 @@ struct Material {
     uint flags;           // MATERIAL_*
     vec2 uv_scroll;       // added to uv, already multiplied by time
     uint lightstyle;      // scales emission
-    uint padding[2];      // to whole texels, see texels.h
+    uint texture_size;    // width | height << 16 of its first level; it has all levels down to one texel
+    uint padding;         // to whole texels, see texels.h
 };
 VKPT_ASSERT_SIZE(Material, 64);
 

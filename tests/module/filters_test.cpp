@@ -25,6 +25,7 @@ protected:
         for (int i = 0; i < 16; i++)
             map.add_point_light({ 60 - 8 * float(i), 40, 200 }, 20);
         folder_->add_map("room", map.finish());
+        add_speckled_room();
         cube_path_ = folder_->add_cube("cube", 8, red_index);
         session_ = std::make_unique<Session>(*folder_, CvarList { { "flt_taa", "on" } });
     }
@@ -45,6 +46,32 @@ protected:
         session_->view.dlight_count = 0;
         session_->load_map("room");
         session_->look({ -120, -100, 90 }, { 20, 20, 0 });
+    }
+
+    // Walls whose pictures have every level of detail, each wall another number of texels.
+    static void add_speckled_room()
+    {
+        MapBuilder map;
+        uint32_t width = 512;
+        const auto next_picture = [&] {
+            formats::Image picture { int(width), int(width), std::vector<formats::Rgba8>(size_t(width) * width) };
+            for (size_t i = 0; i < picture.pixels.size(); i++) {
+                const auto grey = uint8_t(i * 2654435761u >> 23);
+                picture.pixels[i] = { grey, uint8_t(255 - grey), uint8_t(grey / 2), 255 };
+            }
+            const std::string name = "speckles" + std::to_string(width);
+            folder_->add_wall(name, 180);
+            folder_->add("textures/" + name + ".tga", formats::write_tga(picture));
+            width /= 2;
+            return map.add_material(name);
+        };
+        map.add_room({ -256, -256, 0 }, { 256, 256, 256 }, next_picture());
+        for (int i = 0; i < 4; i++) {
+            const float x = -150 + 80 * float(i);
+            map.add_block({ x, -20, 0 }, { x + 40, 20, 60 + 30 * float(i) }, next_picture());
+        }
+        map.add_point_light({ 0, 100, 200 }, 300);
+        folder_->add_map("speckled", map.finish());
     }
 
     // A menu with a model before the picture.
@@ -184,6 +211,23 @@ TEST_F(FiltersAndLists, NoSamplerFakesChanges)
                 [](const formats::Rgba8& pixel) { return pixel.r == 0 && pixel.g == 0; }))
                 << info.light_samplers[i] << ", frame " << frame;
         }
+    }
+    session_->set("pt_debug_view", "off");
+}
+
+// What a repeated sample's ray meets is read again as it was, whatever its new neighbours in the picture meet.
+TEST_F(Filters, PicturesOnWallsFakeNoChange)
+{
+    session_->set("pt_seed", 0);
+    session_->set("flt_taa", "off");
+    session_->set("pt_debug_view", "gradient");
+    session_->load_map("speckled");
+    session_->draw();
+    for (int frame = 1; frame < 12; frame++) {
+        session_->draw();
+        EXPECT_TRUE(std::ranges::all_of(session_->capture_display().pixels,
+            [](const formats::Rgba8& pixel) { return pixel.r == 0 && pixel.g == 0; }))
+            << "frame " << frame;
     }
     session_->set("pt_debug_view", "off");
 }
