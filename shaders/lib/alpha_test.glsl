@@ -20,7 +20,7 @@ bool is_cut_out(uint id, vec2 barycentrics)
     if ((material.flags & MATERIAL_ALPHA_TEST) == 0u)
         return false;
     vec2 uv = interpolate_uv(triangle, barycentrics) + material.uv_scroll;
-    return textureLod(nonuniformEXT(sampler2D(textures[nonuniformEXT(material.texture)], samplers[SAMPLER_REPEAT])), uv, 0.0).a < 0.5;
+    return textureLod(VKPT_PICTURE(material.texture, SAMPLER_REPEAT), uv, 0.0).a < 0.5;
 }
 
 #endif

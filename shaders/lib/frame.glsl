@@ -23,6 +23,10 @@ layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; }
 layout(set = 0, binding = 2) uniform sampler samplers[SAMPLER_COUNT];
 layout(set = 1, binding = 0) uniform texture2D textures[];
 
+// A picture that may be another one in every lane. Both the index and what is made of it have to be called nonuniform, or the CPU
+// driver takes the first lane's picture for all.
+#define VKPT_PICTURE(slot, sampler_index) nonuniformEXT(sampler2D(textures[nonuniformEXT(slot)], samplers[sampler_index]))
+
 // An element of a buffer at an address; the last parameter of load_element tells its type. By 64-bit loads and stores where its
 // size allows it (see wide_loads.glsl).
 #define VKPT_ELEMENT(type)                                                                                             \

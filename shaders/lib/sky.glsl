@@ -26,7 +26,7 @@ vec3 sky_radiance(vec3 direction)
     vec3 face = sky_face(d);
     uint slot = frame.scene.sky.textures[uint(face.z)];
     vec2 uv = face.xy * 0.5 + 0.5;
-    vec3 picture = textureLod(nonuniformEXT(sampler2D(textures[nonuniformEXT(slot)], samplers[SAMPLER_CLAMP])), uv, 0.0).rgb;
+    vec3 picture = textureLod(VKPT_PICTURE(slot, SAMPLER_CLAMP), uv, 0.0).rgb;
     return picture * frame.scene.sky.radiance;
 }
 

@@ -58,10 +58,9 @@ const int PICTURE_TEXEL = 1;  // one texel: enough for bounces, where what is sh
 
 uvec2 picture_size(Material material) { return uvec2(material.texture_size & 0xffffu, material.texture_size >> 16u); }
 
-// Both the index and what is made of it have to be called nonuniform, or the CPU driver takes the first lane's picture for all.
 vec4 sample_picture(Material material, vec2 uv, float mip)
 {
-    return textureLod(nonuniformEXT(sampler2D(textures[nonuniformEXT(material.texture)], samplers[SAMPLER_REPEAT])), uv, mip);
+    return textureLod(VKPT_PICTURE(material.texture, SAMPLER_REPEAT), uv, mip);
 }
 
 vec4 fetch_texel(Material material, vec2 uv, float mip)
@@ -70,7 +69,7 @@ vec4 fetch_texel(Material material, vec2 uv, float mip)
     int level = clamp(whole_to_int(floor(mip + 0.5)), 0, findMSB(max(first.x, first.y)));
     ivec2 size = ivec2(max(first >> uint(level), 1u));
     ivec2 texel = clamp(whole_to_int(floor(fract(uv) * vec2(size))), ivec2(0), size - 1);
-    return texelFetch(nonuniformEXT(sampler2D(textures[nonuniformEXT(material.texture)], samplers[SAMPLER_REPEAT])), texel, level);
+    return texelFetch(VKPT_PICTURE(material.texture, SAMPLER_REPEAT), texel, level);
 }
 
 // `cone_width`: the ray's footprint there, in units. `way`: PICTURE_*.
