@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <span>
 
 namespace vkpt {
 
@@ -19,23 +18,9 @@ uint32_t pixel_groups(glm::uvec2 size)
     return (tiles + shared::PIXEL_TILES_PER_GROUP - 1) / shared::PIXEL_TILES_PER_GROUP;
 }
 
-ScreenTexels::ScreenTexels(const Gpu& gpu, const Bindings& bindings)
-    : gpu_(gpu)
-    , empty_(gpu, 0, BufferHome::device, MemoryKind::images, "empty screen buffer")
+TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings)
 {
-    const VkDescriptorPoolSize size { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, shared::SCREEN_BUFFER_COUNT };
-    pool_ = make_descriptor_pool(gpu.device.handle, 0, 1, std::span(&size, 1));
-    set_ = make_descriptor_set(gpu.device.handle, pool_, bindings.screen_layout());
-    for (uint32_t number = 0; number < shared::SCREEN_BUFFER_COUNT; number++)
-        bind(number, empty_, 1);
-}
-
-ScreenTexels::~ScreenTexels() { vkDestroyDescriptorPool(gpu_.device.handle, pool_, nullptr); }
-
-void ScreenTexels::bind(uint32_t number, const Buffer& buffer, uint32_t words)
-{
-    views_[number] = TexelView(gpu_, buffer, words);
-    write_texels(gpu_.device.handle, set_, 0, number, views_[number]);
+    return TexelSet(gpu, bindings.screen_layout(), TexelShape::array, shared::SCREEN_BUFFER_COUNT);
 }
 
 bool Screen::resize_output(VkExtent2D size)
@@ -65,7 +50,7 @@ bool Screen::reserve_pixels(glm::uvec2 size)
     view_.pixels = std::max(view_.pixels, pixel_count(size));
     view_.groups = std::max(view_.groups, pixel_groups(size));
     if (!view_.texels)
-        view_.texels = std::make_unique<ScreenTexels>(gpu_, bindings_);
+        view_.texels = make_screen_texels(gpu_, bindings_);
     const auto renew = [&](Buffer& buffer, size_t bytes, const char* name) {
         buffer = Buffer(); // given back before the new one is asked for
         buffer = Buffer(gpu_, bytes, BufferHome::device, MemoryKind::images, name);
@@ -75,7 +60,7 @@ bool Screen::reserve_pixels(glm::uvec2 size)
         renew(buffer, elements * element_bytes, name);
         const bool as_texels = gpu_.device.reads_texels() && std::has_single_bit(element_bytes);
         if (as_texels)
-            view_.texels->bind(row, buffer, uint32_t(element_bytes / sizeof(uint32_t)));
+            view_.texels.bind(gpu_, row, &buffer, uint32_t(element_bytes / sizeof(uint32_t)));
         return shared::ScreenBuffer { buffer.address(), row, 0 };
     };
     using namespace shared;

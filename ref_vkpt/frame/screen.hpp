@@ -4,34 +4,13 @@
 
 #include "ref_vkpt/vulkan/bindings.hpp"
 #include "ref_vkpt/vulkan/resources.hpp"
+#include "ref_vkpt/vulkan/texel_set.hpp"
 #include "shaders/shared/frame.h"
 
 #include <array>
-#include <memory>
 #include <utility>
 
 namespace vkpt {
-
-// Descriptor set 3: the per-pixel buffers as texels, for the drivers that read tables so (Device::reads_texels). Others read by
-// address, and find empty ones here.
-class ScreenTexels {
-public:
-    ScreenTexels(const Gpu& gpu, const Bindings& bindings);
-    ~ScreenTexels();
-    ScreenTexels(const ScreenTexels&) = delete;
-    ScreenTexels& operator=(const ScreenTexels&) = delete;
-
-    // `words`: 32-bit words of an element. The device must not use the set.
-    void bind(uint32_t number, const Buffer& buffer, uint32_t words);
-    VkDescriptorSet set() const { return set_; }
-
-private:
-    Gpu gpu_;
-    Buffer empty_;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
-    std::array<TexelView, shared::SCREEN_BUFFER_COUNT> views_;
-};
 
 class Screen {
     enum Row {
@@ -41,7 +20,11 @@ class Screen {
     };
 
 public:
-    Screen(const Gpu& gpu, const Bindings& bindings) : gpu_(gpu), bindings_(bindings) { }
+    Screen(const Gpu& gpu, const Bindings& bindings)
+        : gpu_(gpu)
+        , bindings_(bindings)
+    {
+    }
 
     // The device must be idle if this changes anything. True: the output image is new (layout UNDEFINED).
     bool resize_output(VkExtent2D size);
@@ -53,10 +36,11 @@ public:
 
     // The per-pixel buffers of one view; at first there are none.
     struct ViewBuffers {
-        size_t pixels = 0;   // that every buffer has room for
+        size_t pixels = 0; // that every buffer has room for
         uint32_t groups = 0; // that the trace stack has room for
         std::array<Buffer, shared::SCREEN_BUFFER_COUNT> buffers;
-        std::unique_ptr<ScreenTexels> texels;
+        // Descriptor set 3, for the drivers that read tables so (Device::reads_texels). Others find empty buffers here.
+        TexelSet texels;
         Buffer trace_stack;
         shared::ScreenBuffers rows {};
     };
@@ -65,7 +49,7 @@ public:
 
     const Image& output() const { return output_; }
     const shared::ScreenBuffers& rows() const { return view_.rows; }
-    VkDescriptorSet texels() const { return view_.texels->set(); }
+    VkDescriptorSet texels() const { return view_.texels.handle(); }
     VkDeviceAddress trace_stack() const { return view_.trace_stack.address(); }
     const Buffer& accumulated() const { return view_.buffers[row_accumulated]; }
     const Buffer& radiance() const { return view_.buffers[row_radiance]; }
@@ -76,6 +60,8 @@ private:
     Image output_;
     ViewBuffers view_;
 };
+
+TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings);
 
 // Workgroups of a pass over a view of this size; see VKPT_RUN_OVER_PIXELS.
 uint32_t pixel_groups(glm::uvec2 size);

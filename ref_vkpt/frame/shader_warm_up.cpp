@@ -62,7 +62,7 @@ public:
         record_barrier(commands_,
             { output_.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, VK_ACCESS_SHADER_WRITE_BIT });
-        bindings_.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, 0, { scene_texels_.set(0), screen_texels_.set() });
+        bindings_.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, 0, { scene_texels_.set(0), screen_texels_.handle() });
         constexpr std::array<std::byte, push_constant_bytes> push {};
         vkCmdPushConstants(
             commands_, bindings_.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, push_constant_bytes, push.data());
@@ -89,7 +89,7 @@ private:
     Gpu gpu_ { *device_, memory_ };
     Bindings bindings_ { gpu_, true };
     SceneTexels scene_texels_ { gpu_, bindings_ };
-    ScreenTexels screen_texels_ { gpu_, bindings_ };
+    TexelSet screen_texels_ = make_screen_texels(gpu_, bindings_);
     Pipelines pipelines_ { gpu_, bindings_, "" };
     Buffer uniforms_;
     Image output_;

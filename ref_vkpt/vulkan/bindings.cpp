@@ -35,8 +35,8 @@ VkDescriptorSetLayout make_layout(VkDevice device, VkDescriptorSetLayoutCreateFl
 
 } // namespace
 
-VkDescriptorPool make_descriptor_pool(VkDevice device, VkDescriptorPoolCreateFlags flags, uint32_t sets,
-    std::span<const VkDescriptorPoolSize> sizes)
+VkDescriptorPool make_descriptor_pool(
+    VkDevice device, VkDescriptorPoolCreateFlags flags, uint32_t sets, std::span<const VkDescriptorPoolSize> sizes)
 {
     VkDescriptorPoolCreateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
     info.flags = flags;
@@ -59,21 +59,9 @@ VkDescriptorSet make_descriptor_set(VkDevice device, VkDescriptorPool pool, VkDe
     return set;
 }
 
-void write_texels(VkDevice device, VkDescriptorSet set, uint32_t binding, uint32_t element, const TexelView& view)
-{
-    const VkBufferView handle = view.handle();
-    VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
-    write.dstSet = set;
-    write.dstBinding = binding;
-    write.dstArrayElement = element;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    write.pTexelBufferView = &handle;
-    vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
-}
-
 Bindings::Bindings(const Gpu& gpu, bool anisotropic)
-    : gpu_(gpu), max_textures_(std::min(wanted_textures, gpu.device.max_textures))
+    : gpu_(gpu)
+    , max_textures_(std::min(wanted_textures, gpu.device.max_textures))
 {
     create_samplers(anisotropic);
     create_layouts();
@@ -138,8 +126,8 @@ void Bindings::create_layouts()
     };
     binding_flags.bindingCount = 1;
     binding_flags.pBindingFlags = &flags;
-    texture_layout_ = make_layout(
-        device, VK_DESCRIPTOR_SET_LAYOUT_CREATE_UPDATE_AFTER_BIND_POOL_BIT, &binding_flags, textures);
+    texture_layout_
+        = make_layout(device, VK_DESCRIPTOR_SET_LAYOUT_CREATE_UPDATE_AFTER_BIND_POOL_BIT, &binding_flags, textures);
 
     std::array<VkDescriptorSetLayoutBinding, shared::TEXELS_COUNT> texels {};
     for (uint32_t binding = 0; binding < texels.size(); binding++)
@@ -208,7 +196,8 @@ uint32_t Bindings::add_texture(const Image& image)
     } else if (next_slot_ < max_textures_) {
         next_slot_++;
     } else {
-        throw FatalError(fmt::format("more than {} pictures in use at once, the most that this device serves", max_textures_));
+        throw FatalError(
+            fmt::format("more than {} pictures in use at once, the most that this device serves", max_textures_));
     }
     const VkDescriptorImageInfo info { VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL };
     VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };

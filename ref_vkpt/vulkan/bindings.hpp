@@ -5,8 +5,9 @@
 //   set 0, binding 2  samplers, see SAMPLER_*
 //   set 1, binding 0  sampled images, bindless; slot 0 is always a valid white picture. A set of its own because it is
 //                     updated while bound, which Vulkan forbids beside dynamic offsets.
-//   set 2             buffers of texels: the scene's tables, TEXELS_*. Each view has a set of its own (frame/scene_texels.hpp).
-//   set 3             buffers of texels: those of screen_buffers.def, of each view (frame/screen.hpp)
+//   set 2             buffers of texels: the scene's tables, TEXELS_*. Each view has a set of its own
+//   (frame/scene_texels.hpp). set 3             buffers of texels: those of screen_buffers.def, of each view
+//   (frame/screen.hpp)
 // Push constants: 64 bytes, the pass's own.
 #pragma once
 
@@ -19,12 +20,9 @@
 namespace vkpt {
 
 // For as many sets as asked for, which live as long as the pool.
-VkDescriptorPool make_descriptor_pool(VkDevice device, VkDescriptorPoolCreateFlags flags, uint32_t sets,
-    std::span<const VkDescriptorPoolSize> sizes);
+VkDescriptorPool make_descriptor_pool(
+    VkDevice device, VkDescriptorPoolCreateFlags flags, uint32_t sets, std::span<const VkDescriptorPoolSize> sizes);
 VkDescriptorSet make_descriptor_set(VkDevice device, VkDescriptorPool pool, VkDescriptorSetLayout layout);
-
-// `element`: of an array.
-void write_texels(VkDevice device, VkDescriptorSet set, uint32_t binding, uint32_t element, const TexelView& view);
 
 inline constexpr uint32_t push_constant_bytes = 64;
 

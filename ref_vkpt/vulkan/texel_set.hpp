@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A descriptor set of buffers that shaders read as texels (shaders/lib/texels.glsl): as many bindings, or one array.
+// Destroying it demands that the device no longer uses it.
+#pragma once
+
+#include "ref_vkpt/vulkan/resources.hpp"
+
+#include <vector>
+
+namespace vkpt {
+
+enum class TexelShape { bindings, array };
+
+class TexelSet {
+public:
+    TexelSet() = default;
+    // At first each buffer is an empty one.
+    TexelSet(const Gpu& gpu, VkDescriptorSetLayout layout, TexelShape shape, uint32_t count);
+    TexelSet(TexelSet&& other) noexcept { swap(other); }
+    TexelSet& operator=(TexelSet&& other) noexcept
+    {
+        swap(other);
+        return *this;
+    }
+    ~TexelSet();
+
+    // The device must not use the set, and the buffer must outlive what is bound. `words`: 32-bit words of a texel, 1,
+    // 2 or 4. nullptr: an empty buffer.
+    void bind(const Gpu& gpu, uint32_t number, const Buffer* buffer, uint32_t words);
+
+    VkDescriptorSet handle() const { return set_; }
+    explicit operator bool() const { return set_ != VK_NULL_HANDLE; }
+
+private:
+    void swap(TexelSet& other) noexcept;
+
+    VkDevice device_ = VK_NULL_HANDLE;
+    TexelShape shape_ = TexelShape::bindings;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    Buffer empty_;
+    std::vector<TexelView> views_;
+};
+
+} // namespace vkpt
