@@ -163,11 +163,11 @@ void run(const Options& options)
     report_build(scene.triangles);
     HeadlessCompute device(HeadlessCompute::Validation::off);
     std::printf("device: %s\n", device.device_name().c_str());
-    auto pipelines = create_trace_pipelines(device);
+    const TracePipelines by_texels = create_trace_pipelines(device), by_address = create_trace_pipelines(device, false);
     Bvh tree = build_bvh(scene.triangles, BvhQuality::best);
     std::vector<TestRay> primary = camera_rays(scene, { options.width, options.height });
     GpuTracer camera(device, std::span(&tree, 1), primary, all_rays);
-    camera.run(pipelines[0]);
+    camera.run(by_texels[0]);
     std::optional<ModuleTracer> module;
     if (!options.bare)
         module.emplace(options.map);
@@ -178,10 +178,14 @@ void run(const Options& options)
         options.rounds);
     for (const RaySet& set : make_ray_sets(scene, std::move(primary), camera.hits())) {
         GpuTracer tracer(device, std::span(&tree, 1), set.rays, all_rays);
-        const auto& pipeline = pipelines[set.any_hit];
-        tracer.run(pipeline); // compiles
         std::vector<Contender> contenders;
-        contenders.push_back({ "software, bare", [&] { return cpu_seconds_of([&] { tracer.run(pipeline); }); }, {} });
+        for (auto [name, pipelines] :
+            { std::pair("bare, texels", &by_texels), std::pair("bare, by address", &by_address) }) {
+            const auto* pipeline = &(*pipelines)[set.any_hit];
+            tracer.run(*pipeline); // compiles
+            contenders.push_back(
+                { name, [&tracer, pipeline] { return cpu_seconds_of([&] { tracer.run(*pipeline); }); }, {} });
+        }
         const std::vector<TracedRay> picture = make_picture(set, options);
         for (const std::string& backend : module ? module->backends() : std::vector<std::string>())
             contenders.push_back({ backend,

@@ -47,6 +47,7 @@ GraphicsSettings graphics_settings(void* sdl_window)
     settings.cache_directory = cache_directory();
     settings.validation = cvars.pt_validation != 0;
     settings.ray_tracing = cvars.pt_device_rays != 0;
+    settings.table_reads = TableReads(find_choice(find_cvar_row("pt_table_reads")->choices, cvars.pt_table_reads));
     settings.vsync = cvars.r_vsync != 0;
     return settings;
 }

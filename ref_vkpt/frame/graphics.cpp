@@ -16,6 +16,7 @@ DeviceSettings device_settings(const GraphicsSettings& settings, const Window& w
     result.name_part = settings.device_name_part;
     result.validation = settings.validation;
     result.ray_tracing = settings.ray_tracing;
+    result.table_reads = settings.table_reads;
     result.instance_extensions = window.instance_extensions();
     result.cache_directory = settings.cache_directory;
     // A cache that cannot be made is done without.

@@ -21,6 +21,7 @@ struct GraphicsSettings {
     std::string cache_directory;
     bool validation = false;
     bool ray_tracing = true; // use the device's own where it has it
+    TableReads table_reads = TableReads::automatic;
     bool vsync = true;
 };
 

@@ -145,11 +145,12 @@ try {
 } catch (const std::exception&) {
 }
 
-// Of the code and of the driver's version.
+// Of the code, what specialises it, and the driver's version.
 std::string ShaderWarmUp::key_of(const std::string& shader) const
 {
     const uint64_t driver = hash_bytes(std::as_bytes(std::span(device_.driver)), 0xcbf29ce484222325);
-    return fmt::format("{} {:016x}", shader, hash_bytes(std::as_bytes(find_shader(shader)), driver));
+    return fmt::format("{} {:016x} {}", shader, hash_bytes(std::as_bytes(find_shader(shader)), driver),
+        device_.reads_texels() ? "texels" : "address");
 }
 
 void ShaderWarmUp::read_compiled()

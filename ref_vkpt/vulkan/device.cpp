@@ -3,6 +3,7 @@
 
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/errors.hpp"
+#include "ref_vkpt/vulkan/processor.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -257,6 +258,7 @@ Device::Device(const DeviceSettings& settings)
     try {
         create_instance(settings);
         choose_physical_device(settings);
+        reads_texels_ = choose_texels(settings.table_reads);
         create_logical_device();
     } catch (...) {
         destroy();
@@ -278,6 +280,7 @@ Device::Device(Twin, const Device& original)
     , windowed_(false)
     , uses_rays_(original.uses_rays_)
     , owns_instance_(false)
+    , reads_texels_(original.reads_texels_)
 {
     create_logical_device();
 }
@@ -403,6 +406,17 @@ void Device::choose_physical_device(const DeviceSettings& settings)
         throw FatalError("no usable Vulkan device" + reasons);
     is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+}
+
+// CPU drivers load a texel lane by lane, and make gathers of what is read by address: which is quicker is the processor's
+// matter (docs/benchmarks.md, "The floor").
+bool Device::choose_texels(TableReads wanted) const
+{
+    constexpr uint32_t least_texels = 1u << 27; // tables may grow to so many
+    constexpr double slow_gathers = 3;
+    if (!is_cpu || properties.limits.maxTexelBufferElements < least_texels)
+        return false;
+    return wanted == TableReads::automatic ? measure_gathers() > slow_gathers : wanted == TableReads::texels;
 }
 
 void Device::create_logical_device()

@@ -16,11 +16,15 @@ namespace vkpt {
 void check_vulkan(VkResult result, const char* call);
 #define VKPT_CHECK(call) ::vkpt::check_vulkan((call), #call)
 
+// How shaders read tables and screen buffers. GPUs read by address, whatever is asked for.
+enum class TableReads { automatic, texels, address };
+
 struct DeviceSettings {
     std::string name_part; // empty: the best device
     bool validation = false;
     std::vector<const char*> instance_extensions; // what the window asks for
     bool ray_tracing = true; // enable the device's own ray tracing where it has it
+    TableReads table_reads = TableReads::automatic;
     std::string cache_directory; // for the driver's shader cache; empty: the driver's own place
 };
 
@@ -47,9 +51,8 @@ public:
     VkPhysicalDeviceMemoryProperties memory {};
     std::string driver;
     bool is_cpu = false;
-    // Whether shaders read tables and screen buffers as texels (lib/texels.glsl) or by address. Tables may grow to so many.
-    static constexpr uint32_t least_texels = 1u << 27;
-    bool reads_texels() const { return is_cpu && properties.limits.maxTexelBufferElements >= least_texels; }
+    // Whether shaders read tables and screen buffers as texels (lib/texels.glsl) or by address.
+    bool reads_texels() const { return reads_texels_; }
     bool has_swapchain = false;
     bool has_debug_utils = false;
     bool has_anisotropy = false;
@@ -86,6 +89,7 @@ private:
     void create_instance(const DeviceSettings& settings);
     void choose_physical_device(const DeviceSettings& settings);
     void create_logical_device();
+    bool choose_texels(TableReads wanted) const;
     void read_ray_tracing_limits();
     void destroy();
 
@@ -93,6 +97,7 @@ private:
     bool windowed_;
     bool uses_rays_; // the device's own, where it has them
     bool owns_instance_ = true;
+    bool reads_texels_ = false;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
