@@ -16,7 +16,7 @@ namespace vkpt {
 void check_vulkan(VkResult result, const char* call);
 #define VKPT_CHECK(call) ::vkpt::check_vulkan((call), #call)
 
-// How shaders read tables and screen buffers. GPUs read by address, whatever is asked for.
+// How shaders read tables and screen buffers, in the order of pt_table_reads. GPUs read by address, whatever is asked for.
 enum class TableReads { automatic, texels, address };
 
 struct DeviceSettings {
