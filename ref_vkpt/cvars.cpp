@@ -20,6 +20,7 @@ static_assert(std::string_view(find_cvar_row("pt_light_weight")->choices) == "ch
 static_assert(std::string_view(find_cvar_row("pt_light_point")->choices) == "area|solid_angle|projected");
 static_assert(std::string_view(find_cvar_row("pt_noise")->choices) == "blue|white");
 static_assert(std::string_view(find_cvar_row("pt_tone_map")->choices) == "none|filmic");
+static_assert(std::string_view(find_cvar_row("pt_table_reads")->choices) == "auto|texels|address"); // enum TableReads
 static_assert(std::string_view(find_cvar_row("flt_denoiser")->choices) == "off|temporal|svgf|asvgf");
 constexpr int debug_view(std::string_view name) { return find_choice(find_cvar_row("pt_debug_view")->choices, name); }
 static_assert(debug_view("off") == shared::DEBUG_VIEW_OFF && debug_view("albedo") == shared::DEBUG_VIEW_ALBEDO

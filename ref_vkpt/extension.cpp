@@ -238,6 +238,7 @@ void print_info()
     engine::print("emitters       {}, power {:.6g} {:.6g} {:.6g} (radiance x units^2 x sr)", info.emitters,
         info.emitted_power[0], info.emitted_power[1], info.emitted_power[2]);
     if (const Module* m = module()) {
+        engine::print("table reads    {}", m->graphics.device.table_reads());
         const glm::uvec2 size = m->frame.rendered_size();
         engine::print(
             "rendered       {} x {} pixels, {} broken since the start", size.x, size.y, m->frame.broken_pixels());

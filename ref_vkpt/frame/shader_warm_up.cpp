@@ -150,7 +150,7 @@ std::string ShaderWarmUp::key_of(const std::string& shader) const
 {
     const uint64_t driver = hash_bytes(std::as_bytes(std::span(device_.driver)), 0xcbf29ce484222325);
     return fmt::format("{} {:016x} {}", shader, hash_bytes(std::as_bytes(find_shader(shader)), driver),
-        device_.reads_texels() ? "texels" : "address");
+        device_.table_reads());
 }
 
 void ShaderWarmUp::read_compiled()

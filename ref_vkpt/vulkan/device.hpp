@@ -53,6 +53,7 @@ public:
     bool is_cpu = false;
     // Whether shaders read tables and screen buffers as texels (lib/texels.glsl) or by address.
     bool reads_texels() const { return reads_texels_; }
+    const char* table_reads() const { return reads_texels_ ? "texels" : "address"; }
     bool has_swapchain = false;
     bool has_debug_utils = false;
     bool has_anisotropy = false;

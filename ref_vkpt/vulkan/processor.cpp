@@ -35,6 +35,12 @@ Table make_table()
     return table;
 }
 
+[[gnu::target("avx2")]] inline uint64_t total(const __m256i& sum)
+{
+    return uint64_t(_mm256_extract_epi64(sum, 0)) + uint64_t(_mm256_extract_epi64(sum, 1))
+        + uint64_t(_mm256_extract_epi64(sum, 2)) + uint64_t(_mm256_extract_epi64(sum, 3));
+}
+
 // Both give the sum of all that they load, so that nothing of it is left out.
 [[gnu::target("avx2"), gnu::noinline]] uint64_t sum_by_gathers(const Table& table)
 {
@@ -48,8 +54,7 @@ Table make_table()
             sum = _mm256_add_epi64(sum, _mm256_i32gather_epi64(words + 1, first, 8));
         }
     }
-    return uint64_t(_mm256_extract_epi64(sum, 0)) + uint64_t(_mm256_extract_epi64(sum, 1))
-        + uint64_t(_mm256_extract_epi64(sum, 2)) + uint64_t(_mm256_extract_epi64(sum, 3));
+    return total(sum);
 }
 
 [[gnu::target("avx2"), gnu::noinline]] uint64_t sum_lane_by_lane(const Table& table)
@@ -65,8 +70,7 @@ Table make_table()
             sum = _mm256_add_epi64(sum, _mm256_unpacklo_epi64(a, b));
             sum = _mm256_add_epi64(sum, _mm256_unpackhi_epi64(a, b));
         }
-    return uint64_t(_mm256_extract_epi64(sum, 0)) + uint64_t(_mm256_extract_epi64(sum, 1))
-        + uint64_t(_mm256_extract_epi64(sum, 2)) + uint64_t(_mm256_extract_epi64(sum, 3));
+    return total(sum);
 }
 
 // Nanoseconds, the least of many: whatever else the machine does only adds to it.

@@ -88,6 +88,12 @@ void MapBuilder::add_entity(const Pairs& pairs)
     bsp_.entity_text += "}\n";
 }
 
+void MapBuilder::add_lit_room(const std::string& wall)
+{
+    add_room({ -128, -128, 0 }, { 128, 128, 128 }, add_material(wall));
+    add(rectangle({ 0, 0, 127 }, { 0, 16, 0 }, { 16, 0, 0 }), add_material("lamp", 0, 1000));
+}
+
 void MapBuilder::add_point_light(glm::vec3 origin, float light, int style)
 {
     add_entity({ { "classname", "light" }, { "origin", fmt::format("{} {} {}", origin.x, origin.y, origin.z) },

@@ -24,6 +24,8 @@ public:
     uint16_t add_material(const std::string& texture, uint32_t flags = 0, int value = 0);
     void add(const Polygon& polygon, uint16_t material);
     void add_room(glm::vec3 mins, glm::vec3 maxs, uint16_t material); // six walls that face inwards
+    // A room of 256 x 256 x 128 around the origin with a lamp (texture "lamp") of 32 x 32 under its ceiling.
+    void add_lit_room(const std::string& wall);
     void add_block(glm::vec3 mins, glm::vec3 maxs, uint16_t material); // six sides that face outwards
     // What is added from here on belongs to the next brush model ("*1", "*2", ...).
     void begin_brush_model();

@@ -34,8 +34,7 @@ void add_small_map(GameFolder& folder)
     folder.add_wall("small_wall", 150);
     folder.add_wall("lamp", white_index);
     MapBuilder map;
-    map.add_room({ -128, -128, 0 }, { 128, 128, 128 }, map.add_material("small_wall"));
-    map.add(rectangle({ 0, 0, 127 }, { 0, 16, 0 }, { 16, 0, 0 }), map.add_material("lamp", 0, 1000));
+    map.add_lit_room("small_wall");
     folder.add_map("small", map.finish());
 }
 

@@ -39,8 +39,7 @@ TEST(ShaderWarmUp, CompilesEveryPassOfTheFrameOnce)
     GameFolder folder;
     folder.add_wall("lamp", white_index);
     MapBuilder map;
-    map.add_room({ -128, -128, 0 }, { 128, 128, 128 }, map.add_material("missing"));
-    map.add(rectangle({ 0, 0, 127 }, { 0, 16, 0 }, { 16, 0, 0 }), map.add_material("lamp", 0, 1000));
+    map.add_lit_room("missing");
     folder.add_map("room", map.finish());
     // A cache of its own that stays, so that only the list is made anew.
     const std::filesystem::path cache = std::filesystem::path(VKPT_TEST_CACHE) / "warmed";
