@@ -313,7 +313,7 @@ static void upload_world_if_needed()
 {
     Module& m = *running;
     if (m.gpu_world.version == 0 && m.scene.world())
-        m.gpu_world = upload_world(*m.scene.world(), m.graphics.uploader, m.graphics.device);
+        m.gpu_world = upload_world(*m.scene.world(), m.graphics.uploader);
 }
 
 void end_registration()

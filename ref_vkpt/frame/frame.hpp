@@ -22,13 +22,12 @@ namespace vkpt {
 
 // A map's data that does not change, on the device.
 struct GpuWorld {
-    Buffer bvh_nodes, bvh_triangles; // where tables are not texels
     Buffer light_indices;
     Buffer bsp_tree;
     uint64_t version = 0; // another for every map; 0: not uploaded yet
 };
 // Waits for the map's tree. Usable after uploader.flush().
-GpuWorld upload_world(const World& world, Uploader& uploader, const Device& device);
+GpuWorld upload_world(const World& world, Uploader& uploader);
 
 // What a view of the world keeps from one of its frames to the next, beside its buffers.
 struct ViewState {

@@ -31,15 +31,10 @@ NoWorld make_no_world(size_t emitter_count)
 
 } // namespace
 
-GpuWorld upload_world(const World& world, Uploader& uploader, const Device& device)
+GpuWorld upload_world(const World& world, Uploader& uploader)
 {
     static uint64_t versions = 0;
     GpuWorld gpu;
-    if (!device.reads_texels()) {
-        gpu.bvh_nodes = uploader.make_buffer(world.bvh().nodes, MemoryKind::acceleration, "world BVH nodes");
-        gpu.bvh_triangles
-            = uploader.make_buffer(world.bvh().triangles, MemoryKind::acceleration, "world BVH triangles");
-    }
     gpu.light_indices = uploader.make_buffer(world.light_lists.static_indices(), MemoryKind::lights, "light lists");
     gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
     gpu.version = ++versions;
@@ -154,36 +149,22 @@ void Frame::write_trees(
     const Bvh* world = scene.world ? &scene.world->bvh() : nullptr;
     // One record even where there is none: its address must be one.
     const size_t record_count = std::max<size_t>(moving.triangle_count(), 1);
-    // Where tables are texels, the map's tree and the moving things' stand one behind the other.
-    static const std::vector<uint32_t> nothing;
-    const Bvh* front = graphics_.device.reads_texels() ? world : nullptr;
+    // The map's tree and the moving things' stand one behind the other, so that a ray searches both in one go.
+    static const Bvh nothing;
+    const Bvh& front = world ? *world : nothing;
     SceneUploads& kept = scene_uploads_[views_this_frame_];
     const uint64_t version = gpu_world ? gpu_world->version : UINT64_MAX;
-    const Upload nodes = kept.tree_nodes.reserve(
-        graphics_.slot(), front ? front->nodes : nothing, version, moving.node_count() * bvh_node_words);
-    const Upload records = kept.tree_triangles.reserve(
-        graphics_.slot(), front ? front->triangles : nothing, version, record_count * bvh_triangle_words);
+    const Upload nodes
+        = kept.tree_nodes.reserve(graphics_.slot(), front.nodes, version, moving.node_count() * bvh_node_words);
+    const Upload records
+        = kept.tree_triangles.reserve(graphics_.slot(), front.triangles, version, record_count * bvh_triangle_words);
     target.nodes = nodes.as<uint32_t>();
     target.records = records.as<uint32_t>();
-    shared::BvhView moving_view {};
-    if (front) {
-        moving_view.first_node = uint32_t(front->nodes.size() / bvh_node_words);
-        moving_view.first_triangle = uint32_t(front->triangles.size() / bvh_triangle_words);
-    }
-    moving_view.nodes = nodes.address + uint64_t(moving_view.first_node) * shared::BVH_NODE_BYTES;
-    moving_view.triangles = records.address + uint64_t(moving_view.first_triangle) * shared::BVH_TRIANGLE_BYTES;
-    const Grid grid = moving_writer_.write(moving, target);
-    moving_view.grid_origin = grid.origin;
-    moving_view.grid_scale = grid.scale;
-    if (!world) {
-        out.trees[0] = moving_view;
-        out.tree_count = 1;
-        return;
-    }
-    out.trees[0] = { front ? nodes.address : gpu_world->bvh_nodes.address(),
-        front ? records.address : gpu_world->bvh_triangles.address(), 0, 0, world->grid_origin, world->grid_scale };
-    out.trees[1] = moving_view;
-    out.tree_count = moving.triangle_count() > 0 ? 2 : 1;
+    target.place
+        = { uint32_t(front.nodes.size() / bvh_node_words), uint32_t(front.triangles.size() / bvh_triangle_words) };
+    moving_writer_.write(moving, target);
+    const bool searches_moving = world && moving.triangle_count() > 0;
+    out.trees = { nodes.address, records.address, 0, searches_moving ? target.place.first_node : shared::BVH_NO_CHILD };
 }
 
 void Frame::fill_structures(

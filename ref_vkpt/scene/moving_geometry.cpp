@@ -212,16 +212,18 @@ size_t MovingGeometry::node_count() const
 
 // ---- the work
 
-Grid MovingWriter::write(const MovingGeometry& geometry, const MovingTarget& target)
+void MovingWriter::write(const MovingGeometry& geometry, const MovingTarget& target)
 {
-    if (target.nodes && !geometry.has_two_levels())
-        return write_one_tree(geometry, target);
+    if (target.nodes && !geometry.has_two_levels()) {
+        write_one_tree(geometry, target);
+        return;
+    }
     const uint32_t loose = geometry.loose_count();
     Box bounds = geometry.bounds_;
     for (uint32_t i = 0; i < loose; i++)
         for (const glm::vec3 p : geometry.loose_[i].positions)
             bounds.add(p);
-    const Job job { geometry, target, Grid(bounds) };
+    const Job job { geometry, target, box_margin(bounds) };
     meshes_.resize(geometry.mesh_count());
     // The loose ones first: to order them takes longer than to refit a mesh.
     const size_t loose_jobs = loose > 0 ? 1 : 0;
@@ -232,8 +234,7 @@ Grid MovingWriter::write(const MovingGeometry& geometry, const MovingTarget& tar
             write_item(job, i - loose_jobs, scratch_[thread]);
     });
     if (target.nodes)
-        write_upper_tree(meshes_, job.grid, target.nodes);
-    return job.grid;
+        write_upper_tree(meshes_, job.margin, target.place.first_node, target.nodes);
 }
 
 void MovingWriter::write_item(const Job& job, size_t index, Scratch& scratch)
@@ -248,9 +249,11 @@ void MovingWriter::write_item(const Job& job, size_t index, Scratch& scratch)
 
     const MovingTarget& target = job.target;
     if (target.nodes && tree.node_count > 0) {
-        const MeshPlace place { upper_node_count(geometry.mesh_count()) + item.first_node, item.first_slot };
+        const uint32_t first_node = upper_node_count(geometry.mesh_count()) + item.first_node;
+        const TreePlace place = job.place(first_node, item.first_slot);
         const std::span<const uint32_t> corners = item.md2 ? item.md2->corners() : std::span(item.brush->corners);
-        const Box box = refit(tree, corners, scratch.points.data(), job.grid, place, target.nodes, scratch.boxes);
+        const Box box = refit(tree, corners, scratch.points.data(), job.margin, place,
+            target.nodes + size_t(first_node) * bvh_node_words, scratch.boxes);
         meshes_[index] = { box, place.first_node, tree.stack_need };
     }
     const MeshTarget out { target.triangles + item.first_slot,
@@ -309,8 +312,9 @@ void MovingWriter::write_loose(const Job& job)
             boxes[i].add(p);
     BinaryTree binary = build_by_morton(boxes, shared::BVH_MAX_LEAF_TRIANGLES);
     const WideTree wide = make_wide(binary, boxes, shared::BVH_MAX_LEAF_TRIANGLES, mesh_stack_budget);
-    const MeshPlace place { upper_node_count(geometry.mesh_count()) + geometry.mesh_nodes_, first_slot };
-    write_mesh(wide, job.grid, place, target.nodes);
+    const uint32_t first_node = upper_node_count(geometry.mesh_count()) + geometry.mesh_nodes_;
+    const TreePlace place = job.place(first_node, first_slot);
+    write_mesh(wide, job.margin, place, target.nodes + size_t(first_node) * bvh_node_words);
     for (uint32_t slot = 0; slot < count; slot++) {
         const uint32_t i = binary.order[slot];
         write_record(target.records, first_slot + slot, geometry.loose_[i], geometry.first_id_ + first_slot + i,
@@ -319,7 +323,7 @@ void MovingWriter::write_loose(const Job& job)
     meshes_.back() = { binary.nodes[0].box, place.first_node, wide.stack_need };
 }
 
-Grid MovingWriter::write_one_tree(const MovingGeometry& geometry, const MovingTarget& target)
+void MovingWriter::write_one_tree(const MovingGeometry& geometry, const MovingTarget& target)
 {
     // Not from the target: memory of a device is slow to read.
     std::vector<Triangle> triangles(geometry.triangle_count());
@@ -333,17 +337,14 @@ Grid MovingWriter::write_one_tree(const MovingGeometry& geometry, const MovingTa
         sources[i].id = geometry.first_id_ + uint32_t(i);
         sources[i].mask = masks[i];
     }
-    const Bvh bvh = build_bvh(sources, BvhQuality::fast);
+    Bvh bvh = build_bvh(sources, BvhQuality::fast);
+    place_nodes(bvh.nodes, target.place);
     std::ranges::copy(triangles, target.triangles);
     if (target.masks)
         std::ranges::copy(masks, target.masks);
     std::ranges::copy(bvh.nodes, target.nodes);
     if (bvh.triangle_count > 0)
         std::ranges::copy(bvh.triangles, target.records);
-    Grid grid;
-    grid.origin = bvh.grid_origin;
-    grid.scale = bvh.grid_scale;
-    return grid;
 }
 
 } // namespace vkpt

@@ -109,9 +109,10 @@ private:
 struct MovingTarget {
     shared::Triangle* triangles = nullptr; // MovingGeometry::triangle_count()
     uint32_t* masks = nullptr; // as many
-    uint32_t* nodes = nullptr; // MovingGeometry::node_count() * bvh_node_words
+    uint32_t* nodes = nullptr; // MovingGeometry::node_count() * bvh_node_words; the root is the first
     uint32_t* records = nullptr; // triangle_count() * bvh_triangle_words: the tree's triangles; with `nodes` only
     std::array<glm::vec3, 3>* previous_positions = nullptr; // triangle_count(): the corners in the last view
+    TreePlace place; // of `nodes` and `records` in the arrays that hold the map's, too
 };
 
 class MovingWriter {
@@ -122,8 +123,7 @@ public:
     {
     }
 
-    // Returns the grid of the tree.
-    Grid write(const MovingGeometry& geometry, const MovingTarget& target);
+    void write(const MovingGeometry& geometry, const MovingTarget& target);
 
 private:
     struct Scratch {
@@ -133,13 +133,18 @@ private:
     struct Job {
         const MovingGeometry& geometry;
         const MovingTarget& target;
-        Grid grid;
+        float margin;
+
+        // Of a mesh, by its first node and slot among the moving things'.
+        TreePlace place(uint32_t first_node, uint32_t first_slot) const
+        {
+            return { target.place.first_node + first_node, target.place.first_slot + first_slot };
+        }
     };
     void write_item(const Job& job, size_t item, Scratch& scratch);
-    static void write_previous(
-        const MovingGeometry::Item& item, Scratch& scratch, std::array<glm::vec3, 3>* positions);
+    static void write_previous(const MovingGeometry::Item& item, Scratch& scratch, std::array<glm::vec3, 3>* positions);
     void write_loose(const Job& job);
-    Grid write_one_tree(const MovingGeometry& geometry, const MovingTarget& target);
+    void write_one_tree(const MovingGeometry& geometry, const MovingTarget& target);
 
     Workers& workers_;
     std::vector<Scratch> scratch_; // per thread

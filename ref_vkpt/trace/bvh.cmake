@@ -5,6 +5,7 @@ add_library(vkpt_bvh STATIC
     ${CMAKE_CURRENT_LIST_DIR}/binary_tree.cpp
     ${CMAKE_CURRENT_LIST_DIR}/bvh.cpp
     ${CMAKE_CURRENT_LIST_DIR}/moving_bvh.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/reinsertion.cpp
     ${CMAKE_CURRENT_LIST_DIR}/triangle_groups.cpp
     ${CMAKE_CURRENT_LIST_DIR}/wide_tree.cpp)
 target_link_libraries(vkpt_bvh PRIVATE vkpt_build)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Makes the tree that shaders/lib/trace_software.glsl walks.
 //
-// Node, 96 bytes: for each axis eight 8-bit low planes (8 bytes), then eight high planes (8 bytes); at byte 48 the frame
-// that they count in, its corner as three 16-bit positions on the tree's grid and the steps between planes (5 bits an
-// axis); at byte 56 eight 32-bit child words (shaders/shared/trace.h); eight bytes are free. A child that is not there has inverted planes,
-// and BVH_NO_CHILD in case a ray from very far away meets it all the same.
-// Triangle, 48 bytes, in leaf order: its three corners (floats), id | mask << 24, eight free bytes.
+// Node, 96 bytes: for each axis eight 8-bit low planes (8 bytes), then eight high planes (8 bytes); at byte 48 the
+// frame that they count in, its corner (three floats, world space) and the distances between planes (10 bits an axis,
+// see BVH_STEP_BITS); at byte 64 eight 32-bit child words (shaders/shared/trace.h). A child that is not there has
+// inverted planes, and BVH_NO_CHILD in case a ray from very far away meets it all the same. As nothing depends on a
+// frame of the whole tree, a ray goes from one tree to another without being prepared anew. Triangle, 48 bytes, in leaf
+// order: its three corners (floats), id | mask << 24, eight free bytes.
 //
 // Why so: on two cores with AVX-512 through the Vulkan CPU driver, million rays a second per core for coherent camera
 // rays / one diffuse bounce / shadow rays in a middle-sized map were: 3.1 / 1.0 / 1.5 for a plain binary tree, 9.1
@@ -15,6 +16,7 @@
 // driver half of what 64-bit loads do (docs/benchmarks.md).
 #include "ref_vkpt/trace/bvh.hpp"
 
+#include "ref_vkpt/trace/reinsertion.hpp"
 #include "ref_vkpt/trace/wide_tree.hpp"
 
 #include <algorithm>
@@ -78,16 +80,16 @@ Bvh build_bvh(std::span<const BvhTriangle> triangles, BvhQuality quality)
     }
     BinaryTree tree = quality == BvhQuality::best ? build_by_area(boxes, BVH_MAX_LEAF_TRIANGLES)
                                                   : build_by_morton(boxes, BVH_MAX_LEAF_TRIANGLES);
+    if (quality == BvhQuality::best)
+        reinsert_subtrees(tree);
     const WideTree wide = make_wide(tree, boxes, BVH_MAX_LEAF_TRIANGLES, TRACE_STACK_ENTRIES);
-    const Grid grid(tree.nodes.empty() ? Box() : tree.nodes[0].box);
+    const float margin = box_margin(tree.nodes.empty() ? Box() : tree.nodes[0].box);
     Bvh bvh;
-    bvh.grid_origin = grid.origin;
-    bvh.grid_scale = grid.scale;
     bvh.max_depth = wide.max_depth;
     bvh.node_count = uint32_t(wide.nodes.size());
     bvh.nodes.resize(wide.nodes.size() * bvh_node_words);
     for (size_t i = 0; i < wide.nodes.size(); i++)
-        write_node(grid, wide.nodes[i], &bvh.nodes[i * bvh_node_words]);
+        write_node(margin, wide.nodes[i], &bvh.nodes[i * bvh_node_words]);
     write_triangles(triangles, usable, tree, bvh);
     return bvh;
 }

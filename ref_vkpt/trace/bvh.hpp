@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The software backend's acceleration structure: an 8-wide BVH with 16-bit quantised boxes, for
+// The software backend's acceleration structure: an 8-wide BVH with quantised boxes, for
 // shaders/lib/trace_software.glsl.
 #pragma once
 
@@ -24,8 +24,6 @@ enum class BvhQuality {
 struct Bvh {
     std::vector<uint32_t> nodes; // layout: see bvh.cpp
     std::vector<uint32_t> triangles; // in leaf order, layout: see bvh.cpp
-    glm::vec3 grid_origin { 0 }; // quantised = (world - grid_origin) * grid_scale
-    glm::vec3 grid_scale { 1 };
     uint32_t triangle_count = 0;
     uint32_t node_count = 0;
     uint32_t max_depth = 0; // of the wide tree, in nodes

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/trace/moving_bvh.hpp"
 
+#include "ref_vkpt/trace/reinsertion.hpp"
+
 #include <algorithm>
 #include <cassert>
 
@@ -16,11 +18,6 @@ static_assert((12 + 2) / 3 * (BVH_WIDTH - 1) + mesh_stack_budget <= TRACE_STACK_
 static_assert(max_mesh_triangles == 1u << 17 && BVH_MAX_LEAF_TRIANGLES == 4 && max_moving_meshes == 1u << 12);
 
 bool is_leaf(uint32_t word) { return (word & BVH_LEAF) != 0; }
-
-uint32_t placed(uint32_t word, const MeshPlace& place)
-{
-    return word + (is_leaf(word) ? place.first_slot : place.first_node);
-}
 
 Box4 leaf_box(uint32_t word, std::span<const uint32_t> corners, const Float4* points)
 {
@@ -38,6 +35,7 @@ MeshTree build_mesh_tree(std::span<const Box> boxes)
 {
     assert(boxes.size() <= max_mesh_triangles);
     BinaryTree binary = build_by_area(boxes, BVH_MAX_LEAF_TRIANGLES);
+    reinsert_subtrees(binary);
     const WideTree wide = make_wide(binary, boxes, BVH_MAX_LEAF_TRIANGLES, mesh_stack_budget);
     MeshTree tree;
     tree.node_count = uint32_t(wide.nodes.size());
@@ -50,8 +48,8 @@ MeshTree build_mesh_tree(std::span<const Box> boxes)
     return tree;
 }
 
-Box refit(const MeshTree& tree, std::span<const uint32_t> corners, const Float4* points, const Grid& grid,
-    const MeshPlace& place, uint32_t* nodes, std::vector<Box4>& node_boxes)
+Box refit(const MeshTree& tree, std::span<const uint32_t> corners, const Float4* points, float margin,
+    const TreePlace& place, uint32_t* nodes, std::vector<Box4>& node_boxes)
 {
     node_boxes.resize(std::max<size_t>(node_boxes.size(), tree.node_count));
     for (uint32_t node = tree.node_count; node-- > 0;) { // children before their parents
@@ -63,26 +61,26 @@ Box refit(const MeshTree& tree, std::span<const uint32_t> corners, const Float4*
         for (; count < BVH_WIDTH && words[count] != BVH_NO_CHILD; count++) {
             const uint32_t word = words[count];
             boxes[count] = is_leaf(word) ? leaf_box(word, corners, points) : node_boxes[word];
-            placed_words[count] = placed(word, place);
+            placed_words[count] = place.placed(word);
             all.add(boxes[count]);
         }
-        write_node(grid, boxes, placed_words, count, nodes + size_t(place.first_node + node) * bvh_node_words);
+        write_node(margin, boxes, placed_words, count, nodes + size_t(node) * bvh_node_words);
         node_boxes[node] = all;
     }
     return tree.node_count > 0 ? node_boxes[0].to_box() : Box();
 }
 
-void write_mesh(const WideTree& tree, const Grid& grid, const MeshPlace& place, uint32_t* nodes)
+void write_mesh(const WideTree& tree, float margin, const TreePlace& place, uint32_t* nodes)
 {
     for (size_t i = 0; i < tree.nodes.size(); i++) {
         WideNode node = tree.nodes[i];
         for (uint32_t slot = 0; slot < node.child_count; slot++)
-            node.words[slot] = placed(node.words[slot], place);
-        write_node(grid, node, nodes + (place.first_node + i) * bvh_node_words);
+            node.words[slot] = place.placed(node.words[slot]);
+        write_node(margin, node, nodes + i * bvh_node_words);
     }
 }
 
-void write_upper_tree(std::span<const MovingMesh> meshes, const Grid& grid, uint32_t* nodes)
+void write_upper_tree(std::span<const MovingMesh> meshes, float margin, uint32_t first_node, uint32_t* nodes)
 {
     assert(meshes.size() <= max_moving_meshes);
     std::vector<Box> boxes;
@@ -96,9 +94,10 @@ void write_upper_tree(std::span<const MovingMesh> meshes, const Grid& grid, uint
     for (size_t i = 0; i < wide.nodes.size(); i++) {
         WideNode& node = wide.nodes[i];
         for (uint32_t slot = 0; slot < node.child_count; slot++)
-            if (is_leaf(node.words[slot]))
-                node.words[slot] = meshes[binary.order[node.words[slot] & BVH_LEAF_FIRST_MASK]].root;
-        write_node(grid, node, nodes + i * bvh_node_words);
+            node.words[slot] = is_leaf(node.words[slot])
+                ? meshes[binary.order[node.words[slot] & BVH_LEAF_FIRST_MASK]].root
+                : node.words[slot] + first_node;
+        write_node(margin, node, nodes + i * bvh_node_words);
     }
 }
 

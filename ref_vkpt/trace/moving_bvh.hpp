@@ -33,29 +33,24 @@ struct MeshTree {
 // `boxes`: one per triangle, at most max_mesh_triangles, in some pose.
 MeshTree build_mesh_tree(std::span<const Box> boxes);
 
-// Where in the frame's arrays a mesh stands.
-struct MeshPlace {
-    uint32_t first_node = 0, first_slot = 0;
-};
-
-// Writes the mesh's nodes at `nodes` + first_node. `corners`: three indices into `points` per slot, which stand in
-// world space and on the grid; NaNs among them leave the boxes alone. Returns what bounds the mesh. `scratch`: of this
-// thread.
-Box refit(const MeshTree& tree, std::span<const uint32_t> corners, const Float4* points, const Grid& grid,
-    const MeshPlace& place, uint32_t* nodes, std::vector<Box4>& scratch);
+// Writes the mesh's nodes at `nodes`, whose words count as `place` says. `corners`: three indices into `points` per
+// slot, which stand in world space; NaNs among them leave the boxes alone. Returns what bounds the mesh. `scratch`: of
+// this thread.
+Box refit(const MeshTree& tree, std::span<const uint32_t> corners, const Float4* points, float margin,
+    const TreePlace& place, uint32_t* nodes, std::vector<Box4>& scratch);
 
 // A tree that was made for one frame takes its place among the meshes.
-void write_mesh(const WideTree& tree, const Grid& grid, const MeshPlace& place, uint32_t* nodes);
+void write_mesh(const WideTree& tree, float margin, const TreePlace& place, uint32_t* nodes);
 
 struct MovingMesh {
     Box box;
-    uint32_t root = 0; // node
+    uint32_t root = 0; // node, among all
     uint32_t stack_need = 0;
 };
 
-// Writes the upper tree at nodes[0 ..], at most upper_node_count() nodes. No ray needs more than TRACE_STACK_ENTRIES
-// for it and the meshes together, of which there are at most max_moving_meshes.
-void write_upper_tree(std::span<const MovingMesh> meshes, const Grid& grid, uint32_t* nodes);
+// Writes the upper tree at nodes[0 ..], which is node `first_node`, at most upper_node_count() nodes. No ray needs more
+// than TRACE_STACK_ENTRIES for it and the meshes together, of which there are at most max_moving_meshes.
+void write_upper_tree(std::span<const MovingMesh> meshes, float margin, uint32_t first_node, uint32_t* nodes);
 inline uint32_t upper_node_count(uint32_t meshes) { return meshes > 1 ? meshes : 1; }
 
 } // namespace vkpt

@@ -212,53 +212,48 @@ private:
 
 struct NodeBytes {
     uint8_t planes[3][2][BVH_WIDTH]; // by axis, then low and high
-    uint16_t corner[3];
-    uint16_t steps;
+    float corner[3];
+    uint32_t steps;
     uint32_t words[BVH_WIDTH];
-    uint32_t padding[2];
 };
 static_assert(offsetof(NodeBytes, corner) == BVH_FRAME_OFFSET && offsetof(NodeBytes, words) == BVH_CHILD_WORDS_OFFSET);
 static_assert(sizeof(NodeBytes) == BVH_NODE_BYTES);
 
-// Where a node's 8-bit planes lie on the grid.
+// Where a node's 8-bit planes lie.
 struct NodeFrame {
-    Float4 corner = splat(65535.0f);
-    Float4 step; // cells between planes
+    Float4 corner;
+    Float4 step; // between planes
     Int4 steps; // as nodes hold them, see BVH_STEP_BITS
+
+    NodeFrame(Float4 at, Float4 least_step)
+        : corner(at)
+        , steps((std::bit_cast<Int4>(least_step) + ((1 << BVH_STEP_SHIFT) - 1)) >> BVH_STEP_SHIFT)
+    {
+        step = std::bit_cast<Float4>(steps << BVH_STEP_SHIFT);
+    }
 };
 
-// Boxes in cells, whole ones with the grid's margin, and the frame that holds them all.
-NodeFrame place_planes(const Grid& grid, const Box4* boxes, uint32_t count, Box4* planes)
+// A frame that holds the boxes with their margin.
+NodeFrame make_frame(float margin, const Box4* boxes, uint32_t count)
 {
-    const Float4 origin = to_float4(grid.origin), scale = to_float4(grid.scale), last = splat(65533.0f);
-    NodeFrame frame;
-    Float4 end = splat(0.0f);
-    for (uint32_t slot = 0; slot < count; slot++) {
-        const Float4 low = higher((boxes[slot].low - origin) * scale, splat(1.0f));
-        const Float4 high = higher((boxes[slot].high - origin) * scale, splat(0.0f));
-        planes[slot].low = __builtin_convertvector(__builtin_convertvector(lower(low, last), Int4) - 1, Float4);
-        planes[slot].high = __builtin_convertvector(__builtin_convertvector(lower(high, last), Int4) + 2, Float4);
-        frame.corner = lower(planes[slot].low, frame.corner);
-        end = higher(planes[slot].high, end);
-    }
-    // The least step of those that nodes can hold, which are the floats with one bit of mantissa.
-    const Int4 one = std::bit_cast<Int4>(splat(1.0f)), between = Int4 {} + (1 << BVH_STEP_SHIFT);
-    const Int4 wanted = std::bit_cast<Int4>(higher((end - frame.corner) / splat(255.0f), splat(1.0f)));
-    frame.steps = (wanted - one + between - 1) >> BVH_STEP_SHIFT;
-    frame.step = std::bit_cast<Float4>((frame.steps << BVH_STEP_SHIFT) + one);
-    return frame;
+    Box4 all;
+    for (uint32_t slot = 0; slot < count; slot++)
+        all.add(boxes[slot]);
+    // A little more, so that rounding leaves the last plane in its place.
+    constexpr float whole_step = 1.00001f / 255.0f;
+    const Float4 corner = all.low - margin;
+    return { corner, (all.high + margin - corner) * whole_step };
 }
 
 } // namespace
 
-Grid::Grid(const Box& bounds)
+float box_margin(const Box& bounds)
 {
-    constexpr float cells = 65500.0f, cells_before = 16.0f;
+    constexpr float least = 1.0f / 32.0f, relative = 1.0f / (1 << 18);
     if (!(bounds.low.x <= bounds.high.x))
-        return;
-    const glm::vec3 extent = glm::max(bounds.high - bounds.low, glm::vec3(min_extent));
-    scale = cells / extent;
-    origin = bounds.low - cells_before / scale;
+        return least;
+    const glm::vec3 reach = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+    return std::max({ least, reach.x * relative, reach.y * relative, reach.z * relative });
 }
 
 uint32_t max_boxes_within(uint32_t stack_budget, uint32_t max_leaf)
@@ -272,7 +267,7 @@ WideTree make_wide(BinaryTree& tree, std::span<const Box> boxes, uint32_t max_le
     return WideMaker(tree, boxes, max_leaf).make(stack_budget);
 }
 
-void write_node(const Grid& grid, const Box4* boxes, const uint32_t* words, uint32_t child_count, uint32_t* node)
+void write_node(float margin, const Box4* boxes, const uint32_t* words, uint32_t child_count, uint32_t* node)
 {
     // Inverted planes, and BVH_NO_CHILD, for children that are not there.
     static constexpr NodeBytes empty = [] {
@@ -283,17 +278,17 @@ void write_node(const Grid& grid, const Box4* boxes, const uint32_t* words, uint
         return bytes;
     }();
     NodeBytes bytes = empty;
-    Box4 planes[BVH_WIDTH];
-    const NodeFrame frame = place_planes(grid, boxes, child_count, planes);
-    // Whole cells times this round to the quotients' whole numbers where these are whole: steps have one bit of
-    // mantissa.
+    const NodeFrame frame
+        = child_count > 0 ? make_frame(margin, boxes, child_count) : NodeFrame(splat(0.0f), splat(1.0f));
     const Float4 inverse_step = splat(1.0f) / frame.step;
-    for (int axis = 0; axis < 3; axis++)
-        bytes.corner[axis] = uint16_t(frame.corner[axis]);
-    bytes.steps = uint16_t(frame.steps[0] | frame.steps[1] << BVH_STEP_BITS | frame.steps[2] << (2 * BVH_STEP_BITS));
+    for (int axis = 0; axis < 3; axis++) {
+        bytes.corner[axis] = frame.corner[axis];
+        bytes.steps |= uint32_t(frame.steps[axis]) << (uint32_t(axis) * BVH_STEP_BITS);
+    }
     for (uint32_t slot = 0; slot < child_count; slot++) {
-        const Float4 high = (planes[slot].high - frame.corner) * inverse_step;
-        const Int4 low_planes = __builtin_convertvector((planes[slot].low - frame.corner) * inverse_step, Int4);
+        const Float4 low = (boxes[slot].low - margin - frame.corner) * inverse_step;
+        const Float4 high = (boxes[slot].high + margin - frame.corner) * inverse_step;
+        const Int4 low_planes = __builtin_convertvector(low, Int4);
         Int4 high_planes = __builtin_convertvector(high, Int4);
         high_planes -= __builtin_convertvector(high_planes, Float4) < high; // upwards: true is -1
         for (int axis = 0; axis < 3; axis++) {
@@ -305,12 +300,20 @@ void write_node(const Grid& grid, const Box4* boxes, const uint32_t* words, uint
     std::memcpy(node, &bytes, sizeof bytes);
 }
 
-void write_node(const Grid& grid, const WideNode& wide, uint32_t* node)
+void write_node(float margin, const WideNode& wide, uint32_t* node)
 {
     std::array<Box4, BVH_WIDTH> boxes;
     for (uint32_t slot = 0; slot < wide.child_count; slot++)
         boxes[slot] = to_box4(wide.boxes[slot]);
-    write_node(grid, boxes.data(), wide.words.data(), wide.child_count, node);
+    write_node(margin, boxes.data(), wide.words.data(), wide.child_count, node);
+}
+
+void place_nodes(std::span<uint32_t> nodes, const TreePlace& place)
+{
+    constexpr size_t first_word = BVH_CHILD_WORDS_OFFSET / sizeof(uint32_t);
+    for (size_t node = 0; node < nodes.size(); node += bvh_node_words)
+        for (uint32_t& word : nodes.subspan(node + first_word, BVH_WIDTH))
+            word = place.placed(word);
 }
 
 } // namespace vkpt

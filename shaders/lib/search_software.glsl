@@ -15,17 +15,7 @@ RawHit search_trees(Ray ray, uint mask, bool any_hit)
     // Not gl_WorkGroupSize: it is only known behind the layout(local_size_x) of the including pass, and 1 before it.
     uint lane = gl_WorkGroupID.x * PIXEL_GROUP_SIZE + gl_LocalInvocationIndex;
     uint64_t stack = software_stack(frame.scene.trace_stack, lane);
-    RawHit hit = no_hit(ray.t_max);
-    [[dont_unroll]] for (uint tree = 0u; tree < frame.scene.tree_count; tree++) {
-        // Both loads are of constant places: for an index the CPU driver would gather every word.
-        BvhView view = frame.scene.trees[0];
-        if (tree == 1u)
-            view = frame.scene.trees[1];
-        software_trace(view, ray.origin, ray.direction, ray.t_min, hit, mask, any_hit, stack);
-        if (any_hit && hit.triangle != TRACE_MISS)
-            break;
-    }
-    return hit;
+    return software_trace(frame.scene.trees, ray.origin, ray.direction, ray.t_min, ray.t_max, mask, any_hit, stack);
 }
 
 // One call of the traversal, whatever there is to do: it is most of what the CPU driver has to compile. Behind a hole the

@@ -30,7 +30,6 @@ VKPT_TEXELS(bvh_nodes, TEXELS_TREE_NODES)
 VKPT_TEXELS(bvh_triangles, TEXELS_TREE_TRIANGLES)
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer BvhWords64 { uint64_t words[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhWords32 { uint words[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer BvhViews { BvhView views[]; };
 
 // `lane` counts over all lanes that are in flight together (for instance the index of the invocation in the dispatch).
 uint64_t software_stack(uint64_t stack_buffer, uint lane)
@@ -42,7 +41,6 @@ uint64_t software_stack(uint64_t stack_buffer, uint lane)
 // A child's key is its entry distance with its index in the lowest bits: keys of positive floats sort as integers.
 const int bvh_key_none = 0x7f7fffff; // above every distance: the largest finite float
 const int bvh_key_child_mask = 7;
-const float bvh_edge_slack = 2.4e-7; // two units in the last place of 1
 const uint bvh_stack_stride = TRACE_STACK_INTERLEAVE * 8u;
 
 void bvh_order(inout int a, inout int b)
@@ -64,19 +62,16 @@ void bvh_sort(inout int key[8])
     bvh_order(key[3], key[4]);
 }
 
-// A ray in the grid's coordinates.
 struct BvhRay {
     vec3 origin, inverse;
-    bvec3 backwards; // enters by a node's high planes
-    int t_min;       // float bits, >= 0
+    int t_min; // float bits, >= 0
 };
 
-BvhRay bvh_ray(BvhView bvh, vec3 origin, vec3 direction, int t_min)
+BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min)
 {
-    // A tiny slope for none keeps the slabs' distances finite; the boxes' margin (bvh.cpp) covers the difference.
+    // A tiny slope for none keeps the slabs' distances finite; the boxes' margin (wide_tree.hpp) covers the difference.
     vec3 slope = mix(direction, vec3(1e-18), lessThan(abs(direction), vec3(1e-18)));
-    vec3 inverse = 1.0 / (slope * bvh.grid_scale);
-    return BvhRay((origin - bvh.grid_origin) * bvh.grid_scale, inverse, lessThan(floatBitsToInt(inverse), ivec3(0)), t_min);
+    return BvhRay(origin, 1.0 / slope, max(floatBitsToInt(t_min), 0));
 }
 
 // Distance to the 8-bit plane `child` of eight. Through int: the driver has no quick way from unsigned to float.
@@ -88,29 +83,33 @@ int bvh_slab(uvec2 planes, int child, float start, float step)
 
 // A node's boxes: by axis low planes in the first half, high ones in the second; and their frame.
 struct BvhNode {
-    uvec4 x, y, z;
-    uvec2 frame;
+    uvec4 x, y, z, frame;
 };
 
-#define BVH_NODE_TEXEL(i) VKPT_TEXEL(bvh_nodes, bvh.first_node, bvh.nodes, BVH_NODE_BYTES, node, i)
+#define BVH_NODE_TEXEL(i) VKPT_TEXEL(bvh_nodes, 0u, bvh.nodes, BVH_NODE_BYTES, node, i)
 BvhNode bvh_load_node(BvhView bvh, uint node)
 {
-    return BvhNode(BVH_NODE_TEXEL(0u), BVH_NODE_TEXEL(1u), BVH_NODE_TEXEL(2u), BVH_NODE_TEXEL(3u).xy);
+    return BvhNode(BVH_NODE_TEXEL(0u), BVH_NODE_TEXEL(1u), BVH_NODE_TEXEL(2u), BVH_NODE_TEXEL(3u));
 }
 #undef BVH_NODE_TEXEL
+
+// Distances along the ray from plane to plane.
+vec3 bvh_steps(BvhRay ray, uint steps)
+{
+    const uint mask = ((1u << BVH_STEP_BITS) - 1u) << BVH_STEP_SHIFT;
+    uvec3 bits = uvec3(steps) << (BVH_STEP_SHIFT - uvec3(0u, BVH_STEP_BITS, 2u * BVH_STEP_BITS));
+    return uintBitsToFloat(bits & mask) * ray.inverse;
+}
 
 // Entry distances of the children that the ray meets before t_max, ascending.
 void bvh_test_node(BvhRay ray, BvhNode node, int t_max, out int key[8])
 {
-    uvec2 near_x = ray.backwards.x ? node.x.zw : node.x.xy, far_x = ray.backwards.x ? node.x.xy : node.x.zw;
-    uvec2 near_y = ray.backwards.y ? node.y.zw : node.y.xy, far_y = ray.backwards.y ? node.y.xy : node.y.zw;
-    uvec2 near_z = ray.backwards.z ? node.z.zw : node.z.xy, far_z = ray.backwards.z ? node.z.xy : node.z.zw;
-    uvec2 frame_words = node.frame;
-    // Distances to the frame's corner, and from plane to plane.
-    vec3 corner = vec3(ivec3(frame_words.x & 0xffffu, frame_words.x >> 16, frame_words.y & 0xffffu));
-    vec3 start = (corner - ray.origin) * ray.inverse;
-    uvec3 steps = (uvec3(frame_words.y >> 16) >> uvec3(0u, BVH_STEP_BITS, 2u * BVH_STEP_BITS)) & ((1u << BVH_STEP_BITS) - 1u);
-    vec3 step = uintBitsToFloat((steps << BVH_STEP_SHIFT) + floatBitsToUint(1.0)) * ray.inverse;
+    // Where the ray goes backwards it enters by the high planes.
+    bvec3 backwards = lessThan(floatBitsToInt(ray.inverse), ivec3(0));
+    uvec2 near_x = backwards.x ? node.x.zw : node.x.xy, far_x = backwards.x ? node.x.xy : node.x.zw;
+    uvec2 near_y = backwards.y ? node.y.zw : node.y.xy, far_y = backwards.y ? node.y.xy : node.y.zw;
+    uvec2 near_z = backwards.z ? node.z.zw : node.z.xy, far_z = backwards.z ? node.z.xy : node.z.zw;
+    vec3 start = (uintBitsToFloat(node.frame.xyz) - ray.origin) * ray.inverse, step = bvh_steps(ray, node.frame.w);
     // Negative floats are negative integers, so the comparison with t_min >= 0 and the final one hold for them as well; what a
     // NaN gives is either a miss or a needless visit.
     [[unroll]] for (int child = 0; child < 8; child++) {
@@ -129,39 +128,65 @@ struct BvhTriangle {
     uvec2 c;
 };
 
-#define BVH_TRIANGLE_TEXEL(i) VKPT_TEXEL(bvh_triangles, bvh.first_triangle, bvh.triangles, BVH_TRIANGLE_BYTES, slot, i)
+#define BVH_TRIANGLE_TEXEL(i) VKPT_TEXEL(bvh_triangles, 0u, bvh.triangles, BVH_TRIANGLE_BYTES, slot, i)
 BvhTriangle bvh_load_triangle(BvhView bvh, uint slot)
 {
     return BvhTriangle(BVH_TRIANGLE_TEXEL(0u), BVH_TRIANGLE_TEXEL(1u), BVH_TRIANGLE_TEXEL(2u).xy);
 }
 #undef BVH_TRIANGLE_TEXEL
 
-// Pluecker's edge tests: an edge's sign depends on nothing but its two corners and the ray, and comes out exactly opposite in
-// the triangle that shares it, so no ray passes between two triangles. Moeller and Trumbore's comparison, 2 % faster, let
-// 2.6 % of the rays through that were aimed at edges. Two-sided, t in (t_min, t_max), edges inclusive.
-bool bvh_test_triangle(BvhTriangle triangle, vec3 origin, vec3 direction, int t_min, int t_max, uint ray_mask, inout RawHit hit)
+// A ray as the triangle test sees it: moved to the origin and sheared so that it runs along z, which is its longest axis (Woop, Benthin
+// and Wald, "Watertight Ray/Triangle Intersection", 2013).
+struct BvhShear {
+    vec3 origin;
+    vec2 slope;    // of x and y over z
+    float inverse; // 1 / z's part of the direction
+    bool x_is_z, z_is_z;
+    uint mirror; // sign bit: set where the axes' new order or the ray's way along z turns triangles over
+};
+
+BvhShear bvh_shear(vec3 origin, vec3 direction)
+{
+    vec3 size = abs(direction);
+    BvhShear shear;
+    shear.origin = origin;
+    shear.x_is_z = size.x >= size.y && size.x >= size.z;
+    shear.z_is_z = !shear.x_is_z && size.z >= size.y;
+    shear.inverse = 1.0 / (shear.x_is_z ? direction.x : (shear.z_is_z ? direction.z : direction.y));
+    shear.slope = vec2(shear.x_is_z ? direction.y : direction.x, shear.z_is_z ? direction.y : direction.z) * shear.inverse;
+    shear.mirror = (floatBitsToUint(shear.inverse) & 0x80000000u) ^ (shear.x_is_z || shear.z_is_z ? 0u : 0x80000000u);
+    return shear;
+}
+
+vec3 bvh_sheared(BvhShear shear, vec3 corner)
+{
+    vec3 p = corner - shear.origin;
+    float z = shear.x_is_z ? p.x : (shear.z_is_z ? p.z : p.y);
+    return vec3((shear.x_is_z ? p.y : p.x) - shear.slope.x * z, (shear.z_is_z ? p.y : p.z) - shear.slope.y * z, z);
+}
+
+// An edge's sign depends on nothing but its two corners and the ray, and comes out exactly opposite in the triangle that shares it
+// ("precise": no product is fused with a sum), so no ray passes between two triangles. Moeller and Trumbore's comparison, at best
+// 4 % faster, let 2.6 % of the rays through that were aimed at edges. Two-sided, t in (t_min, t_max), edges inclusive.
+bool bvh_test_triangle(BvhTriangle triangle, BvhShear shear, int t_min, int t_max, uint ray_mask, inout RawHit hit)
 {
     vec4 a = uintBitsToFloat(triangle.a), b = uintBitsToFloat(triangle.b);
     uvec2 e = triangle.c;
-    vec3 p0 = a.xyz - origin, p1 = vec3(a.w, b.xy) - origin, p2 = vec3(b.zw, uintBitsToFloat(e.x)) - origin;
+    vec3 p0 = bvh_sheared(shear, a.xyz), p1 = bvh_sheared(shear, vec3(a.w, b.xy)),
+         p2 = bvh_sheared(shear, vec3(b.zw, uintBitsToFloat(e.x)));
 
     // Each the weight of the corner opposite the edge, times `area`; all of one sign inside.
-    vec3 weights = vec3(dot(cross(p1 - p2, p1 + p2), direction), dot(cross(p2 - p0, p2 + p0), direction),
-        dot(cross(p0 - p1, p0 + p1), direction));
-    float area = weights.x + weights.y + weights.z;
-    int sign = floatBitsToInt(area) & 0x80000000;
-    vec3 inward = intBitsToFloat(floatBitsToInt(weights) ^ sign);
-    // The slack is for rays at a corner, where the signs of several edges must agree.
-    float least = -bvh_edge_slack * abs(area);
-    if (!(inward.x >= least && inward.y >= least && inward.z >= least) || area == 0.0 || ((e.y >> BVH_RAY_MASK_SHIFT) & ray_mask) == 0u)
-        return false;
-    vec3 normal = cross(p2 - p0, p0 - p1);
-    float slope = dot(normal, direction);
-    float t = dot(normal, p0) / slope;
-    if (floatBitsToInt(t) <= t_min || floatBitsToInt(t) >= t_max) // NaN is above every t_max or below zero
-        return false;
-    hit = RawHit(e.y & BVH_ID_MASK, t, quick_max(weights.yz / area, vec2(0.0)), slope < 0.0 ? 1u : 0u);
-    return true;
+    precise vec3 weights = vec3(p1.x * p2.y - p2.x * p1.y, p2.x * p0.y - p0.x * p2.y, p0.x * p1.y - p1.x * p0.y);
+    float area = weights.x + weights.y + weights.z, scale = 1.0 / area;
+    uint sign = floatBitsToUint(area) & 0x80000000u;
+    vec3 inward = uintBitsToFloat(floatBitsToUint(weights) ^ sign);
+    float t = dot(vec3(p0.z, p1.z, p2.z), weights) * scale * shear.inverse;
+    // NaN is above every t_max or below zero.
+    bool meets = inward.x >= 0.0 && inward.y >= 0.0 && inward.z >= 0.0 && floatBitsToInt(t) > t_min && floatBitsToInt(t) < t_max
+        && ((e.y >> BVH_RAY_MASK_SHIFT) & ray_mask) != 0u;
+    if (meets)
+        hit = RawHit(e.y & BVH_ID_MASK, t, weights.yz * scale, (sign ^ shear.mirror) >> 31);
+    return meets;
 }
 
 #define BVH_PUSH(k)                                                                                                           \
@@ -171,16 +196,16 @@ bool bvh_test_triangle(BvhTriangle triangle, vec3 origin, vec3 direction, int t_
         top += bvh_stack_stride;                                                                                              \
     }
 
-// Replaces `hit` (at first no_hit()) by the tree's nearest triangle with t in (t_min, hit.t) and (mask & ray_mask) != 0, if there is one; with
-// `any_hit` by the first such triangle found. Call it for one tree after the other to search several; for a short compile, in a
-// loop, so that the generated code has it once (software_trace_all). Every ray ends: zero, infinite and NaN ones meet nothing
-// or something, and read nothing outside the tree. `stack`: software_stack() of this lane.
-void software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, inout RawHit hit, uint ray_mask, bool any_hit,
-    uint64_t stack)
+// The nearest triangle with t in (t_min, t_max) and (mask & ray_mask) != 0, with `any_hit` the first such triangle found; no_hit()
+// without. Every ray ends: zero, infinite and NaN ones meet nothing or something, and read nothing outside the trees. `stack`:
+// software_stack() of this lane.
+RawHit software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, float hit_max, uint ray_mask, bool any_hit, uint64_t stack)
 {
-    BvhRay ray = bvh_ray(bvh, origin, direction, max(floatBitsToInt(t_min), 0));
-    int t_max = min(floatBitsToInt(hit.t), bvh_key_none & ~bvh_key_child_mask);
-    uint current = 0u, top = 0u;
+    RawHit hit = no_hit(hit_max);
+    BvhRay ray = bvh_ray(origin, direction, t_min);
+    BvhShear shear = bvh_shear(origin, direction);
+    int t_max = min(floatBitsToInt(hit_max), bvh_key_none & ~bvh_key_child_mask);
+    uint current = bvh.root, next_root = bvh.other_root, top = 0u;
     for (;;) {
         if (int(current) >= 0) {
             uint child_words = current * BVH_NODE_BYTES + BVH_CHILD_WORDS_OFFSET;
@@ -213,7 +238,7 @@ void software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, inout
                 current = BVH_NO_CHILD;
         }
         if (int(current) < 0 && current != BVH_NO_CHILD) {
-            if (bvh_test_triangle(bvh_load_triangle(bvh, current & BVH_LEAF_FIRST_MASK), origin, direction, ray.t_min, t_max, ray_mask, hit)) {
+            if (bvh_test_triangle(bvh_load_triangle(bvh, current & BVH_LEAF_FIRST_MASK), shear, ray.t_min, t_max, ray_mask, hit)) {
                 t_max = floatBitsToInt(hit.t);
                 if (any_hit)
                     break;
@@ -222,28 +247,18 @@ void software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, inout
             current = more ? current - (1u << BVH_LEAF_COUNT_SHIFT) + 1u : BVH_NO_CHILD;
         }
         if (current == BVH_NO_CHILD) {
-            if (top == 0u)
-                break;
-            top -= bvh_stack_stride;
-            uvec2 entry = unpack32(BvhWords64(stack + uint64_t(top)).words[0]);
-            if (int(entry.x) < t_max)
-                current = BvhWords32(bvh.nodes + uint64_t(entry.y)).words[0];
+            if (top == 0u) {
+                if (next_root == BVH_NO_CHILD)
+                    break;
+                current = next_root;
+                next_root = BVH_NO_CHILD;
+            } else {
+                top -= bvh_stack_stride;
+                uvec2 entry = unpack32(BvhWords64(stack + uint64_t(top)).words[0]);
+                if (int(entry.x) < t_max)
+                    current = BvhWords32(bvh.nodes + uint64_t(entry.y)).words[0];
+            }
         }
-    }
-}
-
-// The nearest hit (with `any_hit`: some hit) over `tree_count` trees: `first`, and those whose BvhView stand in a row at `more`.
-RawHit software_trace_all(BvhView first, uint64_t more, uint tree_count, vec3 origin, vec3 direction, float t_min, float t_max,
-    uint ray_mask, bool any_hit, uint64_t stack)
-{
-    RawHit hit = no_hit(t_max);
-    [[dont_unroll]] for (uint tree = 0u; tree < tree_count; tree++) {
-        BvhView view = first;
-        if (tree > 0u)
-            view = BvhViews(more).views[tree - 1u];
-        software_trace(view, origin, direction, t_min, hit, ray_mask, any_hit, stack);
-        if (any_hit && hit.triangle != TRACE_MISS)
-            break;
     }
     return hit;
 }

@@ -125,7 +125,7 @@ struct Sky {
 
 // Addresses of the scene's tables. Triangle ids and emitter indices: first the map's, then those of this frame's moving things.
 struct SceneView {
-    BvhView trees[2]; // world, moving things
+    BvhView trees; // the map's and the moving things'
     uint64_t trace_stack;
     uint64_t structure; // the driver's own, where it traces
     uint64_t structure_ids[2]; // tables of triangle ids, see STRUCTURE_TABLE_SHIFT
@@ -146,7 +146,6 @@ struct SceneView {
     uint64_t lightstyles; // a float each
     uint64_t bsp_tree;
     uint light_list_count; // clusters + 1
-    uint tree_count;       // 1: nothing moves
     Sky sky;
 };
 

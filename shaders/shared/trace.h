@@ -12,10 +12,10 @@ VKPT_SHARED_BEGIN
 VKPT_CONST uint BVH_WIDTH = 8u;
 VKPT_CONST uint BVH_NODE_BYTES = 96u;
 VKPT_CONST uint BVH_FRAME_OFFSET = 48u; // bytes from a node's start
-VKPT_CONST uint BVH_CHILD_WORDS_OFFSET = 56u;
-// Steps between a node's planes: the float 1's bits + (step << BVH_STEP_SHIFT), that is 1, 1.5, 2, 3, 4, 6, ... cells.
-VKPT_CONST uint BVH_STEP_SHIFT = 22u;
-VKPT_CONST uint BVH_STEP_BITS = 5u;
+VKPT_CONST uint BVH_CHILD_WORDS_OFFSET = 64u;
+// Distance between a node's planes: a positive float's bits >> BVH_STEP_SHIFT, that is its exponent and two bits of mantissa.
+VKPT_CONST uint BVH_STEP_SHIFT = 21u;
+VKPT_CONST uint BVH_STEP_BITS = 10u;
 VKPT_CONST uint BVH_TRIANGLE_BYTES = 48u;
 
 // Child word: an inner node's index, or BVH_LEAF | (count - 1) << 27 | first triangle slot.
@@ -39,17 +39,14 @@ VKPT_CONST uint TRACE_STACK_ENTRIES = 64u;
 VKPT_CONST uint TRACE_STACK_INTERLEAVE = 8u;
 VKPT_CONST uint TRACE_STACK_BYTES_PER_LANE = 512u; // TRACE_STACK_ENTRIES * 8
 
-// One tree as the traversal sees it: device addresses of Bvh::nodes (8-byte aligned) and Bvh::triangles, where these start in
-// the buffers of texels that hold all trees, and the grid.
+// Two trees in one array of nodes and one of triangles (device addresses, 8-byte aligned), searched as one.
 struct BvhView {
     uint64_t nodes;
     uint64_t triangles;
-    uint first_node;
-    uint first_triangle;
-    vec3 grid_origin; // quantised = (world - grid_origin) * grid_scale
-    vec3 grid_scale;
+    uint root;
+    uint other_root; // BVH_NO_CHILD: there is none
 };
-VKPT_ASSERT_SIZE(BvhView, 48);
+VKPT_ASSERT_SIZE(BvhView, 24);
 
 // The driver's acceleration structures: an instance's custom index is where its triangles' ids start in one of two
 // tables (0: the map's, 1: this frame's), with the table's number in the highest of the 24 bits that Vulkan has for it.

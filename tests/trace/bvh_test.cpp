@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The builder alone: decodes what it wrote and checks what the traversal relies on.
 #include "ref_vkpt/trace/bvh.hpp"
+#include "ref_vkpt/trace/reinsertion.hpp"
 #include "shaders/shared/trace.h"
 #include "tests/trace/scenes.hpp"
 #include "tests/trace/tree_check.hpp"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <limits>
 
 namespace vkpt::tests {
@@ -177,6 +179,62 @@ TEST_P(BuildBvh, leaves_out_what_cannot_be_hit)
     triangles.push_back(small_triangle(glm::vec3(9), 7));
     triangles.insert(triangles.begin(), small_triangle(glm::vec3(-9), BVH_ID_MASK));
     expect_sound(build_bvh(triangles, GetParam()), { 7, BVH_ID_MASK });
+}
+
+// Sum of the inner nodes' areas; checks that boxes, ranges and leaves belong together on the way.
+double inner_area(const BinaryTree& tree, std::span<const Box> boxes, uint32_t node, std::vector<uint32_t>& uses)
+{
+    const BinaryNode& n = tree.nodes[node];
+    Box expected;
+    for (uint32_t i = n.first; i < n.first + n.count; i++)
+        expected.add(boxes[tree.order[i]]);
+    EXPECT_EQ(n.box.low, expected.low);
+    EXPECT_EQ(n.box.high, expected.high);
+    if (n.is_leaf()) {
+        for (uint32_t i = n.first; i < n.first + n.count; i++)
+            uses[tree.order[i]]++;
+        return 0.0;
+    }
+    EXPECT_GT(n.left, node);
+    EXPECT_GT(n.right, node);
+    EXPECT_EQ(tree.nodes[n.left].count + tree.nodes[n.right].count, n.count);
+    return double(n.box.half_area()) + inner_area(tree, boxes, n.left, uses) + inner_area(tree, boxes, n.right, uses);
+}
+
+TEST(Reinsertion, makes_boxes_smaller_and_keeps_the_tree_whole)
+{
+    Random random(77);
+    std::vector<BvhTriangle> triangles = room(2048.0f, 8);
+    for (auto [count, size] : { std::pair(40, 3000.0f), std::pair(2000, 200.0f), std::pair(6000, 20.0f) })
+        std::ranges::copy(random_triangles(random, size_t(count), size, 0), std::back_inserter(triangles));
+    std::vector<Box> boxes(triangles.size());
+    for (size_t i = 0; i < triangles.size(); i++)
+        for (const glm::vec3 p : triangles[i].positions)
+            boxes[i].add(p);
+    BinaryTree tree = build_by_area(boxes, BVH_MAX_LEAF_TRIANGLES);
+    std::vector<uint32_t> uses(boxes.size());
+    const double before = inner_area(tree, boxes, 0, uses);
+    const size_t nodes = tree.nodes.size();
+    reinsert_subtrees(tree);
+    std::ranges::fill(uses, 0);
+    EXPECT_LT(inner_area(tree, boxes, 0, uses), 0.97 * before);
+    EXPECT_TRUE(std::ranges::all_of(uses, [](uint32_t n) { return n == 1; }));
+    EXPECT_EQ(tree.nodes.size(), nodes);
+}
+
+TEST(Reinsertion, leaves_small_trees_alone)
+{
+    const BvhTriangle triangle = small_triangle({ 1, 2, 3 }, 0);
+    for (size_t count : { 0u, 1u, 5u, 9u }) {
+        Box box;
+        for (const glm::vec3 p : triangle.positions)
+            box.add(p);
+        const std::vector<Box> boxes(count, box); // all in one place: nowhere to go
+        BinaryTree tree = build_by_area(boxes, BVH_MAX_LEAF_TRIANGLES);
+        const std::vector<uint32_t> order = tree.order;
+        reinsert_subtrees(tree);
+        EXPECT_EQ(tree.order, order);
+    }
 }
 
 } // namespace

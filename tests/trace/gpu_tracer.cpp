@@ -6,6 +6,7 @@
 
 #include "trace_rays_spirv.h"
 
+#include <cassert>
 #include <cstring>
 
 namespace vkpt::tests {
@@ -29,31 +30,24 @@ GpuTracer::GpuTracer(
     , hits_(device.create_buffer(rays.size() * sizeof(TestHit)))
     , groups_((uint32_t(rays.size()) + TRACE_RAYS_PER_GROUP - 1) / TRACE_RAYS_PER_GROUP)
 {
+    assert(trees.size() == 1 || trees.size() == 2);
     std::vector<uint32_t> nodes, triangles;
-    for (const Bvh& tree : trees) {
-        nodes.insert(nodes.end(), tree.nodes.begin(), tree.nodes.end());
-        triangles.insert(triangles.end(), tree.triangles.begin(), tree.triangles.end());
+    uint32_t roots[2] = { BVH_NO_CHILD, BVH_NO_CHILD };
+    for (size_t i = 0; i < trees.size(); i++) {
+        const TreePlace place { uint32_t(nodes.size() / bvh_node_words),
+            uint32_t(triangles.size() / bvh_triangle_words) };
+        nodes.insert(nodes.end(), trees[i].nodes.begin(), trees[i].nodes.end());
+        place_nodes(std::span(nodes).last(trees[i].nodes.size()), place);
+        triangles.insert(triangles.end(), trees[i].triangles.begin(), trees[i].triangles.end());
+        roots[i] = place.first_node;
     }
     nodes_ = device.create_buffer_of(std::span<const uint32_t>(nodes));
     triangles_ = device.create_buffer_of(std::span<const uint32_t>(triangles));
-    std::vector<BvhView> views;
-    uint32_t first_node = 0, first_triangle = 0;
-    for (const Bvh& tree : trees) {
-        views.push_back({ nodes_.address + uint64_t(first_node) * BVH_NODE_BYTES,
-            triangles_.address + uint64_t(first_triangle) * BVH_TRIANGLE_BYTES, first_node, first_triangle,
-            tree.grid_origin, tree.grid_scale });
-        first_node += uint32_t(tree.nodes.size() / bvh_node_words);
-        first_triangle += uint32_t(tree.triangles.size() / bvh_triangle_words);
-    }
+    push_.trees = { nodes_.address, triangles_.address, roots[0], roots[1] };
     push_.rays = device.create_buffer_of(rays).address;
     push_.hits = hits_.address;
-    if (!views.empty()) {
-        push_.first_tree = views[0];
-        push_.more_trees = device.create_buffer_of(std::span<const BvhView>(views).subspan(1)).address;
-    }
     push_.stack = device.create_buffer(size_t(groups_) * TRACE_RAYS_GROUP * TRACE_STACK_BYTES_PER_LANE).address;
     push_.ray_count = uint32_t(rays.size());
-    push_.tree_count = uint32_t(views.size());
     push_.ray_mask = ray_mask;
 }
 

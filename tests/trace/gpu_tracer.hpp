@@ -17,7 +17,7 @@ using TracePipelines = std::array<HeadlessCompute::Pipeline, 2>;
 // Trees read by texels, or by address.
 TracePipelines create_trace_pipelines(HeadlessCompute& device, bool by_texels = true);
 
-// Trees and rays, uploaded. Searches the trees in turn.
+// One tree or two, and rays, uploaded. Searches both trees as one.
 class GpuTracer {
 public:
     GpuTracer(

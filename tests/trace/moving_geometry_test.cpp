@@ -29,7 +29,7 @@ struct Written {
     Bvh bvh;
 };
 
-Written write(const MovingGeometry& geometry, unsigned threads = 2)
+Written write(const MovingGeometry& geometry, unsigned threads = 2, const TreePlace& place = {})
 {
     Workers workers(threads);
     Written out;
@@ -37,10 +37,8 @@ Written write(const MovingGeometry& geometry, unsigned threads = 2)
     out.masks.resize(geometry.triangle_count());
     out.bvh.nodes.resize(geometry.node_count() * bvh_node_words, 0xdeadbeef);
     out.bvh.triangles.resize(std::max<size_t>(geometry.triangle_count(), 1) * bvh_triangle_words);
-    const Grid grid = MovingWriter(workers).write(
-        geometry, { out.triangles.data(), out.masks.data(), out.bvh.nodes.data(), out.bvh.triangles.data() });
-    out.bvh.grid_origin = grid.origin;
-    out.bvh.grid_scale = grid.scale;
+    MovingWriter(workers).write(geometry,
+        { out.triangles.data(), out.masks.data(), out.bvh.nodes.data(), out.bvh.triangles.data(), nullptr, place });
     out.bvh.node_count = uint32_t(geometry.node_count());
     out.bvh.triangle_count = uint32_t(geometry.triangle_count());
     out.bvh.max_depth = 100;
@@ -212,6 +210,27 @@ TEST(MovingGeometry, is_the_same_whatever_the_number_of_threads)
     EXPECT_EQ(one.masks, five.masks);
 }
 
+// The map's tree stands before that of what moves.
+void expect_counts_from_place(const MovingGeometry& geometry)
+{
+    constexpr TreePlace place { 1000, 70'000 };
+    const Written at_place = write(geometry, 2, place);
+    Written at_start = write(geometry);
+    place_nodes(at_start.bvh.nodes, place);
+    uint32_t compared = 0;
+    for (size_t node = 0; node < at_place.bvh.nodes.size(); node += bvh_node_words) {
+        const auto one = std::span(at_place.bvh.nodes).subspan(node, bvh_node_words);
+        if (one[0] == 0xdeadbeef) // room that was not needed
+            continue;
+        compared++;
+        EXPECT_TRUE(std::ranges::equal(one, std::span(at_start.bvh.nodes).subspan(node, bvh_node_words)));
+    }
+    EXPECT_GT(compared, 10u);
+    EXPECT_EQ(at_place.bvh.triangles, at_start.bvh.triangles);
+}
+
+TEST(MovingGeometry, counts_from_its_place_among_all_trees) { expect_counts_from_place(Crowd().list(5, 12)); }
+
 TEST(MovingGeometry, is_an_empty_tree_of_nothing)
 {
     const Written written = write(MovingGeometry());
@@ -297,6 +316,7 @@ TEST(MovingGeometry, falls_back_to_one_tree_where_there_is_too_much)
         many.add(small, pose, 0, 1);
     }
     EXPECT_EQ(many.triangle_count(), (max_moving_meshes + 10) * 3);
+    expect_counts_from_place(many);
     expect_sound(write(many));
 
     const std::vector<Triangle> triangles = as_map_triangles(random_triangles(random, max_mesh_triangles + 1, 20));
@@ -332,7 +352,7 @@ TEST(Refit, is_not_spoilt_by_nan)
             expected.add(to_vec3(points[i]));
     std::vector<uint32_t> nodes(tree.node_count * bvh_node_words);
     std::vector<Box4> scratch;
-    const Box box = refit(tree, corners, points.data(), Grid(expected), {}, nodes.data(), scratch);
+    const Box box = refit(tree, corners, points.data(), box_margin(expected), {}, nodes.data(), scratch);
     EXPECT_EQ(box.low, expected.low);
     EXPECT_EQ(box.high, expected.high);
 }

@@ -35,8 +35,7 @@ void main()
         if (index < push.ray_count) {
             TestRay ray = load_ray(index);
             store_hit(index,
-                software_trace_all(push.first_tree, push.more_trees, push.tree_count, ray.origin, ray.direction, ray.t_min, ray.t_max,
-                    push.ray_mask, any_hit, stack));
+                software_trace(push.trees, ray.origin, ray.direction, ray.t_min, ray.t_max, push.ray_mask, any_hit, stack));
         }
     }
 }

@@ -28,15 +28,12 @@ VKPT_ASSERT_SIZE(TestHit, 24);
 struct TraceRaysPush {
     uint64_t rays; // TestRay
     uint64_t hits; // TestHit
-    uint64_t more_trees; // BvhView, those after the first
     uint64_t stack;
     uint ray_count;
-    uint tree_count;
     uint ray_mask;
-    uint padding;
-    BvhView first_tree;
+    BvhView trees;
 };
-VKPT_ASSERT_SIZE(TraceRaysPush, 96); // Vulkan promises room for 128
+VKPT_ASSERT_SIZE(TraceRaysPush, 56); // Vulkan promises room for 128
 
 VKPT_CONST uint TRACE_RAYS_GROUP = 64u; // lanes
 VKPT_CONST uint TRACE_RAYS_PER_GROUP = 64u * 8u; // every lane traces 8 rays: fewer lanes, fewer stacks

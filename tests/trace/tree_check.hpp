@@ -20,7 +20,7 @@ static_assert(sizeof(DecodedTriangle) <= shared::BVH_TRIANGLE_BYTES);
 DecodedTriangle decode_triangle(const Bvh& bvh, uint32_t slot);
 
 struct DecodedChild {
-    double low[3], high[3]; // on the grid
+    double low[3], high[3];
     uint32_t word;
     bool exists() const { return word != shared::BVH_NO_CHILD; }
     bool is_leaf() const { return word & shared::BVH_LEAF; }

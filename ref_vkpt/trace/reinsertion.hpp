@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "ref_vkpt/trace/binary_tree.hpp"
+
+namespace vkpt {
+
+// Moves subtrees to where they enlarge the boxes above them least: a tree that the surface-area heuristic built from
+// the top gets some 5 to 7 % cheaper to search (docs/benchmarks.md), in three to four times the time that building it
+// took. Leaves stay as they are.
+void reinsert_subtrees(BinaryTree& tree);
+
+} // namespace vkpt
