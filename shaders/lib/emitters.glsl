@@ -42,12 +42,11 @@ bool is_met_by_rays(Emitter e)
 }
 
 // Emitters with a reach fade to nothing there, smoothly: (1 - (d / reach)^4)^2.
-float reach_window(Emitter e, vec3 receiver)
+float reach_window(vec3 to_emitter, float reach)
 {
-    if (e.reach <= 0.0f)
+    if (reach <= 0.0f)
         return 1.0f;
-    vec3 to_emitter = e.p0 - receiver;
-    float q = dot(to_emitter, to_emitter) / (e.reach * e.reach);
+    float q = dot(to_emitter, to_emitter) / (reach * reach);
     float window = quick_max(1.0f - q * q, 0.0f);
     return window * window;
 }
@@ -55,7 +54,7 @@ float reach_window(Emitter e, vec3 receiver)
 // What a ray from `receiver` that hits the emitter's front sees (for hits found by BSDF sampling, too).
 vec3 emitted_radiance(Emitter e, vec3 receiver)
 {
-    return e.radiance * reach_window(e, receiver);
+    return e.radiance * reach_window(e.p0 - receiver, e.reach);
 }
 
 // The angle of (x, y) from the axis, y > 0, given that of the same lengths with the shorter one upright.

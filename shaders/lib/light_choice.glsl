@@ -6,6 +6,9 @@
 #include "surfaces.glsl"
 #include "emitters.glsl"
 #include "random.glsl"
+#ifdef VKPT_TRACE_SOFTWARE
+#define VKPT_LANE_MEMORY lane_stack() // see light_subsets.glsl
+#endif
 #include "selected_light_sampler.glsl"
 
 LightOptions light_options()

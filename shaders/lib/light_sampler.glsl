@@ -98,30 +98,23 @@ uint choose_uniformly(float xi, uint count)
     return min(uint(xi * float(count)), count - 1u);
 }
 
-// The emitter as light_contribution sees it: gray, of the same luminance.
-Emitter unpack_outline(EmitterOutline outline)
+LightShape unpack_outline(EmitterOutline outline)
 {
     const uint kept = ~0u << (32u - OUTLINE_BITS), left = ~kept, more = 32u - OUTLINE_MORE_BITS;
-    bool is_sphere = floatBitsToInt(outline.radiance) < 0;
     uint w0 = outline.shape[0], w1 = outline.shape[1], w2 = outline.shape[2], w3 = outline.shape[3];
-    Emitter e;
-    e.p0 = outline.p0;
-    e.type = is_sphere ? EMITTER_SPHERE : EMITTER_TRIANGLE;
-    e.p1 = outline.p0 + uintBitsToFloat(uvec3(w0 & kept, w1 & kept, w2 & kept));
-    e.lightstyle = 0u;
-    e.p2 = outline.p0
-        + uintBitsToFloat(uvec3(w3 & kept, (w0 << OUTLINE_BITS) | ((w1 & left) << more), (w2 << OUTLINE_BITS) | ((w3 & left) << more)));
-    e.area = 0.0f;
-    e.radiance = vec3(abs(outline.radiance));
-    e.reach = 0.0f;
-    if (is_sphere) {
-        e.p1.x = uintBitsToFloat(w0);
-        e.reach = uintBitsToFloat(w1);
-    }
-    return e;
+    LightShape light;
+    light.p0 = outline.p0;
+    light.first = uintBitsToFloat(uvec3(w0 & kept, w1 & kept, w2 & kept));
+    light.second
+        = uintBitsToFloat(uvec3(w3 & kept, (w0 << OUTLINE_BITS) | ((w1 & left) << more), (w2 << OUTLINE_BITS) | ((w3 & left) << more)));
+    light.radius = uintBitsToFloat(w0);
+    light.reach = uintBitsToFloat(w1);
+    light.is_sphere = floatBitsToInt(outline.radiance) < 0;
+    light.radiance = abs(outline.radiance);
+    return light;
 }
 
-Emitter load_outline(LightListView list, uint emitter)
+LightShape load_outline(LightListView list, uint emitter)
 {
 #ifdef __cplusplus // tests on the CPU have no table of outlines
     return unpack_outline(::vkpt::make_outline(load_emitter(list, emitter), 1.0f));

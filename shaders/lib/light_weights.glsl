@@ -183,10 +183,18 @@ vec2 sphere_form_factors(LightPredictor p, vec3 to_centre, float radius)
         + form_factors(p, to_centre + across, to_centre - across, to_centre - other);
 }
 
+// An emitter as its weight sees it.
+struct LightShape {
+    vec3 p0;            // a triangle's first corner, a sphere's centre
+    vec3 first, second; // a triangle's edges from there
+    float radius, reach; // of a sphere
+    bool is_sphere;
+    float radiance; // luminance
+};
+
 // What the prediction needs to know of an emitter's shape. solid_angle 0: it cannot light the surface.
 struct EmitterAspect {
-    vec3 centre;    // receiver to centre
-    vec3 direction; // the same, unit; 0 at the centre
+    vec3 direction; // receiver to centre, unit; 0 at the centre
     float solid_angle;
     float cosine_bound;
 };
@@ -213,44 +221,40 @@ bool is_below(vec3 heights, float limit)
 }
 
 // The corners are an outline's, and may be a little off: only what is well below a horizon, or well behind the emitter, is out.
-EmitterAspect view_emitter_triangle(Surface s, Emitter e)
+// Without branches: some lane nearly always has an emitter in view, and every value that is chosen by a branch costs CPU drivers a
+// blend and, in this loop, a way through memory.
+EmitterAspect view_emitter_triangle(Surface s, LightShape light)
 {
-    EmitterAspect aspect;
-    vec3 a = e.p0 - s.position, b = e.p1 - s.position, c = e.p2 - s.position;
-    vec3 first = e.p1 - e.p0, second = e.p2 - e.p0;
-    float side = quick_max3(quick_max(abs(first), abs(second))), offset = quick_max3(abs(a));
+    vec3 a = light.p0 - s.position, b = a + light.first, c = a + light.second;
+    float side = quick_max3(quick_max(abs(light.first), abs(light.second))), offset = quick_max3(abs(a));
     float slack = 3.0f * OUTLINE_ERROR * side;
-    aspect.centre = (a + b + c) * (1.0f / 3.0f);
-    aspect.direction = direction_or_zero(aspect.centre);
-    aspect.cosine_bound = 0.0f;
-    aspect.solid_angle = 0.0f;
     vec3 heights = vec3(dot(s.normal, a), dot(s.normal, b), dot(s.normal, c));
     vec3 geometric_heights = vec3(dot(s.geometric_normal, a), dot(s.geometric_normal, b), dot(s.geometric_normal, c));
-    float volume = -dot(a, cross(first, second));
-    if (is_below(heights, -slack) || is_below(geometric_heights, -slack) || volume <= -6.0f * slack * side * offset)
-        return aspect;
+    float volume = -dot(a, cross(light.first, light.second));
+    bool unseen = is_below(heights, -slack) || is_below(geometric_heights, -slack) || volume <= -6.0f * slack * side * offset;
     vec3 squares = quick_max(vec3(dot(a, a), dot(b, b), dot(c, c)), vec3(1e-20f));
     vec3 inverse = vec3(quick_inversesqrt(squares.x), quick_inversesqrt(squares.y), quick_inversesqrt(squares.z));
     vec3 lengths = squares * inverse;
-    aspect.solid_angle = 2.0f * quick_angle_above_axis(quick_max(volume, 1e-20f), solid_angle_denominator(a, b, c, lengths));
+    float angle = quick_angle_above_axis(quick_max(volume, 1e-20f), solid_angle_denominator(a, b, c, lengths));
     vec3 cosines = heights * inverse;
+    EmitterAspect aspect;
+    aspect.direction = direction_or_zero(a + b + c);
+    aspect.solid_angle = unseen ? 0.0f : 2.0f * angle;
     // The highest corner may lie lower than the middle of a triangle right above.
     aspect.cosine_bound = quick_max(quick_max3(cosines), dot(s.normal, aspect.direction));
     return aspect;
 }
 
-EmitterAspect view_emitter_sphere(Surface s, Emitter e)
+EmitterAspect view_emitter_sphere(Surface s, LightShape light)
 {
     EmitterAspect aspect;
-    float radius = e.p1.x;
-    aspect.centre = e.p0 - s.position;
-    aspect.direction = direction_or_zero(aspect.centre);
-    float cone_depth = sphere_cone_depth(aspect.centre, radius);
-    aspect.solid_angle = 2.0f * emitter_pi * cone_depth;
-    float height = dot(s.normal, aspect.centre) + radius;
-    if (radius <= 0.0f || height <= 0.0f || dot(s.geometric_normal, aspect.centre) + radius <= 0.0f)
-        aspect.solid_angle = 0.0f;
-    aspect.cosine_bound = height * quick_inversesqrt(quick_max(quick_max(dot(aspect.centre, aspect.centre), radius * radius), 1e-20f));
+    float radius = light.radius;
+    vec3 centre = light.p0 - s.position;
+    aspect.direction = direction_or_zero(centre);
+    float height = dot(s.normal, centre) + radius;
+    bool unseen = radius <= 0.0f || height <= 0.0f || dot(s.geometric_normal, centre) + radius <= 0.0f;
+    aspect.solid_angle = unseen ? 0.0f : 2.0f * emitter_pi * sphere_cone_depth(centre, radius);
+    aspect.cosine_bound = height * quick_inversesqrt(quick_max(quick_max(dot(centre, centre), radius * radius), 1e-20f));
     return aspect;
 }
 
@@ -285,13 +289,14 @@ float predict_by_chapter(LightPredictor p, EmitterAspect aspect)
     return reflectance * aspect.solid_angle * quick_clamp(aspect.cosine_bound, 1e-4f, 1.0f);
 }
 
-float predict_by_ltc(LightPredictor p, Emitter e, EmitterAspect aspect)
+float predict_by_ltc(LightPredictor p, LightShape light, EmitterAspect aspect)
 {
+    vec3 a = light.p0 - p.s.position;
     vec2 shares = vec2(1.0f); // inside of a sphere: it is all around
-    if (e.type != EMITTER_SPHERE)
-        shares = form_factors(p, e.p0 - p.s.position, e.p1 - p.s.position, e.p2 - p.s.position);
-    else if (dot(aspect.centre, aspect.centre) > e.p1.x * e.p1.x)
-        shares = sphere_form_factors(p, aspect.centre, e.p1.x);
+    if (!light.is_sphere)
+        shares = form_factors(p, a, a + light.first, a + light.second);
+    else if (dot(a, a) > light.radius * light.radius)
+        shares = sphere_form_factors(p, a, light.radius);
     // Transformed cosines end at a horizon of their own, GGX does not: about what it has far off its peak.
     float alpha = ggx_alpha(p.s.roughness);
     float tail = ltc_tail * alpha * alpha * aspect.solid_angle * quick_clamp(aspect.cosine_bound, 1e-2f, 1.0f);
@@ -299,22 +304,31 @@ float predict_by_ltc(LightPredictor p, Emitter e, EmitterAspect aspect)
 }
 
 // The weight: reflected luminance, visibility unknown. 0 only where the emitter cannot contribute.
+float light_contribution(LightPredictor p, LightShape light)
+{
+    float radiance = light.radiance;
+    EmitterAspect aspect = view_emitter_triangle(p.s, light);
+    if (light.is_sphere) {
+        radiance *= reach_window(light.p0 - p.s.position, light.reach); // no triangle has a reach
+        aspect = view_emitter_sphere(p.s, light);
+    }
+    if (!(aspect.solid_angle > 0.0f && radiance > 0.0f))
+        return 0.0f;
+    float share = p.weight == LIGHT_WEIGHT_LTC ? predict_by_ltc(p, light, aspect) : predict_by_chapter(p, aspect);
+    return quick_clamp(radiance * share, least_contribution, greatest_contribution);
+}
+
 float light_contribution(LightPredictor p, Emitter e)
 {
-    float radiance = luminance(e.radiance);
-    if (!(radiance > 0.0f))
-        return 0.0f;
-    EmitterAspect aspect;
-    if (e.type == EMITTER_SPHERE) {
-        radiance *= reach_window(e, p.s.position); // no triangle has a reach
-        aspect = view_emitter_sphere(p.s, e);
-    } else {
-        aspect = view_emitter_triangle(p.s, e);
-    }
-    if (!(aspect.solid_angle > 0.0f) || !(radiance > 0.0f))
-        return 0.0f;
-    float share = p.weight == LIGHT_WEIGHT_LTC ? predict_by_ltc(p, e, aspect) : predict_by_chapter(p, aspect);
-    return quick_clamp(radiance * share, least_contribution, greatest_contribution);
+    LightShape light;
+    light.p0 = e.p0;
+    light.first = e.p1 - e.p0;
+    light.second = e.p2 - e.p0;
+    light.radius = e.p1.x;
+    light.reach = e.reach;
+    light.is_sphere = e.type == EMITTER_SPHERE;
+    light.radiance = luminance(e.radiance);
+    return light_contribution(p, light);
 }
 
 #endif

@@ -9,13 +9,20 @@
 // How many holes in a row a ray passes: more than any scene has, so that the loop ends whatever the driver makes of it.
 const uint max_alpha_layers = 256u;
 
-// The nearest triangle (with any_hit: some triangle) of the masked ones, alpha taken for opaque.
-RawHit search_trees(Ray ray, uint mask, bool any_hit)
+// This lane's stack: TRACE_STACK_ENTRIES entries of 8 bytes, one every TRACE_STACK_INTERLEAVE * 8 bytes. Free for others while
+// no ray is traced.
+uint64_t lane_stack()
 {
     // Not gl_WorkGroupSize: it is only known behind the layout(local_size_x) of the including pass, and 1 before it.
     uint lane = gl_WorkGroupID.x * PIXEL_GROUP_SIZE + gl_LocalInvocationIndex;
-    uint64_t stack = software_stack(frame.scene.trace_stack, lane);
-    return software_trace(frame.scene.trees, ray.origin, ray.direction, ray.t_min, ray.t_max, mask, any_hit, stack);
+    return software_stack(frame.scene.trace_stack, lane);
+}
+
+// The nearest triangle (with any_hit: some triangle) of the masked ones, alpha taken for opaque.
+RawHit search_trees(Ray ray, uint mask, bool any_hit)
+{
+    return software_trace(
+        frame.scene.trees, ray.origin, ray.direction, ray.t_min, ray.t_max, mask, any_hit, lane_stack());
 }
 
 // One call of the traversal, whatever there is to do: it is most of what the CPU driver has to compile. Behind a hole the
