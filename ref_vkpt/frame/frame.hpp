@@ -26,7 +26,7 @@ struct GpuWorld {
     Buffer bsp_tree;
     uint64_t version = 0; // another for every map; 0: not uploaded yet
 };
-// Waits for the map's tree. Usable after uploader.flush().
+// Usable after uploader.flush().
 GpuWorld upload_world(const World& world, Uploader& uploader);
 
 // What a view of the world keeps from one of its frames to the next, beside its buffers.

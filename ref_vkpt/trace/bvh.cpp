@@ -5,8 +5,9 @@
 // frame that they count in, its corner (three floats, world space) and the distances between planes (10 bits an axis,
 // see BVH_STEP_BITS); at byte 64 eight 32-bit child words (shaders/shared/trace.h). A child that is not there has
 // inverted planes, and BVH_NO_CHILD in case a ray from very far away meets it all the same. As nothing depends on a
-// frame of the whole tree, a ray goes from one tree to another without being prepared anew. Triangle, 48 bytes, in leaf
-// order: its three corners (floats), id | mask << 24, eight free bytes.
+// frame of the whole tree, a ray goes from one tree to another without being prepared anew.
+//
+// Triangle, 48 bytes, in leaf order: its three corners (floats), id | mask << 24, eight free bytes.
 //
 // Why so: on two cores with AVX-512 through the Vulkan CPU driver, million rays a second per core for coherent camera
 // rays / one diffuse bounce / shadow rays in a middle-sized map were: 3.1 / 1.0 / 1.5 for a plain binary tree, 9.1

@@ -6,8 +6,8 @@
 namespace vkpt {
 
 // Moves subtrees to where they enlarge the boxes above them least: a tree that the surface-area heuristic built from
-// the top gets some 5 to 7 % cheaper to search (docs/benchmarks.md), in three to four times the time that building it
-// took. Leaves stay as they are.
+// the top gets some 5 to 7 % cheaper to search (docs/benchmarks.md), in about twice the time that building it took.
+// Leaves stay as they are.
 void reinsert_subtrees(BinaryTree& tree);
 
 } // namespace vkpt
