@@ -9,9 +9,9 @@ void compare_stratum(uvec2 stratum, uint number)
 {
     vec2 before = load_replayed(number);
     vec4 gradient = vec4(0.0);
-    if (before.x >= 0.0) {
-        uvec2 pixel = stratum_pixel(stratum);
-        uint index = pixel.y * frame.size.x + pixel.x;
+    uvec2 pixel = stratum_pixel(stratum);
+    uint index = pixel_index(pixel);
+    if (before.x >= 0.0 && is_own_sample(load_random_seed(index))) {
         vec2 now = vec2(luminance(load_diffuse_light(index)), luminance(load_specular_light(index)));
         vec2 change = now - before, greater = max(now, before);
         gradient = vec4(change.x, greater.x, change.y, greater.y);

@@ -142,7 +142,7 @@ vec2 changed_share(uvec2 pixel)
 {
     if ((frame.flags & FRAME_REPLAYED) == 0u || (frame.flags & FRAME_HISTORY) == 0u)
         return vec2(0.0);
-    uvec2 stratum = pixel / stratum_width;
+    uvec2 stratum = pixel / stratum_size();
     vec4 gradient = load_gradient_b(stratum.y * stratum_count().x + stratum.x);
     return clamp(abs(gradient.xz) / max(gradient.yw, 1e-10), 0.0, 1.0);
 }

@@ -4,6 +4,7 @@
 // Light that reaches the primary surface over pt_bounces further surfaces, added to what direct_light stored. With an MIS
 // sampler also what its rays find of the emitters that direct_light sampled; then it runs without bounces, too.
 #include "lib/frame.glsl"
+#include "lib/bounce_blocks.glsl"
 #include "lib/lighting.glsl"
 #include "lib/reprojection.glsl"
 
@@ -69,15 +70,21 @@ bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
     return true;
 }
 
-void light_pixel(uvec2 pixel, uint index)
+// What the path of a pixel has found.
+struct FoundLight {
+    vec3 radiance;
+    vec3 direction; // where the first BSDF sample went
+    float pdf;      // its density; 0: nothing was found
+    float reflected_distance;
+};
+
+// `reflected`: what the pixel's surface reflects of the radiance, by the density it was found with.
+FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary, out BsdfValue reflected)
 {
-    PrimarySurface primary = load_primary_surface(index);
-    if (primary.depth < 0.0)
-        return;
     Random pixel_random = random_of_pixel(pixel, index);
     BouncePath path = BouncePath(primary.surface, primary.cluster, 0u, vec3(1.0), vec3(0.0), -1.0);
-    BsdfValue first = BsdfValue(0.0, vec3(0.0));
-    float reflected_distance = -1.0;
+    FoundLight found = FoundLight(vec3(0.0), vec3(0.0), 0.0, -1.0);
+    reflected = BsdfValue(0.0, vec3(0.0));
     [[dont_unroll]] for (uint bounce = 0u; bounce < bsdf_ray_count(); bounce++) {
         Random random = random_for_bounce(pixel_random, bounce + 2u);
         vec2 xi = next_vec2(random);
@@ -85,22 +92,108 @@ void light_pixel(uvec2 pixel, uint index)
         if (bsdf.pdf <= 0.0)
             break;
         if (bounce == 0u) {
-            first.diffuse = bsdf.value.diffuse / bsdf.pdf;
-            first.specular = bsdf.value.specular / bsdf.pdf;
+            found.direction = bsdf.direction;
+            found.pdf = bsdf.pdf;
+            reflected = BsdfValue(bsdf.value.diffuse / bsdf.pdf, bsdf.value.specular / bsdf.pdf);
         } else {
             path.throughput *= reflected_radiance(path.surface, bsdf.value, vec3(1.0)) / bsdf.pdf;
         }
         bool goes_on = bounce_path(path, bsdf, pixel_random);
         if (bounce == 0u && bsdf.lobe == BSDF_LOBE_SPECULAR)
-            reflected_distance = path.ray_length;
+            found.reflected_distance = path.ray_length;
         if (!goes_on)
             break;
     }
     store_traced_rays(index, load_ray_count(index));
-    store_reflected_distance(index, reflected_distance);
-    path.radiance *= limit_radiance(path.radiance);
-    store_diffuse_light(index, load_diffuse_light(index) + first.diffuse * path.radiance);
-    store_specular_light(index, load_specular_light(index) + first.specular * path.radiance);
+    found.radiance = path.radiance * limit_radiance(path.radiance);
+    return found;
 }
 
-VKPT_RUN_OVER_PIXELS(light_pixel)
+void add_light(uint index, BsdfValue reflected, vec3 radiance, float reflected_distance)
+{
+    store_reflected_distance(index, reflected_distance);
+    store_diffuse_light(index, load_diffuse_light(index) + reflected.diffuse * radiance);
+    store_specular_light(index, load_specular_light(index) + reflected.specular * radiance);
+}
+
+// Narrower lobes reflect something else one pixel on: such surfaces send rays of their own.
+const float least_shared_roughness = 0.2;
+bool sends_own_rays(PrimarySurface p) { return bounce_block_pixels() == 1u || p.surface.roughness < least_shared_roughness; }
+
+// Of a block's pixel; without depth where it lies outside the screen.
+PrimarySurface load_block_surface(uvec2 pixel)
+{
+    PrimarySurface primary = load_primary_surface(is_on_screen(pixel) ? pixel_index(pixel) : 0u);
+    primary.depth = is_on_screen(pixel) ? primary.depth : DEPTH_NOTHING;
+    return primary;
+}
+
+// Whether the same light falls on two neighbouring pixels, and their lobes are alike.
+bool are_alike(PrimarySurface a, PrimarySurface b)
+{
+    const float least_cosine = 0.97, most_roughness_difference = 0.1, most_off_plane = 0.008; // of the depth
+    vec3 way = b.surface.position - a.surface.position;
+    float off = max(abs(dot(way, a.surface.geometric_normal)), abs(dot(way, b.surface.geometric_normal)));
+    return a.depth >= 0.0 && b.depth >= 0.0 && !sends_own_rays(a) && !sends_own_rays(b)
+        && off <= most_off_plane * min(a.depth, b.depth) && dot(a.surface.normal, b.surface.normal) >= least_cosine
+        && abs(a.surface.roughness - b.surface.roughness) <= most_roughness_difference
+        && abs(a.surface.metallic - b.surface.metallic) < 0.5;
+}
+
+// A bit for each pixel of the block that takes over what its leader finds, the leader included; 0: nobody does.
+uint find_alike(BounceBlock block)
+{
+    PrimarySurface leader = load_block_surface(pixel_of_block(block, 0u));
+    uint alike = are_alike(leader, leader) ? 1u : 0u;
+    [[dont_unroll]] for (uint i = 1u; i < bounce_block_pixels(); i++)
+        alike |= are_alike(leader, load_block_surface(pixel_of_block(block, i))) ? 1u << i : 0u;
+    return alike;
+}
+
+// Others' light, and more than its own, is no sample of a pixel that could be repeated.
+void forbid_repeating(uint index)
+{
+    if ((frame.flags & FRAME_REPLAYED) != 0u)
+        store_random_seed(index, no_random_seed);
+}
+
+// The leader's path, and those of pixels that do not share. Then what the leader found goes to the pixels that are like it, as if
+// each had sent the ray. Who has fewer of its kind in the block is lit more seldom, as those have fewer turns to lead, and
+// the more when it is: the mean stays.
+void light_block(uvec2 number, uint)
+{
+    BounceBlock block = open_bounce_block(number);
+    uint pixels = bounce_block_pixels(), alike = find_alike(block);
+    float scale = alike != 0u ? float(pixels) / float(bitCount(alike)) : 1.0;
+    FoundLight found = FoundLight(vec3(0.0), vec3(0.0), 0.0, -1.0);
+    [[dont_unroll]] for (uint i = 0u; i < pixels; i++) {
+        uvec2 pixel = pixel_of_block(block, i);
+        uint index = pixel_index(pixel);
+        PrimarySurface primary = load_block_surface(pixel);
+        if (primary.depth >= 0.0 && (i == 0u || sends_own_rays(primary))) {
+            BsdfValue reflected;
+            FoundLight own = follow_path(pixel, index, primary, reflected);
+            add_light(index, reflected, own.radiance * (i == 0u ? scale : 1.0), own.reflected_distance);
+            if (i == 0u) {
+                found = own;
+                if (scale > 1.0)
+                    forbid_repeating(index);
+            }
+        }
+    }
+    [[dont_unroll]] for (uint i = 1u; i < pixels; i++) {
+        uvec2 pixel = pixel_of_block(block, i);
+        uint index = pixel_index(pixel);
+        PrimarySurface primary = load_block_surface(pixel);
+        if (primary.depth >= 0.0 && !sends_own_rays(primary)) {
+            if ((alike >> i & 1u) != 0u && found.pdf > 0.0)
+                add_light(index, evaluate_bsdf(primary.surface, found.direction), found.radiance * (scale / found.pdf),
+                    found.reflected_distance);
+            else
+                store_reflected_distance(index, -1.0);
+            forbid_repeating(index);
+        }
+    }
+}
+
+VKPT_RUN_OVER_BLOCKS(light_block)

@@ -10,33 +10,45 @@
 // Pixels that the old sample may lie off: sideways, and so along the surface at grazing angles.
 const float most_pixels_off = 1.5;
 
-// The last view's pixel that shows the same surface; UINT_MAX: none.
-uint find_sample(uint index, PrimarySurface primary)
+// Whether the last view's pixel `there` shows the same surface.
+bool shows_same(uint there, PrimarySurface primary)
 {
-    const uint none = 0xffffffffu;
-    vec2 place = floor(load_motion(index).xy + 0.5);
-    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
-        return none;
-    uvec2 old_pixel = uvec2(whole_to_int(place));
-    uint there = old_pixel.y * frame.previous_size.x + old_pixel.x;
     vec4 old = load_previous_position(there);
     float pixel_width = primary.depth * 2.0 * length(frame.camera.right) / float(frame.size.x);
     float cosine = max(dot(primary.surface.geometric_normal, primary.surface.view), 0.05);
     vec3 off = old.xyz - primary.surface.position;
-    if (old.w < 0.0 || dot(off, off) > pow(most_pixels_off * pixel_width / cosine, 2.0))
-        return none;
+    float most_off = most_pixels_off * pixel_width / cosine;
     vec3 old_normal = unpack_direction(load_previous_normals(there).x);
-    return dot(old_normal, primary.surface.normal) > 0.9 ? there : none;
+    return old.w >= 0.0 && dot(off, off) <= most_off * most_off && dot(old_normal, primary.surface.normal) > 0.9;
+}
+
+const uint no_pixel = 0xffffffffu;
+
+// The last view's pixel whose sample of the same surface can be repeated, or no_pixel. Where pixels share rays it is one of the block.
+uint find_sample(uint index, PrimarySurface primary)
+{
+    vec2 place = floor(load_motion(index).xy + 0.5);
+    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
+        return no_pixel;
+    uvec2 first = uvec2(whole_to_int(place)) / frame.bounce_block * frame.bounce_block;
+    uint found = no_pixel;
+    [[dont_unroll]] for (uint i = 0u; i < bounce_block_pixels(); i++) {
+        uvec2 pixel = min(first + uvec2(i & 1u, i >> 1u), frame.previous_size - 1u);
+        uint there = pixel.y * frame.previous_size.x + pixel.x;
+        uvec2 seed = load_previous_random_seed(there);
+        if (is_own_sample(seed) && seed.y >= frame.scene.oldest_repeatable && shows_same(there, primary))
+            found = there;
+    }
+    return found;
 }
 
 void replay_stratum(uvec2 stratum, uint number)
 {
-    uvec2 pixel = stratum_pixel(stratum);
-    uint index = pixel.y * frame.size.x + pixel.x;
+    uvec2 pixel = pixel_of_block(stratum_block(stratum), 0u);
+    uint index = pixel_index(min(pixel, frame.size - 1u));
     PrimarySurface primary = load_primary_surface(index);
-    uint there = primary.depth < 0.0 ? 0xffffffffu : find_sample(index, primary);
-    uvec2 seed = load_previous_random_seed(there == 0xffffffffu ? index : there);
-    if (there == 0xffffffffu || seed.y < frame.scene.oldest_repeatable) {
+    uint there = primary.depth < 0.0 || !is_on_screen(pixel) ? no_pixel : find_sample(index, primary);
+    if (there == no_pixel) {
         store_replayed(number, vec2(-1.0));
         return;
     }
@@ -45,7 +57,7 @@ void replay_stratum(uvec2 stratum, uint number)
     store_position(index, vec4(load_previous_position(there).xyz, primary.depth));
     store_normals(index, load_previous_normals(there));
     store_surface(index, load_previous_surface(there));
-    store_random_seed(index, seed);
+    store_random_seed(index, load_previous_random_seed(there));
 }
 
 VKPT_RUN_OVER_STRATA(replay_stratum)

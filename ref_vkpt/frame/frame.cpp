@@ -138,6 +138,7 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.frame_seconds = cvars.pt_seed > 0 ? first_frame_seconds : std::min(seconds, 1.0f);
     uniforms.seed = uint32_t(cvars.pt_seed);
     uniforms.frame_index = cvars.pt_seed > 0 ? state_.accumulated_frames : state_.noise_index++;
+    uniforms.bounce_block = glm::uvec2(1);
     uniforms.accumulated_frames = state_.accumulated_frames;
     uniforms.blend = view.blend;
     uniforms.gamma = cvars.vid_gamma;
@@ -213,7 +214,8 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfac
         record_pass("probe_surfaces", pixels.groups);
     record_replay(uniforms);
     record_lit_pass("direct_light", pixels);
-    record_lit_pass("indirect_light", pixels); // also without bounces: MIS samplers need its rays
+    // Also without bounces: MIS samplers need its rays.
+    record_lit_pass("indirect_light", pixel_work((uniforms.size + uniforms.bounce_block - 1u) / uniforms.bounce_block));
     if (uniforms.flags & shared::FRAME_DENOISED)
         record_denoiser(uniforms);
     record_pass("accumulate", pixels.groups);

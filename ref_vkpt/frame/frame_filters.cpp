@@ -42,10 +42,20 @@ glm::vec2 offset_in_pixel(uint32_t index, glm::uvec2 rendered, glm::uvec2 resolv
     return { halton(index, 2), halton(index, 3) };
 }
 
-uint32_t stratum_groups(glm::uvec2 size)
+// Pixels that share a bounce ray.
+glm::uvec2 bounce_block()
 {
-    const uint32_t strata = (size.x + 2) / 3 * ((size.y + 2) / 3);
-    return (strata + shared::PIXEL_GROUP_SIZE - 1) / shared::PIXEL_GROUP_SIZE;
+    const std::string& pixels = cvars::values().pt_bounce_pixels;
+    if (cvars::values().pt_bounces == 0)
+        return glm::uvec2(1); // there is next to nothing to share
+    return { pixels == "all" ? 1 : 2, pixels == "quarter" ? 2 : 1 };
+}
+
+uint32_t stratum_groups(const shared::FrameUniforms& uniforms)
+{
+    const glm::uvec2 width = uniforms.bounce_block * shared::STRATUM_BLOCKS,
+                     count = (uniforms.size + width - 1u) / width;
+    return (count.x * count.y + shared::PIXEL_GROUP_SIZE - 1) / shared::PIXEL_GROUP_SIZE;
 }
 
 } // namespace
@@ -64,6 +74,8 @@ void Frame::begin_filters(
         state_.history.forget();
         return;
     }
+    if (denoises)
+        uniforms.bounce_block = bounce_block();
     if (upscales)
         uniforms.resolved_size = uniforms.output_size;
     if (antialiases)
@@ -106,7 +118,7 @@ void Frame::record_denoiser(const shared::FrameUniforms& uniforms)
 void Frame::record_replay(const shared::FrameUniforms& uniforms)
 {
     if ((uniforms.flags & shared::FRAME_REPLAYED) && (uniforms.flags & shared::FRAME_HISTORY))
-        record_pass("replay_samples", stratum_groups(uniforms.size));
+        record_pass("replay_samples", stratum_groups(uniforms));
 }
 
 void Frame::record_gradient(const shared::FrameUniforms& uniforms)
@@ -114,7 +126,7 @@ void Frame::record_gradient(const shared::FrameUniforms& uniforms)
     if (!(uniforms.flags & shared::FRAME_HISTORY))
         return;
     const shared::ScreenBuffers& screen = graphics_.screen.rows();
-    const uint32_t groups = stratum_groups(uniforms.size);
+    const uint32_t groups = stratum_groups(uniforms);
     record_pass("denoise_gradient", groups);
     shared::ScreenBuffer source = screen.gradient_a, target = screen.gradient_b;
     for (uint32_t level = 0; level < gradient_levels; level++) {

@@ -49,7 +49,7 @@ vec3 variance_colour(uint index)
 // How much the light has changed, by the repeated samples: red for the diffuse lobe, green for the specular one.
 vec3 gradient_colour(uvec2 pixel)
 {
-    uvec2 stratum = pixel / stratum_width;
+    uvec2 stratum = pixel / stratum_size();
     vec4 gradient = load_gradient_b(stratum.y * stratum_count().x + stratum.x);
     return vec3(clamp(abs(gradient.xz) / max(gradient.yw, 1e-10), 0.0, 1.0), 0.0);
 }

@@ -4,6 +4,7 @@
 #ifndef VKPT_LIB_DENOISE
 #define VKPT_LIB_DENOISE
 
+#include "bounce_blocks.glsl"
 #include "reprojection.glsl"
 #include "surfaces.glsl"
 
@@ -42,18 +43,21 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FrameStatist
 bool is_broken(vec3 light) { return any(isnan(light)) || any(isinf(light)); }
 void count_broken_pixel() { atomicAdd(FrameStatisticsBuffer(frame.statistics).v.broken_pixels, 1u); }
 
-// ---- strata: blocks of 3 x 3 pixels, one of which repeats an older sample
+// ---- strata: 3 x 3 blocks of pixels that share a bounce ray, mostly of one pixel each. One of them repeats an older sample.
 
-const uint stratum_width = 3u;
+uvec2 stratum_size() { return frame.bounce_block * STRATUM_BLOCKS; }
+uvec2 stratum_count() { return (frame.size + stratum_size() - 1u) / stratum_size(); }
 
-uvec2 stratum_count() { return (frame.size + stratum_width - 1u) / stratum_width; }
-
-// The stratum's pixel whose turn it is in this frame.
-uvec2 stratum_pixel(uvec2 stratum)
+// The stratum's block whose turn it is in this frame: its leader repeats a sample, where the screen has that pixel. A block that had
+// its turn every time would show one sample for ever.
+BounceBlock stratum_block(uvec2 stratum)
 {
     uvec4 hash = hash_pcg4(uvec4(stratum, frame.frame_index, 0x51ed270bu));
-    return min(stratum * stratum_width + hash.xy % stratum_width, frame.size - 1u);
+    uvec2 first = stratum * STRATUM_BLOCKS;
+    return open_bounce_block(first + hash.xy % min(uvec2(STRATUM_BLOCKS), bounce_block_count() - first));
 }
+
+uvec2 stratum_pixel(uvec2 stratum) { return min(pixel_of_block(stratum_block(stratum), 0u), frame.size - 1u); }
 
 // main() for passes over strata: run(stratum, its number).
 #define VKPT_RUN_OVER_STRATA(run)                                                                                      \

@@ -89,16 +89,18 @@ uvec2 pixel_in_tile(uint lane)
     return uvec2(((lane >> 4u) & 1u) * 4u + (lane & 3u), (lane >> 5u) * 4u + ((lane >> 2u) & 3u));
 }
 
-// How a pass runs over its pixels, or over PIXEL_GROUP_SIZE lanes with a number each: the two macros define
-// main(), which calls run(pixel, index of the pixel in the screen buffers) or run(lane). They are
-// what lets one source be a compute shader or, for the trace backend "pipeline", a ray generation shader, which has neither
-// workgroups nor shared memory: a pass that traces keeps to them.
+// How a pass runs over its pixels, over blocks of them (lib/bounce_blocks.glsl), or over PIXEL_GROUP_SIZE lanes with a number
+// each: the macros define main(), which calls run(pixel, index of the pixel in the screen buffers), run(block, its number) or
+// run(lane). They are what lets one source be a compute shader or, for the trace backend "pipeline", a ray generation shader,
+// which has neither workgroups nor shared memory: a pass that traces keeps to them.
 #if defined(VKPT_TRACE_PIPELINE)
 #extension GL_EXT_ray_tracing : require
 
-// One launch index a pixel.
+// One launch index a pixel, or a block.
 #define VKPT_RUN_OVER_PIXELS(run)                                                                                      \
     void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y * frame.size.x + gl_LaunchIDEXT.x); }
+#define VKPT_RUN_OVER_BLOCKS(run)                                                                                      \
+    void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x); }
 #define VKPT_RUN_OVER_LANES(run)                                                                                       \
     void main() { run(gl_LaunchIDEXT.x); }
 
@@ -126,6 +128,7 @@ uvec2 place_of_tile(uint tile, uint across)
         }                                                                                                              \
     }
 #define VKPT_RUN_OVER_PIXELS(run) VKPT_RUN_OVER(frame.size, run)
+#define VKPT_RUN_OVER_BLOCKS(run) VKPT_RUN_OVER(bounce_block_count(), run)
 #define VKPT_RUN_OVER_LANES(run)                                                                                       \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
     void main() { run(gl_LocalInvocationIndex); }

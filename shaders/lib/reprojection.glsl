@@ -57,6 +57,10 @@ float plane_distance(float depth, vec2 slope, vec2 pixels, float tap_depth)
 // How far from the plane a tap may lie, relative to depth: curved things lean away from it with the slope.
 float plane_tolerance(vec2 slope, vec2 pixels) { return 0.008 + 0.25 * dot(abs(slope), abs(pixels)); }
 
+// What the buffer random_seed holds where the light is not the pixel's own sample alone.
+const uvec2 no_random_seed = uvec2(0xffffffffu);
+bool is_own_sample(uvec2 seed) { return seed.y != no_random_seed.y; }
+
 // The generator of a pixel's light paths: its own, or the one of the older sample that it repeats.
 Random random_of_pixel(uvec2 pixel, uint index)
 {

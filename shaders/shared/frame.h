@@ -20,6 +20,8 @@ VKPT_CONST uint SAMPLER_COUNT = 4u;
 VKPT_CONST uint PIXEL_GROUP_SIZE = 64u;
 VKPT_CONST uint PIXEL_TILES_PER_GROUP = 8u;
 
+VKPT_CONST uint STRATUM_BLOCKS = 3u; // A-SVGF: of so many by so many bounce blocks one repeats an older sample
+
 VKPT_CONST uint FRAME_ALPHA_TEST = 1u;  // the scene has alpha-tested triangles
 VKPT_CONST uint FRAME_NO_WORLD = 2u;    // a view of models alone (menus): lit by a fixed light, no sky
 VKPT_CONST uint FRAME_UNDERWATER = 4u;  // the eye is in a liquid
@@ -176,6 +178,7 @@ struct FrameUniforms {
     float frame_seconds; // wall time since the last view
     uint frame_index;    // seeds the random numbers
     uint seed;
+    uvec2 bounce_block;      // pixels that share a bounce ray: 1 x 1, 2 x 1 or 2 x 2
     uint accumulated_frames; // frames already in `accumulated`
     uint flags;              // FRAME_*
     vec4 blend;              // the engine's screen blend, sRGB-encoded, alpha

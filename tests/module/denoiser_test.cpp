@@ -65,23 +65,25 @@ TEST_F(Denoiser, ConstantLightStaysConstant)
 // Repeated samples with unchanged light differ by nothing at all: the gradient then leaves no trace in the picture.
 TEST_F(Denoiser, GradientOfAFrozenSceneIsZero)
 {
-    const auto picture_of = [&](const char* mode, float lamp) {
-        const auto session = start({ { "flt_denoiser", mode } });
-        session->draw(8);
-        session->light_style(lamp_style, lamp);
-        session->draw(4);
-        return session->capture();
-    };
-    const Radiance picture = picture_of("asvgf", 1);
-    EXPECT_FALSE(is_black(picture));
-    EXPECT_TRUE(picture == picture_of("svgf", 1));
-    EXPECT_FALSE(picture_of("asvgf", 0.5f) == picture_of("svgf", 0.5f));
+    for (const char* pixels : { "all", "quarter" }) {
+        const auto picture_of = [&](const char* mode, float lamp) {
+            const auto session = start({ { "flt_denoiser", mode }, { "pt_bounce_pixels", pixels } });
+            session->draw(8);
+            session->light_style(lamp_style, lamp);
+            session->draw(4);
+            return session->capture();
+        };
+        const Radiance picture = picture_of("asvgf", 1);
+        EXPECT_FALSE(is_black(picture)) << pixels;
+        EXPECT_TRUE(picture == picture_of("svgf", 1)) << pixels;
+        EXPECT_FALSE(picture_of("asvgf", 0.5f) == picture_of("svgf", 0.5f)) << pixels;
+    }
 }
 
 TEST_F(Denoiser, OnlyAsvgfFollowsALightThatGoesOut)
 {
-    const auto share_left = [&](const char* mode) {
-        const auto session = start({ { "flt_denoiser", mode }, { "pt_seed", "0" } });
+    const auto share_left = [&](const char* mode, const char* pixels) {
+        const auto session = start({ { "flt_denoiser", mode }, { "pt_seed", "0" }, { "pt_bounce_pixels", pixels } });
         session->draw(30);
         const float before = luminance(session->capture().mean());
         EXPECT_GT(before, 0.001f);
@@ -89,8 +91,9 @@ TEST_F(Denoiser, OnlyAsvgfFollowsALightThatGoesOut)
         session->draw(2);
         return luminance(session->capture().mean()) / before;
     };
-    EXPECT_LT(share_left("asvgf"), 0.1f);
-    EXPECT_GT(share_left("svgf"), 0.5f);
+    for (const char* pixels : { "all", "half", "quarter" })
+        EXPECT_LT(share_left("asvgf", pixels), 0.1f) << pixels;
+    EXPECT_GT(share_left("svgf", "all"), 0.5f);
 }
 
 TEST_F(Denoiser, LowersTheErrorAndKeepsTheLight)

@@ -106,18 +106,23 @@ TEST_F(Filters, EveryTraceBackendGivesTheSamePicture)
     std::vector<std::string> backends;
     for (size_t i = 0; info.trace_backends[i]; i++)
         backends.emplace_back(info.trace_backends[i]);
-    Radiance first;
-    for (const std::string& backend : backends) {
-        session_->set("pt_trace", backend);
-        session_->load_map("room");
-        session_->draw(8);
-        const Radiance picture = session_->capture();
-        EXPECT_EQ(count_broken(picture), 0u) << backend;
-        if (first.pixels.empty())
-            first = picture;
-        // Rays through edges may differ in their last bit.
-        EXPECT_LT(error_between(picture, first), 1e-3 * std::pow(luminance(first.mean()), 2)) << backend;
+    for (const char* pixels : { "all", "quarter" }) {
+        session_->set("pt_bounce_pixels", pixels);
+        Radiance first;
+        for (const std::string& backend : backends) {
+            session_->set("pt_trace", backend);
+            session_->load_map("room");
+            session_->draw(8);
+            const Radiance picture = session_->capture();
+            EXPECT_EQ(count_broken(picture), 0u) << backend;
+            if (first.pixels.empty())
+                first = picture;
+            // Rays through edges may differ in their last bit.
+            EXPECT_LT(error_between(picture, first), 1e-3 * std::pow(luminance(first.mean()), 2))
+                << backend << ", " << pixels;
+        }
     }
+    session_->set("pt_bounce_pixels", "half");
 }
 
 TEST_F(Filters, AMenuLeavesTheGamesHistoryAlone)
@@ -226,11 +231,14 @@ TEST_F(Filters, PicturesOnWallsFakeNoChange)
     session_->set("pt_seed", 0);
     session_->set("flt_taa", "off");
     session_->set("pt_debug_view", "gradient");
-    session_->load_map("speckled");
-    session_->draw();
-    for (int frame = 1; frame < 12; frame++) {
+    for (const char* pixels : { "all", "quarter", "half" }) {
+        session_->set("pt_bounce_pixels", pixels);
+        session_->load_map("speckled");
         session_->draw();
-        EXPECT_TRUE(shows_no_gradient()) << "frame " << frame;
+        for (int frame = 1; frame < 12; frame++) {
+            session_->draw();
+            EXPECT_TRUE(shows_no_gradient()) << pixels << ", frame " << frame;
+        }
     }
     session_->set("pt_debug_view", "off");
 }
