@@ -5,8 +5,8 @@
 #include "lib/frame.glsl"
 #include "lib/denoise.glsl"
 
-// Frames that the average is worth at most.
-const float most_frames = 32.0;
+// Frames that the averages are worth at most; specular light's where the picture moves, for what a surface reflects moves otherwise.
+const float most_frames = 32.0, most_moving_frames = 4.0;
 const float most_moment_frames = 16.0;
 // From so many frames on, their variance is believed.
 const float least_frames = 4.0;
@@ -147,6 +147,13 @@ vec2 changed_share(uvec2 pixel)
     return clamp(abs(gradient.xz) / max(gradient.yw, 1e-10), 0.0, 1.0);
 }
 
+// Of specular light, which depends on where it is seen from: less and less up to a quarter of a pixel in a frame.
+float most_specular_frames(uvec2 pixel, vec2 shown)
+{
+    vec2 moved = abs(shown - ((vec2(pixel) + 0.5) * frame.previous_scale - 0.5));
+    return mix(most_frames, most_moving_frames, min(4.0 * max(moved.x, moved.y), 1.0));
+}
+
 // Without spatial filter this is already what the next view accumulates on.
 void store_light(uint index, uvec4 light)
 {
@@ -182,7 +189,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
     vec2 changed = changed_share(pixel);
     diffuse = limit_firefly(diffuse, history.light.diffuse, history.moments.frames.x, changed.x);
     specular = limit_firefly(specular, history.light.specular, history.moments.frames.y, changed.y);
-    vec2 frames = min(history.moments.frames + 1.0, most_frames);
+    vec2 frames = min(history.moments.frames + 1.0, vec2(most_frames, most_specular_frames(pixel, search.shown.xy)));
     frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed);
     vec2 share = 1.0 / frames;
     vec2 moment_share = 1.0 / min(frames, most_moment_frames);

@@ -3,6 +3,7 @@
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace vkpt::tests {
@@ -114,6 +115,32 @@ TEST_F(Denoiser, LowersTheErrorAndKeepsTheLight)
             << mode;
         EXPECT_EQ(count_broken(picture), 0u) << mode;
     }
+}
+
+// What a rough metal shows of a lamp wanders over it as the eye moves, and the history of the metal must not hold it
+// back.
+TEST_F(Denoiser, ReflectionsFollowTheEye)
+{
+    const auto session = start({ { "pt_seed", "0" }, { "pt_metallic_default", "1" }, { "pt_roughness_default", "0.4" },
+        { "pt_point_light_radius", "20" } });
+    constexpr int frames = 24;
+    const auto walk = [&](int frame) { session->look({ -120, -160 + 6 * frame, 90 }, { 120, -160 + 6 * frame, 20 }); };
+    walk(frames);
+    const Radiance reference = session->accumulate(400);
+    session->set("pt_accumulate", "0");
+    session->set("flt_denoiser", "asvgf");
+    double sum = 0;
+    constexpr int walks = 4;
+    for (int i = 0; i < walks; i++) {
+        session->view.time += 100; // anew
+        for (int frame = 0; frame <= frames; frame++) {
+            walk(frame);
+            session->draw();
+        }
+        sum += error_between(session->capture(), reference);
+    }
+    const double relative = sum / walks / std::pow(luminance(reference.mean()), 2);
+    EXPECT_LT(relative, 0.5);
 }
 
 // After a cut a picture is what it would be as the very first one.
