@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
 void filter_stratum(uvec2 stratum, uint number)
 {
     uvec2 pixel = stratum_pixel(stratum), count = stratum_count();
-    uint index = pixel.y * frame.size.x + pixel.x;
+    uint index = pixel_index(pixel);
     uvec2 guide = load_guide(index);
     vec2 slope = unpackHalf2x16(load_slope(index));
     vec4 sum = vec4(0.0);
@@ -21,7 +21,7 @@ void filter_stratum(uvec2 stratum, uint number)
         if (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, ivec2(count))))
             continue;
         uvec2 other_pixel = stratum_pixel(uvec2(place));
-        float other = guide_depth(load_guide(other_pixel.y * frame.size.x + other_pixel.x));
+        float other = guide_depth(load_guide(pixel_index(other_pixel)));
         vec2 pixels = vec2(other_pixel) - vec2(pixel);
         if (plane_distance(guide_depth(guide), slope, pixels, other) < plane_tolerance(slope, pixels))
             sum += load_element(push.source, uint(place.y) * count.x + uint(place.x), vec4(0.0)) * (way.x == 0 || way.y == 0 ? 0.125 : 0.0625)

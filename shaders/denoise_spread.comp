@@ -27,8 +27,8 @@ void spread_pixel(uvec2 pixel, uint index)
     ivec2 ways[4] = ivec2[](push.way, -push.way, ivec2(-push.way.y, push.way.x), ivec2(push.way.y, -push.way.x));
     [[unroll]] for (int tap = 0; tap < 4; tap++) {
         ivec2 place = ivec2(pixel) + ways[tap];
-        bool inside = all(lessThan(uvec2(place), frame.size)); // what is negative is very great without sign
-        uint there = inside ? uint(place.y) * frame.size.x + uint(place.x) : index;
+        bool inside = is_on_screen(uvec2(place));
+        uint there = inside ? pixel_index(uvec2(place)) : index;
         add_neighbour(diffuse, specular, centre, push.source, there, vec2(ways[tap]), inside ? tap_weight : 0.0, fall);
     }
     float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;

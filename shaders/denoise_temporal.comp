@@ -138,13 +138,10 @@ float specular_reach(PrimarySurface primary, float distance)
 }
 
 // Lambda: the share of the light (diffuse, specular) that has changed since the last view around this pixel.
-vec2 changed_share(uvec2 pixel)
+vec2 find_lambda(uvec2 pixel)
 {
-    if ((frame.flags & FRAME_REPLAYED) == 0u || (frame.flags & FRAME_HISTORY) == 0u)
-        return vec2(0.0);
-    uvec2 stratum = pixel / stratum_size();
-    vec4 gradient = load_gradient_b(stratum.y * stratum_count().x + stratum.x);
-    return clamp(abs(gradient.xz) / max(gradient.yw, 1e-10), 0.0, 1.0);
+    const uint measured = FRAME_REPLAYED | FRAME_HISTORY;
+    return (frame.flags & measured) == measured ? changed_share(pixel) : vec2(0.0);
 }
 
 // Of specular light, which depends on where it is seen from: less and less up to a quarter of a pixel in a frame.
@@ -186,7 +183,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
         history.moments.specular = glossy.moments.specular;
         history.moments.frames.y = glossy.moments.frames.y;
     }
-    vec2 changed = changed_share(pixel);
+    vec2 changed = find_lambda(pixel);
     diffuse = limit_firefly(diffuse, history.light.diffuse, history.moments.frames.x, changed.x);
     specular = limit_firefly(specular, history.light.specular, history.moments.frames.y, changed.y);
     vec2 frames = min(history.moments.frames + 1.0, vec2(most_frames, most_specular_frames(pixel, search.shown.xy)));

@@ -150,48 +150,37 @@ uint find_alike(BounceBlock block)
     return alike;
 }
 
-// Others' light, and more than its own, is no sample of a pixel that could be repeated.
-void forbid_repeating(uint index)
-{
-    if ((frame.flags & FRAME_REPLAYED) != 0u)
-        store_random_seed(index, no_random_seed);
-}
-
-// The leader's path, and those of pixels that do not share. Then what the leader found goes to the pixels that are like it, as if
-// each had sent the ray. Who has fewer of its kind in the block is lit more seldom, as those have fewer turns to lead, and
-// the more when it is: the mean stays.
+// The leader's path, and those of pixels that do not share. What the leader found goes to the pixels that are like it, as if each
+// had sent the ray. Who has fewer of its kind in the block is lit more seldom, as those have fewer turns to lead, and the
+// more when it is: the mean stays.
 void light_block(uvec2 number, uint)
 {
     BounceBlock block = open_bounce_block(number);
-    uint pixels = bounce_block_pixels(), alike = find_alike(block);
+    uint pixels = bounce_block_pixels(), alike = pixels > 1u ? find_alike(block) : 0u;
     float scale = alike != 0u ? float(pixels) / float(bitCount(alike)) : 1.0;
     FoundLight found = FoundLight(vec3(0.0), vec3(0.0), 0.0, -1.0);
     [[dont_unroll]] for (uint i = 0u; i < pixels; i++) {
         uvec2 pixel = pixel_of_block(block, i);
         uint index = pixel_index(pixel);
         PrimarySurface primary = load_block_surface(pixel);
-        if (primary.depth >= 0.0 && (i == 0u || sends_own_rays(primary))) {
-            BsdfValue reflected;
-            FoundLight own = follow_path(pixel, index, primary, reflected);
-            add_light(index, reflected, own.radiance * (i == 0u ? scale : 1.0), own.reflected_distance);
-            if (i == 0u) {
-                found = own;
-                if (scale > 1.0)
-                    forbid_repeating(index);
-            }
-        }
-    }
-    [[dont_unroll]] for (uint i = 1u; i < pixels; i++) {
-        uvec2 pixel = pixel_of_block(block, i);
-        uint index = pixel_index(pixel);
-        PrimarySurface primary = load_block_surface(pixel);
-        if (primary.depth >= 0.0 && !sends_own_rays(primary)) {
-            if ((alike >> i & 1u) != 0u && found.pdf > 0.0)
+        bool leads = i == 0u, alone = sends_own_rays(primary);
+        if (primary.depth >= 0.0) {
+            if (leads || alone) {
+                BsdfValue reflected;
+                FoundLight own = follow_path(pixel, index, primary, reflected);
+                add_light(index, reflected, own.radiance * (leads ? scale : 1.0), own.reflected_distance);
+                if (leads)
+                    found = own;
+            } else if ((alike >> i & 1u) != 0u && found.pdf > 0.0) {
                 add_light(index, evaluate_bsdf(primary.surface, found.direction), found.radiance * (scale / found.pdf),
                     found.reflected_distance);
-            else
+            } else {
                 store_reflected_distance(index, -1.0);
-            forbid_repeating(index);
+            }
+            // Others' light, and more than its own, is no sample of the pixel that could be repeated.
+            bool own_sample = alone || (leads && scale == 1.0);
+            if (!own_sample && (frame.flags & FRAME_REPLAYED) != 0u)
+                store_random_seed(index, no_random_seed);
         }
     }
 }

@@ -30,10 +30,10 @@ uint find_sample(uint index, PrimarySurface primary)
     vec2 place = floor(load_motion(index).xy + 0.5);
     if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
         return no_pixel;
-    uvec2 first = uvec2(whole_to_int(place)) / frame.bounce_block * frame.bounce_block;
+    BounceBlock block = BounceBlock(uvec2(whole_to_int(place)) / frame.bounce_block * frame.bounce_block, 0u);
     uint found = no_pixel;
     [[dont_unroll]] for (uint i = 0u; i < bounce_block_pixels(); i++) {
-        uvec2 pixel = min(first + uvec2(i & 1u, i >> 1u), frame.previous_size - 1u);
+        uvec2 pixel = min(pixel_of_block(block, i), frame.previous_size - 1u);
         uint there = pixel.y * frame.previous_size.x + pixel.x;
         uvec2 seed = load_previous_random_seed(there);
         if (is_own_sample(seed) && seed.y >= frame.scene.oldest_repeatable && shows_same(there, primary))

@@ -98,7 +98,7 @@ void resolve_pixel(uvec2 pixel, uint index)
     vec2 middle = (vec2(pixel) + 0.5) * vec2(frame.size) / vec2(frame.resolved_size);
     uvec2 rendered = min(uvec2(whole_to_int(floor(middle))), frame.size - 1u);
     Neighbourhood now = look_around(ivec2(rendered), middle, scale);
-    vec2 place = load_motion(rendered.y * frame.size.x + rendered.x).xy;
+    vec2 place = load_motion(pixel_index(rendered)).xy;
     vec2 way = (place + 0.5) / vec2(frame.previous_size) - (vec2(rendered) + 0.5) / vec2(frame.size);
     place = vec2(pixel) + way * vec2(frame.resolved_size);
     bool on_screen = all(greaterThanEqual(place, vec2(-0.5))) && all(lessThan(place, vec2(frame.resolved_size) - 0.5));

@@ -56,7 +56,7 @@ vec3 shown_colour(uvec2 pixel)
 {
     if (frame.cvars.pt_debug_view != DEBUG_VIEW_OFF) {
         uvec2 rendered = min(pixel * frame.size / frame.output_size, frame.size - 1u);
-        vec3 colour = debug_colour(frame.cvars.pt_debug_view, rendered, rendered.y * frame.size.x + rendered.x);
+        vec3 colour = debug_colour(frame.cvars.pt_debug_view, rendered, pixel_index(rendered));
         return encode_srgb(clamp(colour, 0.0, 1.0));
     }
     vec2 place = (vec2(pixel) + 0.5) / vec2(frame.output_size);
@@ -81,7 +81,7 @@ void show_pixel(uvec2 pixel, uint index)
     // Views without a world stand before what 2D has drawn.
     if ((frame.flags & FRAME_NO_WORLD) != 0u) {
         uvec2 rendered = min(pixel * frame.size / frame.output_size, frame.size - 1u);
-        if (load_position(rendered.y * frame.size.x + rendered.x).w == DEPTH_NOTHING)
+        if (load_position(pixel_index(rendered)).w == DEPTH_NOTHING)
             return;
     }
     imageStore(picture, ivec2(frame.output_origin + pixel), vec4(shown_colour(pixel), 1.0));

@@ -215,7 +215,7 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfac
     record_replay(uniforms);
     record_lit_pass("direct_light", pixels);
     // Also without bounces: MIS samplers need its rays.
-    record_lit_pass("indirect_light", pixel_work((uniforms.size + uniforms.bounce_block - 1u) / uniforms.bounce_block));
+    record_lit_pass("indirect_light", pixel_work(count_blocks(uniforms.size, uniforms.bounce_block)));
     if (uniforms.flags & shared::FRAME_DENOISED)
         record_denoiser(uniforms);
     record_pass("accumulate", pixels.groups);

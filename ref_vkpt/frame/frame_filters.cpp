@@ -53,8 +53,7 @@ glm::uvec2 bounce_block()
 
 uint32_t stratum_groups(const shared::FrameUniforms& uniforms)
 {
-    const glm::uvec2 width = uniforms.bounce_block * shared::STRATUM_BLOCKS,
-                     count = (uniforms.size + width - 1u) / width;
+    const glm::uvec2 count = count_blocks(uniforms.size, uniforms.bounce_block * shared::STRATUM_BLOCKS);
     return (count.x * count.y + shared::PIXEL_GROUP_SIZE - 1) / shared::PIXEL_GROUP_SIZE;
 }
 
@@ -144,11 +143,11 @@ void Frame::record_bloom(const shared::FrameUniforms& uniforms)
     };
     std::array<Level, bloom_levels> levels;
     uint64_t address = uniforms.screen.bloom.address;
-    glm::uvec2 size = (uniforms.resolved_size + shared::BLOOM_FIRST_STEP - 1u) / shared::BLOOM_FIRST_STEP;
+    glm::uvec2 size = count_blocks(uniforms.resolved_size, glm::uvec2(shared::BLOOM_FIRST_STEP));
     for (Level& level : levels) {
         level = { address, size };
         address += sizeof(glm::uvec2) * size.x * size.y;
-        size = (size + 1u) / 2u;
+        size = count_blocks(size, glm::uvec2(2));
     }
     const auto record = [&](const char* name, const Level& source, const Level& target) {
         record_level(name, shared::BloomPush { source.address, target.address, source.size, target.size },

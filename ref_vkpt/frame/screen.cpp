@@ -12,10 +12,12 @@ size_t pixel_count(glm::uvec2 size) { return size_t(size.x) * size.y; }
 
 } // namespace
 
+glm::uvec2 count_blocks(glm::uvec2 size, glm::uvec2 block) { return (size + block - 1u) / block; }
+
 uint32_t pixel_groups(glm::uvec2 size)
 {
-    const uint32_t tiles = (size.x + 7) / 8 * ((size.y + 7) / 8);
-    return (tiles + shared::PIXEL_TILES_PER_GROUP - 1) / shared::PIXEL_TILES_PER_GROUP;
+    const glm::uvec2 tiles = count_blocks(size, glm::uvec2(8));
+    return (tiles.x * tiles.y + shared::PIXEL_TILES_PER_GROUP - 1) / shared::PIXEL_TILES_PER_GROUP;
 }
 
 TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings)

@@ -63,6 +63,9 @@ private:
 
 TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings);
 
+// Of blocks that cover a view of this size.
+glm::uvec2 count_blocks(glm::uvec2 size, glm::uvec2 block);
+
 // Workgroups of a pass over a view of this size; see VKPT_RUN_OVER_PIXELS.
 uint32_t pixel_groups(glm::uvec2 size);
 

@@ -31,7 +31,4 @@ uvec2 pixel_of_block(BounceBlock block, uint i)
     return block.first + uvec2(place & 1u, place >> 1u);
 }
 
-uint pixel_index(uvec2 pixel) { return pixel.y * frame.size.x + pixel.x; }
-bool is_on_screen(uvec2 pixel) { return all(lessThan(pixel, frame.size)); }
-
 #endif

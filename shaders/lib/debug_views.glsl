@@ -46,13 +46,8 @@ vec3 variance_colour(uint index)
     return heat_colour(length(vec2(light.diffuse_deviation, light.specular_deviation)) / max(mean, 1e-6));
 }
 
-// How much the light has changed, by the repeated samples: red for the diffuse lobe, green for the specular one.
-vec3 gradient_colour(uvec2 pixel)
-{
-    uvec2 stratum = pixel / stratum_size();
-    vec4 gradient = load_gradient_b(stratum.y * stratum_count().x + stratum.x);
-    return vec3(clamp(abs(gradient.xz) / max(gradient.yw, 1e-10), 0.0, 1.0), 0.0);
-}
+// Red for the diffuse lobe, green for the specular one.
+vec3 gradient_colour(uvec2 pixel) { return vec3(changed_share(pixel), 0.0); }
 
 // The newest frame's share of the average: red for the diffuse lobe, green for the specular one.
 vec3 alpha_colour(uint index) { return vec3(1.0 / max(unpack_moments(load_moments(index)).frames, 1.0), 0.0); }

@@ -59,6 +59,14 @@ BounceBlock stratum_block(uvec2 stratum)
 
 uvec2 stratum_pixel(uvec2 stratum) { return min(pixel_of_block(stratum_block(stratum), 0u), frame.size - 1u); }
 
+// How much of either lobe's light has changed around a pixel, by the repeated samples: 0 to 1.
+vec2 changed_share(uvec2 pixel)
+{
+    uvec2 stratum = pixel / stratum_size();
+    vec4 gradient = load_gradient_b(stratum.y * stratum_count().x + stratum.x);
+    return clamp(abs(gradient.xz) / max(gradient.yw, 1e-10), 0.0, 1.0);
+}
+
 // main() for passes over strata: run(stratum, its number).
 #define VKPT_RUN_OVER_STRATA(run)                                                                                      \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \

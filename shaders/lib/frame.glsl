@@ -83,6 +83,11 @@ ivec2 whole_to_int(vec2 whole) { return floatBitsToInt(whole + 12582912.0) - 0x4
 #include "../shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
 
+// In the screen buffers.
+uint pixel_index(uvec2 pixel) { return pixel.y * frame.size.x + pixel.x; }
+// What is negative is very great without sign.
+bool is_on_screen(uvec2 pixel) { return all(lessThan(pixel, frame.size)); }
+
 // Where lane `lane` of 64 stands in an 8 x 8 tile: 16 neighbouring lanes (one vector of the CPU driver) cover 4 x 4 pixels.
 uvec2 pixel_in_tile(uint lane)
 {
