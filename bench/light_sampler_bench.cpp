@@ -23,7 +23,7 @@ struct Options {
     std::string base_folder, scene = "maps/vkpt1.bsp";
     int width = 640, height = 360, rounds = 9;
     std::vector<int> light_counts { 100, 10000 };
-    bool only_counts = false;
+    bool only_counts = false, filtered = false;
 };
 
 struct Case {
@@ -36,10 +36,25 @@ const std::vector<Case> all_cases { base, { "subset", 16 }, { "subset", 32 }, { 
     { "subset_onesweep", 8 }, { "subset_strides", 8 }, { "subset_mis", 8 }, { "subset_mis_biased", 8 },
     { "subset_mis_blue", 8 }, { "ris", 8 }, { "uniform", 8 }, { "full", 8 } };
 
+struct Milliseconds {
+    double light = 0; // the passes that choose lights
+    double frame = 0; // all passes
+};
+
 double median(std::vector<double> values)
 {
     std::ranges::sort(values);
     return values.empty() ? 0 : values[values.size() / 2];
+}
+
+// Of the part `what` of `times`, as ratio to those of the same round in `reference` where there are any.
+double median(const std::vector<Milliseconds>& times, double Milliseconds::*what,
+    const std::vector<Milliseconds>* reference = nullptr)
+{
+    std::vector<double> values;
+    for (size_t i = 0; i < times.size(); i++)
+        values.push_back(times[i].*what / (reference ? (*reference)[i].*what : 1));
+    return median(std::move(values));
 }
 
 // A map in the module.
@@ -53,24 +68,26 @@ public:
         client::HostOptions host;
         host.width = options.width;
         host.height = options.height;
-        host.cvars = { { "flt_denoiser", "off" }, { "flt_taa", "off" } };
+        if (!options.filtered)
+            host.cvars = { { "flt_denoiser", "off" }, { "flt_taa", "off" } };
         host_ = std::make_unique<client::Host>(host, &files_);
         scene_.register_with(*host_);
     }
 
-    // Milliseconds of the passes that choose lights.
-    double measure(const Case& wanted)
+    Milliseconds measure(const Case& wanted)
     {
         host_->cvars().set("pt_light_sampler", wanted.sampler);
         host_->cvars().set("pt_light_subset", std::to_string(wanted.subset));
         host_->draw_frame(scene_.view(options_.width, options_.height, 0));
         size_t count = 0;
         const PassTime* times = host_->extension().pass_times(&count);
-        double sum = 0;
-        for (size_t i = 0; i < count; i++)
+        Milliseconds sum;
+        for (size_t i = 0; i < count; i++) {
+            sum.frame += times[i].milliseconds;
             if (std::string_view(times[i].name).ends_with("direct_light"))
-                sum += times[i].milliseconds;
-        if (sum <= 0)
+                sum.light += times[i].milliseconds;
+        }
+        if (sum.light <= 0)
             throw client::Failure("the module told no time of its passes");
         return sum;
     }
@@ -114,13 +131,13 @@ public:
     RunApart& operator=(const RunApart&) = delete;
 
     // As Run::measure, for a case of all_cases.
-    double measure(size_t wanted)
+    Milliseconds measure(size_t wanted)
     {
-        double milliseconds = 0;
+        Milliseconds times;
         if (write(questions_, &wanted, sizeof wanted) != sizeof wanted
-            || read(answers_, &milliseconds, sizeof milliseconds) != sizeof milliseconds)
+            || read(answers_, &times, sizeof times) != sizeof times)
             throw client::Failure("the process of one map has ended");
-        return milliseconds;
+        return times;
     }
 
 private:
@@ -132,8 +149,8 @@ private:
             Run run(options, base_folder, scene);
             size_t wanted = 0;
             while (read(questions, &wanted, sizeof wanted) == sizeof wanted && wanted < all_cases.size()) {
-                const double milliseconds = run.measure(all_cases[wanted]);
-                if (write(answers, &milliseconds, sizeof milliseconds) != sizeof milliseconds)
+                const Milliseconds times = run.measure(all_cases[wanted]);
+                if (write(answers, &times, sizeof times) != sizeof times)
                     break;
             }
         } catch (const std::exception& error) {
@@ -155,7 +172,7 @@ void print_costs(const Options& options)
         run.measure(c); // compiles it
     for (int round = 0; round < options.rounds; round++)
         for (const Case& c : all_cases) {
-            const double before = run.measure(base), time = run.measure(c), after = run.measure(base);
+            const double before = run.measure(base).light, time = run.measure(c).light, after = run.measure(base).light;
             ratios[c].push_back(2 * time / (before + after));
             times[c].push_back(time);
         }
@@ -207,8 +224,9 @@ void print_counts(const Options& options, const Hall& hall)
     for (const int count : options.light_counts)
         runs.push_back(std::make_unique<RunApart>(
             options, folder.path(), fmt::format("maps/hall{}.bsp@-400,-400,100,10,45", count)));
-    fmt::print("\n{}: {}; milliseconds by number of small lights, and ratio to the first\n\n| sampler |", hall.name,
-        hall.title);
+    fmt::print("\n{}: {}; milliseconds of light and of the frame by number of small lights, and ratios to the "
+               "first\n\n| sampler |",
+        hall.name, hall.title);
     for (const int count : options.light_counts)
         fmt::print(" {} |", count);
     fmt::print("\n|---|");
@@ -218,17 +236,17 @@ void print_counts(const Options& options, const Hall& hall)
     for (size_t which = 0; which < all_cases.size(); which++) {
         if (all_cases[which].sampler == "full" || all_cases[which].subset != base.subset)
             continue;
-        std::vector<std::vector<double>> times(runs.size()), ratios(runs.size());
+        std::vector<std::vector<Milliseconds>> times(runs.size());
         for (const auto& run : runs)
             run->measure(which); // compiles it
         for (int round = 0; round < options.rounds; round++)
-            for (size_t i = 0; i < runs.size(); i++) {
+            for (size_t i = 0; i < runs.size(); i++)
                 times[i].push_back(runs[i]->measure(which));
-                ratios[i].push_back(times[i].back() / times[0].back());
-            }
         fmt::print("| `{}` |", all_cases[which].sampler);
-        for (size_t i = 0; i < runs.size(); i++)
-            fmt::print(" {:.0f} ({:.2f}) |", median(times[i]), median(ratios[i]));
+        for (const std::vector<Milliseconds>& of_run : times)
+            fmt::print(" {:.0f} of {:.0f} ({:.2f}, {:.2f}) |", median(of_run, &Milliseconds::light),
+                median(of_run, &Milliseconds::frame), median(of_run, &Milliseconds::light, &times[0]),
+                median(of_run, &Milliseconds::frame, &times[0]));
         fmt::print("\n");
     }
 }
@@ -247,6 +265,7 @@ int main(int argc, char** argv)
     program.add_option("--lights", options.light_counts, "Numbers of lights in generated halls; at most 10000")
         ->check(CLI::Range(1, 10000));
     program.add_flag("--only-counts", options.only_counts, "Leave the table of costs out");
+    program.add_flag("--filtered", options.filtered, "With the denoiser and anti-aliasing of the defaults");
     CLI11_PARSE(program, argc, argv);
     try {
         if (!options.only_counts)

@@ -62,7 +62,7 @@ void check_light_sampler()
     for (std::string_view sampler : names)
         known += known.empty() ? std::string(sampler) : ", " + std::string(sampler);
     engine::print("vkpt: pt_light_sampler \"{}\" is unknown; there are: {}", name, known);
-    cvars::set("pt_light_sampler", "subset");
+    cvars::set("pt_light_sampler", find_cvar_row("pt_light_sampler")->initial);
     cvars::update();
 }
 

@@ -44,25 +44,44 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LaneFloat { 
 #define VKPT_SUM(i) sums[i]
 #endif
 
-// Listing 47-1 from line 6 on. It keeps the sums of the weights so far instead of the weights: they are sorted, so that the second
-// sweep is a search that halves what is left, and a light's chance is its interval to the last bit.
-LightSample sample_subset_in_two_sweeps(
-    LightListView list, LightPredictor predictor, SubsetChoice choice, LightRandom random)
+// A light chosen beforehand among others than the subset's, and what all of those weigh beside it.
+struct OtherLight {
+    int emitter;
+    float weight;
+    float total; // 0: none
+};
+
+OtherLight no_other_light()
 {
-    uint count = light_count(list);
+    OtherLight other;
+    other.emitter = -1;
+    other.weight = 0.0f;
+    other.total = 0.0f;
+    return other;
+}
+
+// Listing 47-1 from line 6 on, for the subset's lights among the list's first `count` and behind them `other`. It keeps the sums of the
+// weights so far instead of the weights: they are sorted, so that the second sweep is a search that halves what is left, and a light's
+// chance is its interval to the last bit.
+LightSample sample_subset_in_two_sweeps(
+    LightListView list, LightPredictor predictor, uint count, SubsetChoice choice, OtherLight other, LightRandom random)
+{
     VKPT_SUMS;
-    float total = 0.0f;
+    float subset_total = 0.0f;
     uint length_used = 0u;
     for (uint position = choice.offset; position < count && length_used < max_subset_length; position += choice.stride) {
-        total += weigh_light(list, predictor, position);
-        VKPT_SUM(length_used) = total;
+        subset_total += weigh_light(list, predictor, position);
+        VKPT_SUM(length_used) = subset_total;
         length_used += 1u;
     }
+    float total = subset_total + other.total;
     if (!(total > 0.0f))
         return no_light();
 
     // The first sum above the threshold, which rounding must not lift to the last one: its light has weight.
     float threshold = quick_min(choice.rest * total, total * max_below_one);
+    if (threshold >= subset_total)
+        return make_light_sample(uint(other.emitter), other.weight / (total * float(choice.stride)), random);
     uint low = 0u, high = length_used - 1u;
     while (low < high) {
         uint middle = (low + high) / 2u;

@@ -89,6 +89,38 @@ TEST_F(SamplerError, FallsWithTheLengthOfTheSubset)
     }
 }
 
+// A flash among lamps: of the whole list's eight subsets one holds it.
+TEST_F(SamplerError, FallsWhereDynamicLightsHaveASubsetOfTheirOwn)
+{
+    MapBuilder map;
+    map.add_room({ -256, -256, 0 }, { 256, 256, 160 }, map.add_material("wall"));
+    const uint16_t lamp = map.add_material("lamp", 0, 50);
+    for (int i = 0; i < 64; i++)
+        map.add(rectangle({ float(i % 8) * 60 - 210, float(i / 8) * 60 - 210, 150 }, { 0, 6, 0 }, { 6, 0, 0 }), lamp);
+    start(map, { { "pt_roughness_default", "1" } });
+    session_->look({ 0, -40, 100 }, { 0, 0, 0 });
+    const auto draw = [&](const char* sampler) {
+        use_sampler(*session_, sampler, 8);
+        return draw_average(*session_, 1, 1);
+    };
+    EXPECT_EQ(draw("subset_dynamic"), draw("subset")); // without dynamic lights they are one
+
+    const engine::DynamicLight flash { { 30, 20, 40 }, { 1, 0.8f, 0.3f }, 300 };
+    session_->view.dlights = &flash;
+    session_->view.dlight_count = 1;
+    session_->extension().thaw_scene();
+    use_sampler(*session_, "full", 8);
+    const Radiance reference = draw_average(*session_, 1000, 256);
+    use_sampler(*session_, "subset", 8);
+    const double together = measure_error(*session_, reference);
+    use_sampler(*session_, "subset_dynamic", 8);
+    const double apart = measure_error(*session_, reference);
+    RecordProperty("together", std::to_string(together));
+    RecordProperty("apart", std::to_string(apart));
+    EXPECT_LT(apart, 0.5 * together);
+    EXPECT_GT(apart, 0);
+}
+
 // With and without MIS, all else equal.
 void expect_mis_to_help(Session& session, double most)
 {
