@@ -1,18 +1,21 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The first level of the spatial filter: 3 x 3 pixels. Where too few frames tell how much the light varies, these pixels do.
+// The first level of the spatial filter: 3 x 3 pixels.
 #include "lib/frame.glsl"
 #include "lib/denoise_taps.glsl"
 
 layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
 
-float filtered_deviation(Sums sums, float deviation)
+// As FilteredLight has it. What is unknown stays so until the next level, but for pixels beside some with more history, as anti-aliasing
+// makes them at every edge: the next level would blur those.
+float filtered_deviation(Sums sums, float scale, float deviation)
 {
-    const float taps = 9.0;
-    float scale = 1.0 / sums.weight, mean = luminance(sums.light) * scale;
-    float measured = max(sums.square * scale - mean * mean, 0.0) / taps;
-    return sqrt(is_known(deviation) ? sums.variance * scale * scale : measured);
+    const float least_known = 0.03, pixels = 9.0;
+    float mean = luminance(sums.light) * scale, square = sums.square * scale;
+    bool beside_known = sums.known * scale > least_known;
+    float measured = sqrt(beside_known ? max(square - mean * mean, 0.0) * (1.0 / pixels) : square);
+    return is_known(deviation) ? sqrt(sums.variance) * scale : (beside_known ? measured : -measured);
 }
 
 void filter_pixel(uvec2 pixel, uint index)
@@ -34,7 +37,7 @@ void filter_pixel(uvec2 pixel, uint index)
     float across[3] = float[](pixel.x > 0u ? 0.25 : 0.0, 0.5, pixel.x < last.x ? 0.25 : 0.0);
     float down[3] = float[](pixel.y > 0u ? 0.25 : 0.0, 0.5, pixel.y < last.y ? 0.25 : 0.0);
 
-    Sums diffuse = Sums(vec3(0.0), 0.0, 0.0, 0.0), specular = diffuse;
+    Sums diffuse = Sums(vec3(0.0), 0.0, 0.0, 0.0, 0.0), specular = diffuse;
     add_tap(diffuse, light.diffuse, centre.diffuse_luminance, light.diffuse_deviation, 0.25);
     add_tap(specular, light.specular, centre.specular_luminance, light.specular_deviation, 0.25);
     [[unroll]] for (int y = 0; y < 3; y++)
@@ -42,11 +45,9 @@ void filter_pixel(uvec2 pixel, uint index)
             if (x != 1 || y != 1)
                 add_neighbour(diffuse, specular, centre, push.source, rows[y] + columns[x], vec2(x - 1, y - 1), across[x] * down[y],
                     x != 1 && y != 1 ? fall * fall : fall);
-    FilteredLight result;
-    result.diffuse = diffuse.light / diffuse.weight;
-    result.specular = specular.light / specular.weight;
-    result.diffuse_deviation = filtered_deviation(diffuse, light.diffuse_deviation);
-    result.specular_deviation = filtered_deviation(specular, light.specular_deviation);
+    float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;
+    FilteredLight result = FilteredLight(diffuse.light * diffuse_scale, filtered_deviation(diffuse, diffuse_scale, light.diffuse_deviation),
+        specular.light * specular_scale, filtered_deviation(specular, specular_scale, light.specular_deviation));
     store_element(push.target.address, index, pack_filtered(result));
 }
 

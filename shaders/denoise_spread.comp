@@ -10,6 +10,14 @@ layout(push_constant, scalar) uniform PushBlock { SpreadPush push; };
 
 const float centre_weight = 1.0 / 3.0, tap_weight = 1.0 / 6.0;
 
+// Where too few frames tell how much the light varies, the pixels of this level and the first do, which are worth so many in the average.
+const float measured_pixels = 32.0;
+float spread_deviation(Sums sums, float scale, float deviation)
+{
+    float mean = luminance(sums.light) * scale, measured = max(sums.square * scale - mean * mean, 0.0) * (1.0 / measured_pixels);
+    return sqrt(is_known(deviation) ? sums.variance * scale * scale : measured);
+}
+
 void spread_pixel(uvec2 pixel, uint index)
 {
     uvec2 guide = load_guide(index);
@@ -21,7 +29,7 @@ void spread_pixel(uvec2 pixel, uint index)
     FilteredLight light = unpack_filtered(bits);
     Pixel centre = make_pixel(index, guide, light);
     float fall = specular_fall(length(vec2(push.way)), unpack_moments(load_moments(index)).specular_reach);
-    Sums diffuse = Sums(vec3(0.0), 0.0, 0.0, 0.0), specular = diffuse;
+    Sums diffuse = Sums(vec3(0.0), 0.0, 0.0, 0.0, 0.0), specular = diffuse;
     add_tap(diffuse, light.diffuse, centre.diffuse_luminance, light.diffuse_deviation, centre_weight);
     add_tap(specular, light.specular, centre.specular_luminance, light.specular_deviation, centre_weight);
     ivec2 ways[4] = ivec2[](push.way, -push.way, ivec2(-push.way.y, push.way.x), ivec2(push.way.y, -push.way.x));
@@ -32,8 +40,8 @@ void spread_pixel(uvec2 pixel, uint index)
         add_neighbour(diffuse, specular, centre, push.source, there, vec2(ways[tap]), inside ? tap_weight : 0.0, fall);
     }
     float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;
-    FilteredLight result = FilteredLight(diffuse.light * diffuse_scale, sqrt(diffuse.variance) * diffuse_scale,
-        specular.light * specular_scale, sqrt(specular.variance) * specular_scale);
+    FilteredLight result = FilteredLight(diffuse.light * diffuse_scale, spread_deviation(diffuse, diffuse_scale, light.diffuse_deviation),
+        specular.light * specular_scale, spread_deviation(specular, specular_scale, light.specular_deviation));
     store_element(push.target.address, index, pack_filtered(result));
 }
 

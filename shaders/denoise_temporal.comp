@@ -80,11 +80,11 @@ History find_history(Search search, vec2 at)
     return sum;
 }
 
-// Deviation of the average: that of one frame, over the root of the frames that the average is worth.
+// Deviation of the average: that of one frame, over the root of the frames that the average is worth. As FilteredLight has it.
 float average_deviation(vec2 mean_and_square, float frames)
 {
     if (frames < least_frames)
-        return deviation_unknown;
+        return -sqrt(mean_and_square.y);
     return sqrt(max(mean_and_square.y - mean_and_square.x * mean_and_square.x, 0.0) / frames);
 }
 

@@ -8,7 +8,8 @@
 #include "reprojection.glsl"
 #include "surfaces.glsl"
 
-// Light of a pixel with the standard deviation of its luminance, either for each of the two lobes.
+// Light of a pixel with the standard deviation of its luminance, either for each of the two lobes. Where too few frames tell how much the
+// luminance varies, minus the root of its mean square: the spatial filter's first levels measure it among the neighbours.
 struct FilteredLight {
     vec3 diffuse;
     float diffuse_deviation;
@@ -16,22 +17,30 @@ struct FilteredLight {
     float specular_deviation;
 };
 
+// In the upper half of a word: as light, but for the last bit, which is the sign.
+uint deviation_bits(float deviation)
+{
+    return ((light16_bits(abs(deviation)) & ~1u) | (floatBitsToUint(deviation) >> 31u)) << 16u;
+}
+float unpack_deviation(uint bits)
+{
+    uint size = ((bits >> 3u) & 0x1fffc000u) + uint(least_light16);
+    return uintBitsToFloat(size | ((bits << 15u) & 0x80000000u));
+}
+
 uvec4 pack_filtered(FilteredLight light)
 {
-    return uvec4(pack_light2(light.diffuse.xy), pack_light2(vec2(light.diffuse.z, light.diffuse_deviation)),
-        pack_light2(light.specular.xy), pack_light2(vec2(light.specular.z, light.specular_deviation)));
+    return uvec4(pack_light2(light.diffuse.xy), light16_bits(light.diffuse.z) | deviation_bits(light.diffuse_deviation),
+        pack_light2(light.specular.xy), light16_bits(light.specular.z) | deviation_bits(light.specular_deviation));
 }
 
 FilteredLight unpack_filtered(uvec4 bits)
 {
-    vec2 d = unpack_light2(bits.y), s = unpack_light2(bits.w);
-    return FilteredLight(vec3(unpack_light2(bits.x), d.x), d.y, vec3(unpack_light2(bits.z), s.x), s.y);
+    return FilteredLight(vec3(unpack_light2(bits.x), unpack_light2(bits.y).x), unpack_deviation(bits.y),
+        vec3(unpack_light2(bits.z), unpack_light2(bits.w).x), unpack_deviation(bits.w));
 }
 
-// A deviation that tells the first level of the spatial filter: too few frames, measure it among the neighbours. So great that
-// any difference of luminances is small beside it.
-const float deviation_unknown = 60000.0;
-bool is_known(float deviation) { return deviation < 0.9 * deviation_unknown; }
+bool is_known(float deviation) { return floatBitsToInt(deviation) >= 0; }
 
 // Colour that the specular light of this surface carries.
 vec3 specular_tint(Surface s) { return mix(vec3(1.0), max(s.albedo, 0.05), s.metallic); }

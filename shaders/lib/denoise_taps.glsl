@@ -26,22 +26,24 @@ struct Sums {
     vec3 light;
     float weight;
     float variance; // of the sum
-    float square;   // of the luminances
+    float square;   // mean square of the luminances, times weight
+    float known;    // weight of the taps whose deviation is
 };
 
 void add_tap(inout Sums sums, vec3 light, float l, float deviation, float weight)
 {
-    float known = is_known(deviation) ? deviation * weight : 0.0, weighted = l * weight;
+    float variance = deviation * deviation, weighted = variance * weight;
     sums.light += light * weight;
     sums.weight += weight;
-    sums.variance += known * known;
-    sums.square += l * weighted;
+    sums.variance += is_known(deviation) ? weighted * weight : 0.0;
+    sums.square += is_known(deviation) ? l * l * weight : weighted;
+    sums.known += is_known(deviation) ? weight : 0.0;
 }
 
-// Square of the difference of luminances that counts little less than none. Deviations of pixel and tap count: were it the
+// Square of the difference of luminances that counts little less than none; any, where it is not known how much they vary. Deviations of pixel and tap count: were it the
 // pixel's own alone, the few bright samples of a rare path would be turned away by their neighbours, whose history has not met
 // such a path yet, and their light would be lost.
-float allowed_square(float deviation) { return deviations * deviations * deviation * deviation; }
+float allowed_square(float deviation) { return is_known(deviation) ? deviations * deviations * deviation * deviation : 1e10; }
 
 float least_square(float l)
 {
