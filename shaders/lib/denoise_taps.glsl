@@ -27,7 +27,7 @@ struct Sums {
     float weight;
     float variance; // of the sum
     float square;   // mean square of the luminances, times weight
-    float known;    // weight of the taps whose deviation is
+    float known;    // weight of the taps whose deviation is known
 };
 
 void add_tap(inout Sums sums, vec3 light, float l, float deviation, float weight)
@@ -40,9 +40,9 @@ void add_tap(inout Sums sums, vec3 light, float l, float deviation, float weight
     sums.known += is_known(deviation) ? weight : 0.0;
 }
 
-// Square of the difference of luminances that counts little less than none; any, where it is not known how much they vary. Deviations of pixel and tap count: were it the
-// pixel's own alone, the few bright samples of a rare path would be turned away by their neighbours, whose history has not met
-// such a path yet, and their light would be lost.
+// Square of the difference of luminances that counts little less than none; any, where it is not known how much they vary.
+// Deviations of pixel and tap count: were it the pixel's own alone, the few bright samples of a rare path would be turned away by
+// their neighbours, whose history has not met such a path yet, and their light would be lost.
 float allowed_square(float deviation) { return is_known(deviation) ? deviations * deviations * deviation * deviation : 1e10; }
 
 float least_square(float l)
