@@ -12,9 +12,8 @@ layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
 float filtered_deviation(Sums sums, float scale, float deviation)
 {
     const float least_known = 0.03, pixels = 9.0;
-    float mean = luminance(sums.light) * scale, square = sums.square * scale;
     bool beside_known = sums.known * scale > least_known;
-    float measured = sqrt(beside_known ? max(square - mean * mean, 0.0) * (1.0 / pixels) : square);
+    float measured = sqrt(beside_known ? measure_variance(sums, scale, pixels) : sums.square * scale);
     return is_known(deviation) ? sqrt(sums.variance) * scale : (beside_known ? measured : -measured);
 }
 
@@ -37,7 +36,7 @@ void filter_pixel(uvec2 pixel, uint index)
     float across[3] = float[](pixel.x > 0u ? 0.25 : 0.0, 0.5, pixel.x < last.x ? 0.25 : 0.0);
     float down[3] = float[](pixel.y > 0u ? 0.25 : 0.0, 0.5, pixel.y < last.y ? 0.25 : 0.0);
 
-    Sums diffuse = Sums(vec3(0.0), 0.0, 0.0, 0.0, 0.0), specular = diffuse;
+    Sums diffuse = no_taps(), specular = diffuse;
     add_tap(diffuse, light.diffuse, centre.diffuse_luminance, light.diffuse_deviation, 0.25);
     add_tap(specular, light.specular, centre.specular_luminance, light.specular_deviation, 0.25);
     [[unroll]] for (int y = 0; y < 3; y++)

@@ -14,8 +14,7 @@ const float centre_weight = 1.0 / 3.0, tap_weight = 1.0 / 6.0;
 const float measured_pixels = 32.0;
 float spread_deviation(Sums sums, float scale, float deviation)
 {
-    float mean = luminance(sums.light) * scale, measured = max(sums.square * scale - mean * mean, 0.0) * (1.0 / measured_pixels);
-    return sqrt(is_known(deviation) ? sums.variance * scale * scale : measured);
+    return sqrt(is_known(deviation) ? sums.variance * scale * scale : measure_variance(sums, scale, measured_pixels));
 }
 
 void spread_pixel(uvec2 pixel, uint index)
@@ -29,7 +28,7 @@ void spread_pixel(uvec2 pixel, uint index)
     FilteredLight light = unpack_filtered(bits);
     Pixel centre = make_pixel(index, guide, light);
     float fall = specular_fall(length(vec2(push.way)), unpack_moments(load_moments(index)).specular_reach);
-    Sums diffuse = Sums(vec3(0.0), 0.0, 0.0, 0.0, 0.0), specular = diffuse;
+    Sums diffuse = no_taps(), specular = diffuse;
     add_tap(diffuse, light.diffuse, centre.diffuse_luminance, light.diffuse_deviation, centre_weight);
     add_tap(specular, light.specular, centre.specular_luminance, light.specular_deviation, centre_weight);
     ivec2 ways[4] = ivec2[](push.way, -push.way, ivec2(-push.way.y, push.way.x), ivec2(push.way.y, -push.way.x));

@@ -30,6 +30,15 @@ struct Sums {
     float known;    // weight of the taps whose deviation is known
 };
 
+Sums no_taps() { return Sums(vec3(0.0), 0.0, 0.0, 0.0, 0.0); }
+
+// How much the luminances of the taps vary, as an average of `pixels` of them. `scale`: 1 over the weight.
+float measure_variance(Sums sums, float scale, float pixels)
+{
+    float mean = luminance(sums.light) * scale;
+    return max(sums.square * scale - mean * mean, 0.0) * (1.0 / pixels);
+}
+
 void add_tap(inout Sums sums, vec3 light, float l, float deviation, float weight)
 {
     float variance = deviation * deviation, weighted = variance * weight;
@@ -43,7 +52,8 @@ void add_tap(inout Sums sums, vec3 light, float l, float deviation, float weight
 // Square of the difference of luminances that counts little less than none; any, where it is not known how much they vary.
 // Deviations of pixel and tap count: were it the pixel's own alone, the few bright samples of a rare path would be turned away by
 // their neighbours, whose history has not met such a path yet, and their light would be lost.
-float allowed_square(float deviation) { return is_known(deviation) ? deviations * deviations * deviation * deviation : 1e10; }
+const float any_square = 1e10;
+float allowed_square(float deviation) { return is_known(deviation) ? deviations * deviations * deviation * deviation : any_square; }
 
 float least_square(float l)
 {

@@ -85,6 +85,21 @@ LightListView newcomers(LightListView list)
     return list;
 }
 
+LightListView static_lights(LightListView list)
+{
+    list.range.dynamic_count = 0u;
+    list.counted = list.range.static_count;
+    return list;
+}
+
+// Newcomers included, behind those that are counted.
+LightListView dynamic_lights(LightListView list)
+{
+    list.counted -= list.range.static_count;
+    list.range.static_count = 0u;
+    return list;
+}
+
 // Where an emitter stands in a sorted part of the list, -1: nowhere. Without duplicates, places are no farther apart than
 // indices: every index that is read bounds the place from both sides, and in a run of neighbouring emitters gives it away.
 int find_light_in(LightListView list, uint emitter, uint first, uint end)

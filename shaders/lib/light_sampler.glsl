@@ -133,6 +133,16 @@ float weigh_light(LightListView list, LightPredictor predictor, uint position)
     return weigh_emitter(list, predictor, light_at(list, position));
 }
 
+// The sum of the weights of the lights at `first` and every `stride` from there on.
+float weigh_lights(LightListView list, LightPredictor predictor, uint first, uint stride)
+{
+    uint count = light_count(list);
+    float total = 0.0f;
+    for (uint position = first; position < count; position += stride)
+        total += weigh_light(list, predictor, position);
+    return total;
+}
+
 // A cheap generator for many numbers in a row (PCG, RXS-M-XS 32 of O'Neill 2014). Its state starts as a hash of pixel, frame
 // and dimension: seeding it from the number that chooses within the subset would correlate the two and bias the result.
 uint start_fast_random(Random more)

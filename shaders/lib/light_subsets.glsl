@@ -44,28 +44,13 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LaneFloat { 
 #define VKPT_SUM(i) sums[i]
 #endif
 
-// A light chosen beforehand among others than the subset's, and what all of those weigh beside it.
-struct OtherLight {
-    int emitter;
-    float weight;
-    float total; // 0: none
-};
-
-OtherLight no_other_light()
-{
-    OtherLight other;
-    other.emitter = -1;
-    other.weight = 0.0f;
-    other.total = 0.0f;
-    return other;
-}
-
-// Listing 47-1 from line 6 on, for the subset's lights among the list's first `count` and behind them `other`. It keeps the sums of the
-// weights so far instead of the weights: they are sorted, so that the second sweep is a search that halves what is left, and a light's
-// chance is its interval to the last bit.
+// Listing 47-1 from line 6 on, with what `others` holds behind the subset's lights. It keeps the sums of the weights so far instead of the
+// weights: they are sorted, so that the second sweep is a search that halves what is left, and a light's chance is its interval to the
+// last bit.
 LightSample sample_subset_in_two_sweeps(
-    LightListView list, LightPredictor predictor, uint count, SubsetChoice choice, OtherLight other, LightRandom random)
+    LightListView list, LightPredictor predictor, SubsetChoice choice, Reservoir others, LightRandom random)
 {
+    uint count = light_count(list);
     VKPT_SUMS;
     float subset_total = 0.0f;
     uint length_used = 0u;
@@ -74,14 +59,14 @@ LightSample sample_subset_in_two_sweeps(
         VKPT_SUM(length_used) = subset_total;
         length_used += 1u;
     }
-    float total = subset_total + other.total;
+    float total = subset_total + others.total;
     if (!(total > 0.0f))
         return no_light();
 
     // The first sum above the threshold, which rounding must not lift to the last one: its light has weight.
     float threshold = quick_min(choice.rest * total, total * max_below_one);
     if (threshold >= subset_total)
-        return make_light_sample(uint(other.emitter), other.weight / (total * float(choice.stride)), random);
+        return make_light_sample(uint(others.emitter), others.weight / (total * float(choice.stride)), random);
     uint low = 0u, high = length_used - 1u;
     while (low < high) {
         uint middle = (low + high) / 2u;
@@ -96,21 +81,35 @@ LightSample sample_subset_in_two_sweeps(
     return make_light_sample(emitter, mass / (total * float(choice.stride)), random);
 }
 
+LightSample sample_strided_subset(LightListView list, Surface s, LightRandom random, LightOptions options)
+{
+    if (light_count(list) == 0u)
+        return no_light();
+    SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
+    return sample_subset_in_two_sweeps(list, make_predictor(s, options), choice, make_reservoir(0.0f), random);
+}
+
+// Listing 47-2 from line 6 on: one sweep, with a number of its own.
+Reservoir sweep_subset(LightListView list, LightPredictor predictor, SubsetChoice choice, float xi)
+{
+    uint count = light_count(list);
+    Reservoir reservoir = make_reservoir(xi);
+    for (uint position = choice.offset; position < count; position += choice.stride) {
+        uint emitter = light_at(list, position);
+        offer_light(reservoir, emitter, weigh_emitter(list, predictor, emitter));
+    }
+    return reservoir;
+}
+
 // The light's place in the list tells the only subset of equal offsets that holds it, so no random number matters.
 float strided_subset_probability(LightListView list, LightPredictor predictor, uint emitter, uint subset_length)
 {
     int place = find_light(list, emitter);
     if (place < 0)
         return 0.0f;
-    uint count = light_count(list);
     uint stride = subset_stride(list.counted, subset_length);
-    float total = 0.0f, mass = 0.0f;
-    for (uint position = uint(place) % stride; position < count; position += stride) {
-        float weight = weigh_light(list, predictor, position);
-        total += weight;
-        if (position == uint(place))
-            mass = weight;
-    }
+    float mass = weigh_light(list, predictor, uint(place));
+    float total = weigh_lights(list, predictor, uint(place) % stride, stride);
     return mass > 0.0f ? mass / (total * float(stride)) : 0.0f;
 }
 

@@ -62,11 +62,8 @@ float light_probability(LightListView list, Surface s, uint emitter, LightRandom
     if (place < 0)
         return 0.0f;
     LightPredictor predictor = make_predictor(s, options);
-    float total = 0.0f;
-    for (uint position = 0u; position < light_count(list); position++)
-        total += weigh_light(list, predictor, position);
     float mass = weigh_light(list, predictor, uint(place));
-    return mass > 0.0f ? mass / total : 0.0f;
+    return mass > 0.0f ? mass / weigh_lights(list, predictor, 0u, 1u) : 0.0f;
 }
 
 #endif

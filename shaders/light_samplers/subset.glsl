@@ -10,10 +10,7 @@ const bool light_sampler_mis = false;
 
 LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 {
-    if (light_count(list) == 0u)
-        return no_light();
-    SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
-    return sample_subset_in_two_sweeps(list, make_predictor(s, options), light_count(list), choice, no_other_light(), random);
+    return sample_strided_subset(list, s, random, options);
 }
 
 float light_probability(LightListView list, Surface s, uint emitter, LightRandom random, LightOptions options)

@@ -10,16 +10,10 @@ const bool light_sampler_mis = false;
 
 LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 {
-    uint count = light_count(list);
-    if (count == 0u)
+    if (light_count(list) == 0u)
         return no_light();
-    LightPredictor predictor = make_predictor(s, options);
     SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
-    Reservoir reservoir = make_reservoir(choice.rest);
-    for (uint position = choice.offset; position < count; position += choice.stride) {
-        uint emitter = light_at(list, position);
-        offer_light(reservoir, emitter, weigh_emitter(list, predictor, emitter));
-    }
+    Reservoir reservoir = sweep_subset(list, make_predictor(s, options), choice, choice.rest);
     if (reservoir.emitter < 0)
         return no_light();
     return make_light_sample(
