@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <sys/wait.h>
@@ -23,6 +24,7 @@ struct Options {
     std::string base_folder, scene = "maps/vkpt1.bsp";
     int width = 640, height = 360, rounds = 9;
     std::vector<int> light_counts { 100, 10000 };
+    std::vector<std::string> samplers; // empty: all
     bool only_counts = false, filtered = false;
 };
 
@@ -35,6 +37,11 @@ const Case base { "subset", 8 };
 const std::vector<Case> all_cases { base, { "subset", 16 }, { "subset", 32 }, { "subset", 64 },
     { "subset_onesweep", 8 }, { "subset_dynamic", 8 }, { "subset_strides", 8 }, { "subset_mis", 8 },
     { "subset_mis_biased", 8 }, { "subset_mis_blue", 8 }, { "ris", 8 }, { "uniform", 8 }, { "full", 8 } };
+
+bool is_wanted(const Options& options, const Case& c)
+{
+    return options.samplers.empty() || std::ranges::find(options.samplers, c.sampler) != options.samplers.end();
+}
 
 struct Milliseconds {
     double light = 0; // the passes that choose lights
@@ -168,17 +175,20 @@ void print_costs(const Options& options)
 {
     Run run(options, options.base_folder, options.scene);
     std::map<Case, std::vector<double>> ratios, times;
-    for (const Case& c : all_cases)
-        run.measure(c); // compiles it
+    std::vector<Case> cases;
+    std::ranges::copy_if(all_cases, std::back_inserter(cases), [&](const Case& c) { return is_wanted(options, c); });
+    run.measure(base); // compiles it
+    for (const Case& c : cases)
+        run.measure(c);
     for (int round = 0; round < options.rounds; round++)
-        for (const Case& c : all_cases) {
+        for (const Case& c : cases) {
             const double before = run.measure(base).light, time = run.measure(c).light, after = run.measure(base).light;
             ratios[c].push_back(2 * time / (before + after));
             times[c].push_back(time);
         }
     fmt::print("{} at {}x{}, medians of {} rounds\n\n| sampler | R | ratio | ms |\n|---|---|---|---|\n", options.scene,
         options.width, options.height, options.rounds);
-    for (const Case& c : all_cases)
+    for (const Case& c : cases)
         fmt::print("| `{}` | {} | {:.2f} | {:.0f} |\n", c.sampler, c.subset, median(ratios[c]), median(times[c]));
 }
 
@@ -234,7 +244,8 @@ void print_counts(const Options& options, const Hall& hall)
         fmt::print("---|");
     fmt::print("\n");
     for (size_t which = 0; which < all_cases.size(); which++) {
-        if (all_cases[which].sampler == "full" || all_cases[which].subset != base.subset)
+        const Case& c = all_cases[which];
+        if (!is_wanted(options, c) || c.sampler == "full" || c.subset != base.subset)
             continue;
         std::vector<std::vector<Milliseconds>> times(runs.size());
         for (const auto& run : runs)
@@ -242,7 +253,7 @@ void print_counts(const Options& options, const Hall& hall)
         for (int round = 0; round < options.rounds; round++)
             for (size_t i = 0; i < runs.size(); i++)
                 times[i].push_back(runs[i]->measure(which));
-        fmt::print("| `{}` |", all_cases[which].sampler);
+        fmt::print("| `{}` |", c.sampler);
         for (const std::vector<Milliseconds>& of_run : times)
             fmt::print(" {:.0f} of {:.0f} ({:.2f}, {:.2f}) |", median(of_run, &Milliseconds::light),
                 median(of_run, &Milliseconds::frame), median(of_run, &Milliseconds::light, &times[0]),
@@ -264,6 +275,7 @@ int main(int argc, char** argv)
     program.add_option("--rounds", options.rounds)->check(CLI::Range(1, 1000));
     program.add_option("--lights", options.light_counts, "Numbers of lights in generated halls; at most 10000")
         ->check(CLI::Range(1, 10000));
+    program.add_option("--samplers", options.samplers, "Only these; ratios of cost stay those to `subset`");
     program.add_flag("--only-counts", options.only_counts, "Leave the table of costs out");
     program.add_flag("--filtered", options.filtered, "With the denoiser and anti-aliasing of the defaults");
     CLI11_PARSE(program, argc, argv);

@@ -175,23 +175,19 @@ Reservoir make_reservoir(float xi)
     return reservoir;
 }
 
-// True: the reservoir now holds it.
+// True: the reservoir now holds it. Without branches, and with a single division: it stands in the samplers' innermost loops.
 bool offer_light(INOUT(Reservoir) reservoir, uint emitter, float weight)
 {
-    if (!(weight > 0.0f))
-        return false;
     float before = reservoir.total;
     reservoir.total += weight;
-    float keep = before / reservoir.total;
-    bool taken = reservoir.xi >= keep;
-    if (taken) {
-        reservoir.emitter = int(emitter);
-        reservoir.weight = weight;
-        reservoir.xi = (reservoir.xi - keep) / (1.0f - keep);
-    } else {
-        reservoir.xi /= keep;
-    }
-    reservoir.xi = quick_clamp(reservoir.xi, 0.0f, max_below_one);
+    float threshold = reservoir.xi * reservoir.total;
+    bool offered = weight > 0.0f;
+    bool taken = offered && threshold >= before;
+    reservoir.emitter = taken ? int(emitter) : reservoir.emitter;
+    reservoir.weight = taken ? weight : reservoir.weight;
+    // Where in the interval of what it chose the number lies is a number again.
+    float rest = (taken ? threshold - before : threshold) / (taken ? weight : before);
+    reservoir.xi = offered ? quick_clamp(rest, 0.0f, max_below_one) : reservoir.xi;
     return taken;
 }
 

@@ -101,6 +101,14 @@ Reservoir sweep_subset(LightListView list, LightPredictor predictor, SubsetChoic
     return reservoir;
 }
 
+// The light that a reservoir has kept of a subset with one light of each stride.
+LightSample make_subset_sample(Reservoir reservoir, uint stride, LightRandom random)
+{
+    if (reservoir.emitter < 0)
+        return no_light();
+    return make_light_sample(uint(reservoir.emitter), reservoir.weight / (reservoir.total * float(stride)), random);
+}
+
 // The light's place in the list tells the only subset of equal offsets that holds it, so no random number matters.
 float strided_subset_probability(LightListView list, LightPredictor predictor, uint emitter, uint subset_length)
 {
@@ -131,10 +139,7 @@ LightSample sample_independent_strides(
         uint emitter = light_at(list, position);
         offer_light(reservoir, emitter, weigh_emitter(list, predictor, emitter));
     }
-    if (reservoir.emitter < 0)
-        return no_light();
-    return make_light_sample(
-        uint(reservoir.emitter), reservoir.weight / (reservoir.total * float(stride)), random);
+    return make_subset_sample(reservoir, stride, random);
 }
 
 // Equation 47.20: averaged over the offset of the stride that holds `emitter`, for the other strides' offsets as drawn by

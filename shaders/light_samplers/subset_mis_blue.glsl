@@ -35,10 +35,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
         uint emitter = light_at(list, position);
         offer_light(reservoir, emitter, weigh_emitter(list, predictor, emitter));
     }
-    if (reservoir.emitter < 0)
-        return no_light();
-    return make_light_sample(
-        uint(reservoir.emitter), reservoir.weight / (reservoir.total * float(stride)), random);
+    return make_subset_sample(reservoir, stride, random);
 }
 
 // Equation 47.20, as in independent_strides_probability.

@@ -14,10 +14,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
         return no_light();
     SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
     Reservoir reservoir = sweep_subset(list, make_predictor(s, options), choice, choice.rest);
-    if (reservoir.emitter < 0)
-        return no_light();
-    return make_light_sample(
-        uint(reservoir.emitter), reservoir.weight / (reservoir.total * float(choice.stride)), random);
+    return make_subset_sample(reservoir, choice.stride, random);
 }
 
 float light_probability(LightListView list, Surface s, uint emitter, LightRandom random, LightOptions options)
