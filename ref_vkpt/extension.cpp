@@ -27,16 +27,15 @@ bool capture_display(uint8_t* rgba)
     Module* m = module();
     if (!m || m->graphics.frame_number() == 0 || m->graphics.is_recording())
         return false;
-    const Image& output = m->graphics.screen.output();
-    const size_t bytes = size_t(output.width()) * output.height() * 4;
+    const Buffer& output = m->graphics.screen.output().words;
+    const VkExtent2D size = m->graphics.size();
+    const VkDeviceSize bytes = VkDeviceSize(size.width) * size.height * sizeof(uint32_t);
     const Buffer copy(m->graphics.gpu, bytes, BufferHome::readback, MemoryKind::staging, "picture readback");
     m->graphics.run_once([&](VkCommandBuffer commands) {
         record_memory_barrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
             VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
-        VkBufferImageCopy region {};
-        region.imageSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 };
-        region.imageExtent = { output.width(), output.height(), 1 };
-        vkCmdCopyImageToBuffer(commands, output.handle(), VK_IMAGE_LAYOUT_GENERAL, copy.handle(), 1, &region);
+        const VkBufferCopy all { 0, 0, bytes };
+        vkCmdCopyBuffer(commands, output.handle(), copy.handle(), 1, &all);
         record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     });
@@ -249,7 +248,8 @@ void print_info()
         mib(info.geometry_bytes), mib(info.acceleration_bytes), mib(info.light_bytes), mib(info.image_bytes),
         mib(info.staging_bytes));
     if (info.nearest_rays + info.visibility_rays > 0)
-        engine::print("rays           {} for the nearest hit, {} for visibility", info.nearest_rays, info.visibility_rays);
+        engine::print(
+            "rays           {} for the nearest hit, {} for visibility", info.nearest_rays, info.visibility_rays);
     size_t count = 0;
     const PassTime* times = pass_times(&count);
     for (size_t i = 0; i < count; i++)

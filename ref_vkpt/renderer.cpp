@@ -342,7 +342,7 @@ void begin_frame(float)
     CpuTimer::collect_into(statistics);
     m.frame_has_view = false;
     if (m.graphics.begin_frame())
-        m.draw2d.set_output(m.graphics.screen.output());
+        m.draw2d.set_output(m.graphics.screen.output().words.address(), m.graphics.size());
     m.draw2d.begin_frame(m.graphics.slot(), filtering());
     m.frame.begin();
 }

@@ -13,7 +13,7 @@ void filter_stratum(uvec2 stratum, uint number)
     uvec2 pixel = stratum_pixel(stratum), count = stratum_count();
     uint index = pixel_index(pixel);
     uvec2 guide = load_guide(index);
-    vec2 slope = unpackHalf2x16(load_slope(index));
+    vec2 slope = unpack_upper_halves(load_slope(index));
     vec4 sum = vec4(0.0);
     [[dont_unroll]] for (uint tap = 0u; tap < 9u; tap++) {
         ivec2 way = ivec2(tap % 3u, tap / 3u) - 1;

@@ -174,7 +174,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
         diffuse = specular = vec3(0.0); // or it would stay in the history
     }
     vec4 kind = guide_bytes(load_guide(index).x);
-    Search search = Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, unpackHalf2x16(load_slope(index)), load_motion(index));
+    Search search = Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, unpack_upper_halves(load_slope(index)), load_motion(index));
     History history = find_history(search, search.shown.xy);
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
     if (primary.surface.roughness < glossy_roughness && reflected_distance > 0.0) {

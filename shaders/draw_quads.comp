@@ -4,9 +4,9 @@
 // The 2D layer: one workgroup blends the quads of one tile over the picture, straight alpha, in drawing order. A compute
 // pass rather than triangles: each pixel is read and written once, and Mesa's CPU driver rasterises badly.
 #include "lib/frame.glsl"
+#include "lib/packing.glsl"
 #include "shared/quad.h"
 
-layout(set = 0, binding = 1, rgba8) uniform image2D picture;
 layout(push_constant, scalar) uniform Push { QuadPush push; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer QuadList { Quad v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer QuadTileList { QuadTile v[]; };
@@ -22,12 +22,14 @@ vec4 sample_picture(uint slot, uint sampler_index, vec2 uv)
 // What a lane holds of a tile: one pixel of each 8 x 8 quarter. A quad is read once for all of them.
 const uint quarters = 4u;
 
-ivec2 pixel_of_quarter(ivec2 first, uint quarter) { return first + ivec2(quarter & 1u, quarter >> 1u) * 8; }
+uvec2 pixel_of_quarter(uvec2 first, uint quarter) { return first + uvec2(quarter & 1u, quarter >> 1u) * 8u; }
+
+uint output_index(uvec2 pixel) { return pixel.y * push.output_size.x + pixel.x; }
 
 vec4 blend(vec4 below, Quad quad, vec2 point)
 {
     const bool inside = all(greaterThanEqual(point, quad.corner_min)) && all(lessThan(point, quad.corner_max));
-    vec4 color = unpackUnorm4x8(quad.color);
+    vec4 color = unpack_unorm4(quad.color);
     if ((quad.flags & QUAD_PLAIN) == 0u) {
         const vec2 place = (point - quad.corner_min) / (quad.corner_max - quad.corner_min);
         color *= sample_picture(quad.texture_slot, quad.sampler_index, mix(quad.uv_min, quad.uv_max, place));
@@ -39,21 +41,21 @@ vec4 blend(vec4 below, Quad quad, vec2 point)
 void main()
 {
     const QuadTile tile = QuadTileList(push.tiles).v[gl_WorkGroupID.x];
-    const ivec2 first = ivec2(tile.origin + gl_LocalInvocationID.xy);
+    const uvec2 first = tile.origin + gl_LocalInvocationID.xy;
     vec4 colors[quarters];
     [[unroll]] for (uint i = 0u; i < quarters; i++)
         colors[i] = vec4(0.0);
     if (tile.covered == 0u)
         [[unroll]] for (uint i = 0u; i < quarters; i++)
-            colors[i] = imageLoad(picture, pixel_of_quarter(first, i));
+            colors[i] = unpack_unorm4(load_element(push.output_words, output_index(min(pixel_of_quarter(first, i), push.output_size - 1u)), 0u));
     for (uint place = 0u; place < tile.count; place++) {
         const Quad quad = QuadList(push.quads).v[QuadIndexList(push.quad_indices).v[tile.first + place]];
         [[unroll]] for (uint i = 0u; i < quarters; i++)
             colors[i] = blend(colors[i], quad, vec2(pixel_of_quarter(first, i)) + 0.5);
     }
     [[unroll]] for (uint i = 0u; i < quarters; i++) {
-        const ivec2 pixel = pixel_of_quarter(first, i);
-        if (all(lessThan(pixel, ivec2(push.output_size))))
-            imageStore(picture, pixel, colors[i]);
+        const uvec2 pixel = pixel_of_quarter(first, i);
+        if (all(lessThan(pixel, push.output_size)))
+            store_element(push.output_words, output_index(pixel), pack_unorm4(colors[i]));
     }
 }

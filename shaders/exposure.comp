@@ -22,16 +22,16 @@ shared uint bins[bin_count];
 
 void count_luminances()
 {
-    uint lane = gl_LocalInvocationIndex;
+    uint lane = gl_LocalInvocationID.x;
     if (lane < bin_count)
         bins[lane] = 0u;
     barrier();
     uvec2 size = frame.resolved_size, samples = (size + 3u) / 4u;
     for (uint i = lane; i < samples.x * samples.y; i += gl_WorkGroupSize.x) {
-        uvec2 pixel = min(uvec2(i % samples.x, i / samples.x) * 4u + 2u, size - 1u);
+        uvec2 pixel = min(place_of_tile(i, samples.x) * 4u + 2u, size - 1u);
         float value = luminance(load_accumulated(pixel.y * size.x + pixel.x));
         float place = (log2(max(value, 1e-6)) - lowest_log2) / (highest_log2 - lowest_log2);
-        atomicAdd(bins[uint(clamp(place, 0.0, 0.999) * float(bin_count))], 1u);
+        atomicAdd(bins[floor_to_uint(clamp(place, 0.0, 0.999) * float(bin_count))], 1u);
     }
     barrier();
 }
@@ -59,7 +59,7 @@ void main()
     bool has_world = (frame.flags & FRAME_NO_WORLD) == 0u;
     if (has_world)
         count_luminances();
-    if (gl_LocalInvocationIndex != 0u)
+    if (gl_LocalInvocationID.x != 0u)
         return;
     ExposureBuffer state = ExposureBuffer(frame.exposure);
     float measured = has_world ? average_log2() : log2(reference_luminance);

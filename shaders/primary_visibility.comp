@@ -172,7 +172,7 @@ void store_reprojection(uint index, Path path, vec3 direction, vec2 offset)
         return;
     vec3 plane = mirrored(path, s.geometric_normal);
     vec2 slope = vec2(dot(plane, camera.right), -dot(plane, camera.up)) * 2.0 / vec2(frame.size) * depth / dot(plane, seen);
-    store_slope(index, packHalf2x16(clamp(slope, -8.0, 8.0)));
+    store_slope(index, pack_upper_halves(clamp(slope, -8.0, 8.0)));
 }
 
 void see_pixel(uvec2 pixel, uint index)

@@ -30,7 +30,7 @@ uint find_sample(uint index, PrimarySurface primary)
     vec2 place = floor(load_motion(index).xy + 0.5);
     if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
         return no_pixel;
-    BounceBlock block = BounceBlock(uvec2(whole_to_int(place)) / frame.bounce_block * frame.bounce_block, 0u);
+    BounceBlock block = BounceBlock(divide_whole(uvec2(whole_to_int(place)), frame.bounce_block) * frame.bounce_block, 0u);
     uint found = no_pixel;
     [[dont_unroll]] for (uint i = 0u; i < bounce_block_pixels(); i++) {
         uvec2 pixel = min(pixel_of_block(block, i), frame.previous_size - 1u);

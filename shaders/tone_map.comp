@@ -9,7 +9,6 @@
 #include "lib/random.glsl"
 #include "lib/surfaces.glsl"
 
-layout(set = 0, binding = 1, rgba8) uniform writeonly image2D picture;
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
 // A shoulder and a toe around a straight middle, rational in x: a (x (x + toe)) / (x (x shoulder + slope) + lift), scaled so
@@ -84,7 +83,8 @@ void show_pixel(uvec2 pixel, uint index)
         if (load_position(pixel_index(rendered)).w == DEPTH_NOTHING)
             return;
     }
-    imageStore(picture, ivec2(frame.output_origin + pixel), vec4(shown_colour(pixel), 1.0));
+    uvec2 place = frame.output_origin + pixel;
+    store_element(frame.output_words, place.y * frame.output_across + place.x, pack_unorm4(vec4(shown_colour(pixel), 1.0)));
 }
 
 VKPT_RUN_OVER(frame.output_size, show_pixel)

@@ -32,9 +32,8 @@ public:
     Draw2d(const Draw2d&) = delete;
     Draw2d& operator=(const Draw2d&) = delete;
 
-    // The picture that Bindings::bind_output made the shaders' output: RGBA8 UNORM, layout GENERAL. Call on every
-    // resize.
-    void set_output(const Image& image);
+    // The picture to draw on (see OutputPicture). Call on every resize.
+    void set_output(VkDeviceAddress words, VkExtent2D size);
 
     // The device has finished the last frame with this index; its memory is used again.
     void begin_frame(uint32_t frame_slot, const Filtering& filtering);
@@ -88,7 +87,8 @@ private:
     Bindings& bindings_;
     TextureStore& textures_;
     VkPipeline pipeline_;
-    VkExtent2D size_ {};
+    VkDeviceAddress output_ = 0;
+    VkExtent2D size_ {}; // of the output
 
     Filtering filtering_;
     std::vector<shared::Quad> quads_;

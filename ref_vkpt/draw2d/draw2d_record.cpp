@@ -84,7 +84,11 @@ Draw2d::~Draw2d()
             bindings_.remove_texture(picture.slot);
 }
 
-void Draw2d::set_output(const Image& image) { size_ = { image.width(), image.height() }; }
+void Draw2d::set_output(VkDeviceAddress words, VkExtent2D size)
+{
+    output_ = words;
+    size_ = size;
+}
 
 void Draw2d::record(VkCommandBuffer commands)
 {
@@ -167,6 +171,7 @@ shared::QuadPush Draw2d::upload_lists()
     push.quads = append(quads);
     push.tiles = append(tiles);
     push.quad_indices = append(indices);
+    push.output_words = output_;
     push.output_size = { size_.width, size_.height };
     return push;
 }

@@ -133,6 +133,8 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.light_level = readback_.address() + graphics_.slot() * light_level_bytes;
     uniforms.size = uniforms.resolved_size = uniforms.previous_size = size;
     uniforms.previous_scale = glm::vec2(1);
+    uniforms.output_words = graphics_.screen.output().words.address();
+    uniforms.output_across = graphics_.size().width;
     uniforms.output_origin = glm::uvec2(view.origin);
     uniforms.output_size = view.size;
     uniforms.frame_seconds = cvars.pt_seed > 0 ? first_frame_seconds : std::min(seconds, 1.0f);

@@ -53,8 +53,7 @@ glm::uvec2 bounce_block()
 
 uint32_t stratum_groups(const shared::FrameUniforms& uniforms)
 {
-    const glm::uvec2 count = count_blocks(uniforms.size, uniforms.bounce_block * shared::STRATUM_BLOCKS);
-    return (count.x * count.y + shared::PIXEL_GROUP_SIZE - 1) / shared::PIXEL_GROUP_SIZE;
+    return pixel_groups(count_blocks(uniforms.size, uniforms.bounce_block * shared::STRATUM_BLOCKS));
 }
 
 } // namespace

@@ -65,12 +65,7 @@ void Graphics::create_slot(Slot& slot)
     VKPT_CHECK(vkCreateFence(device.handle, &fence, nullptr, &slot.finished));
 }
 
-VkExtent2D Graphics::size() const
-{
-    if (screen.output())
-        return { screen.output().width(), screen.output().height() };
-    return headless_size_;
-}
+VkExtent2D Graphics::size() const { return screen.output() ? screen.output().size : headless_size_; }
 
 void Graphics::set_vsync(bool vsync)
 {
@@ -97,25 +92,21 @@ bool Graphics::follow_window()
                 BufferHome::device, MemoryKind::images, "present words");
         }
     }
-    if (screen.output() && screen.output().width() == wanted.width && screen.output().height() == wanted.height)
+    if (screen.output() && screen.output().size.width == wanted.width && screen.output().size.height == wanted.height)
         return false;
     device.wait_idle();
     swapchain_outdated_ |= screen.output() && swapchain_;
     screen.resize_output(wanted);
-    bindings.bind_output(screen.output());
     return true;
 }
 
-void Graphics::prepare_output(bool is_new)
+void Graphics::clear_output()
 {
-    const VkImage output = screen.output().handle();
-    record_barrier(commands(),
-        { output, is_new ? VK_IMAGE_LAYOUT_UNDEFINED : VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL,
-            VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
-            VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT, VK_ACCESS_TRANSFER_WRITE_BIT });
-    const VkClearColorValue black = { { 0, 0, 0, 1 } };
-    const VkImageSubresourceRange all = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1 };
-    vkCmdClearColorImage(commands(), output, VK_IMAGE_LAYOUT_GENERAL, &black, 1, &all);
+    constexpr uint32_t black = 0xff000000;
+    record_memory_barrier(commands(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+        VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+        VK_ACCESS_TRANSFER_WRITE_BIT);
+    vkCmdFillBuffer(commands(), screen.output().words.handle(), 0, VK_WHOLE_SIZE, black);
     record_memory_barrier(commands(), VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT);
 }
@@ -123,20 +114,24 @@ void Graphics::prepare_output(bool is_new)
 void Graphics::record_present()
 {
     struct Push { // of present.comp
-        VkDeviceAddress words;
-        uint32_t width, height, swap_red_blue, padding;
+        VkDeviceAddress picture, words;
+        VkExtent2D picture_size, size;
+        uint32_t swap_red_blue, padding;
     };
     const VkExtent2D extent = swapchain_->extent();
-    const Push push { present_words_.address(), extent.width, extent.height, swapchain_->swaps_red_blue(), 0 };
+    const OutputPicture& output = screen.output();
+    const Push push { output.words.address(), present_words_.address(), output.size, extent,
+        swapchain_->swaps_red_blue(), 0 };
     constexpr VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     record_memory_barrier(commands(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-        VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT, compute, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+        VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT, compute,
+        VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     bindings.bind(commands(), VK_PIPELINE_BIND_POINT_COMPUTE, 0);
     vkCmdBindPipeline(commands(), VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.compute("present.comp"));
     vkCmdPushConstants(commands(), bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);
-    constexpr uint32_t pixels_per_group = shared::PIXEL_GROUP_SIZE * shared::PIXEL_TILES_PER_GROUP;
-    vkCmdDispatch(commands(), (extent.width * extent.height + pixels_per_group - 1) / pixels_per_group, 1, 1);
-    record_memory_barrier(commands(), compute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+    vkCmdDispatch(commands(), pixel_groups({ extent.width, extent.height }), 1, 1);
+    record_memory_barrier(
+        commands(), compute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
     swapchain_->record_copy(commands(), present_words_);
 }
 
@@ -158,7 +153,7 @@ bool Graphics::begin_frame()
     VKPT_CHECK(vkBeginCommandBuffer(slot.commands, &info));
     recording_ = true;
     timer.begin_frame(slot.commands, slot_);
-    prepare_output(is_new);
+    clear_output();
     return is_new;
 }
 

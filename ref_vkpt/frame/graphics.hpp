@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The device with everything that lives as long as it: memory, bindings, pipelines, the window's pictures, the frames in
-// flight.
+// The device with everything that lives as long as it: memory, bindings, pipelines, the window's pictures, the frames
+// in flight.
 #pragma once
 
 #include "ref_vkpt/frame/frame_timer.hpp"
@@ -15,8 +15,8 @@
 namespace vkpt {
 
 struct GraphicsSettings {
-    void* sdl_window = nullptr;      // nullptr: pictures only
-    VkExtent2D size { 640, 480 };    // of the pictures without a window
+    void* sdl_window = nullptr; // nullptr: pictures only
+    VkExtent2D size { 640, 480 }; // of the pictures without a window
     std::string device_name_part;
     std::string cache_directory;
     bool validation = false;
@@ -32,8 +32,8 @@ public:
     Graphics(const Graphics&) = delete;
     Graphics& operator=(const Graphics&) = delete;
 
-    // Waits for the slot's last frame, follows the window's size, and starts recording. The output picture is cleared and in
-    // layout GENERAL. True: the output picture is another one than before.
+    // Waits for the slot's last frame, follows the window's size, and starts recording. The output picture is cleared.
+    // True: it is another one than before.
     bool begin_frame();
     // Submits and shows. Nothing happens without a begun frame.
     void end_frame();
@@ -75,7 +75,7 @@ private:
     };
     void create_slot(Slot& slot);
     bool follow_window();
-    void prepare_output(bool is_new);
+    void clear_output();
     void record_present();
 
     std::optional<Swapchain> swapchain_;

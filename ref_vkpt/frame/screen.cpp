@@ -25,19 +25,12 @@ TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings)
     return TexelSet(gpu, bindings.screen_layout(), TexelShape::array, shared::SCREEN_BUFFER_COUNT);
 }
 
-bool Screen::resize_output(VkExtent2D size)
+void Screen::resize_output(VkExtent2D size)
 {
-    if (output_ && output_.width() == size.width && output_.height() == size.height)
-        return false;
-    ImageSettings settings;
-    settings.width = size.width;
-    settings.height = size.height;
-    settings.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT
-        | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    settings.kind = MemoryKind::images;
-    output_ = Image();
-    output_ = Image(gpu_, settings, "output");
-    return true;
+    output_.words = Buffer(); // given back before the new one is asked for
+    output_.words = Buffer(gpu_, pixel_count({ size.width, size.height }) * sizeof(uint32_t), BufferHome::device,
+        MemoryKind::images, "output");
+    output_.size = size;
 }
 
 bool Screen::must_grow(glm::uvec2 size) const

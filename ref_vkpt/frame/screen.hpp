@@ -12,6 +12,15 @@
 
 namespace vkpt {
 
+// The picture that is shown: a word for each pixel, RGBA with red in the lowest byte, sRGB-encoded. A buffer rather
+// than an image, whose texels Mesa's CPU driver stores one after the other.
+struct OutputPicture {
+    Buffer words;
+    VkExtent2D size {};
+
+    explicit operator bool() const { return bool(words); }
+};
+
 class Screen {
     enum Row {
 #define VKPT_SCREEN_BUFFER(type, name) row_##name,
@@ -26,8 +35,8 @@ public:
     {
     }
 
-    // The device must be idle if this changes anything. True: the output image is new (layout UNDEFINED).
-    bool resize_output(VkExtent2D size);
+    // The device must be idle.
+    void resize_output(VkExtent2D size);
     // Room for a view of this many pixels; true: contents are lost. The device must be idle if they have to grow.
     bool reserve_pixels(glm::uvec2 size);
     // A new view begins: what was stored as NAME is from now on read as previous_NAME.
@@ -47,7 +56,7 @@ public:
     // Takes up another view's and leaves there those of the view drawn so far.
     void exchange(ViewBuffers& other) { std::swap(view_, other); }
 
-    const Image& output() const { return output_; }
+    const OutputPicture& output() const { return output_; }
     const shared::ScreenBuffers& rows() const { return view_.rows; }
     VkDescriptorSet texels() const { return view_.texels.handle(); }
     VkDeviceAddress trace_stack() const { return view_.trace_stack.address(); }
@@ -57,7 +66,7 @@ public:
 private:
     Gpu gpu_;
     const Bindings& bindings_;
-    Image output_;
+    OutputPicture output_;
     ViewBuffers view_;
 };
 

@@ -33,7 +33,6 @@ public:
     explicit IdleDevice(const Device& original)
         : device_(Device::make_twin(original))
         , uniforms_(gpu_, sizeof(shared::FrameUniforms), BufferHome::upload, MemoryKind::staging, "idle uniforms")
-        , output_(gpu_, output_settings(), "idle output")
     {
         VkCommandPoolCreateInfo pool { VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO };
         pool.queueFamilyIndex = device_->queue_family;
@@ -44,7 +43,6 @@ public:
         commands.commandBufferCount = 1;
         VKPT_CHECK(vkAllocateCommandBuffers(device_->handle, &commands, &commands_));
         bindings_.bind_uniforms(uniforms_, uniforms_.size());
-        bindings_.bind_output(output_);
     }
 
     ~IdleDevice()
@@ -59,9 +57,6 @@ public:
         VkCommandBufferBeginInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
         info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
         VKPT_CHECK(vkBeginCommandBuffer(commands_, &info));
-        record_barrier(commands_,
-            { output_.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, VK_ACCESS_SHADER_WRITE_BIT });
         bindings_.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, 0, { scene_texels_.set(0), screen_texels_.handle() });
         constexpr std::array<std::byte, push_constant_bytes> push {};
         vkCmdPushConstants(
@@ -77,13 +72,6 @@ public:
     }
 
 private:
-    static ImageSettings output_settings()
-    {
-        ImageSettings settings;
-        settings.usage = VK_IMAGE_USAGE_STORAGE_BIT;
-        return settings;
-    }
-
     std::unique_ptr<Device> device_;
     MemoryAllocator memory_ { *device_ };
     Gpu gpu_ { *device_, memory_ };
@@ -92,7 +80,6 @@ private:
     TexelSet screen_texels_ = make_screen_texels(gpu_, bindings_);
     Pipelines pipelines_ { gpu_, bindings_, "" };
     Buffer uniforms_;
-    Image output_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
 };
@@ -149,8 +136,8 @@ try {
 std::string ShaderWarmUp::key_of(const std::string& shader) const
 {
     const uint64_t driver = hash_bytes(std::as_bytes(std::span(device_.driver)), 0xcbf29ce484222325);
-    return fmt::format("{} {:016x} {}", shader, hash_bytes(std::as_bytes(find_shader(shader)), driver),
-        device_.table_reads());
+    return fmt::format(
+        "{} {:016x} {}", shader, hash_bytes(std::as_bytes(find_shader(shader)), driver), device_.table_reads());
 }
 
 void ShaderWarmUp::read_compiled()

@@ -18,7 +18,7 @@ namespace {
 // More than any mod registers; devices that cannot do as many get what they can.
 constexpr uint32_t wanted_textures = 8192;
 
-enum FrameBinding : uint32_t { binding_uniforms, binding_output, binding_samplers };
+enum FrameBinding : uint32_t { binding_uniforms, binding_samplers };
 constexpr uint32_t binding_textures = 0;
 
 VkDescriptorSetLayout make_layout(VkDevice device, VkDescriptorSetLayoutCreateFlags flags, const void* next,
@@ -111,7 +111,6 @@ void Bindings::create_layouts()
     const VkDevice device = gpu_.device.handle;
     const VkDescriptorSetLayoutBinding frame[] = {
         { binding_uniforms, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, VK_SHADER_STAGE_ALL, nullptr },
-        { binding_output, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr },
         { binding_samplers, VK_DESCRIPTOR_TYPE_SAMPLER, shared::SAMPLER_COUNT, VK_SHADER_STAGE_ALL, samplers_.data() },
     };
     frame_layout_ = make_layout(device, 0, nullptr, frame);
@@ -153,7 +152,6 @@ void Bindings::create_sets()
     const VkDevice device = gpu_.device.handle;
     const VkDescriptorPoolSize frame[] = {
         { VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1 },
-        { VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1 },
         { VK_DESCRIPTOR_TYPE_SAMPLER, shared::SAMPLER_COUNT },
     };
     const VkDescriptorPoolSize textures[] = { { VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, max_textures_ } };
@@ -172,18 +170,6 @@ void Bindings::bind_uniforms(const Buffer& buffer, VkDeviceSize bytes_per_frame)
     write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
     write.pBufferInfo = &info;
-    vkUpdateDescriptorSets(gpu_.device.handle, 1, &write, 0, nullptr);
-}
-
-void Bindings::bind_output(const Image& image)
-{
-    const VkDescriptorImageInfo info { VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_GENERAL };
-    VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };
-    write.dstSet = frame_set_;
-    write.dstBinding = binding_output;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    write.pImageInfo = &info;
     vkUpdateDescriptorSets(gpu_.device.handle, 1, &write, 0, nullptr);
 }
 

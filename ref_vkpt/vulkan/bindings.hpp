@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The descriptor sets and pipeline layout that all passes share, so that a new pass is a shader and nothing else.
 //   set 0, binding 0  uniform buffer: shared::FrameUniforms (dynamic offset: one per frame in flight)
-//   set 0, binding 1  storage image: the picture that is shown (RGBA8, sRGB-encoded values)
-//   set 0, binding 2  samplers, see SAMPLER_*
+//   set 0, binding 1  samplers, see SAMPLER_*
 //   set 1, binding 0  sampled images, bindless; slot 0 is always a valid white picture. A set of its own because it is
 //                     updated while bound, which Vulkan forbids beside dynamic offsets.
 //   set 2             buffers of texels: the scene's tables, TEXELS_*. Each view has a set of its own
@@ -39,7 +38,6 @@ public:
     uint32_t max_textures() const { return max_textures_; }
 
     void bind_uniforms(const Buffer& buffer, VkDeviceSize bytes_per_frame);
-    void bind_output(const Image& image);
     // A free slot now showing `image` (layout SHADER_READ_ONLY). Throws FatalError when all are taken.
     uint32_t add_texture(const Image& image);
     // The slot may be handed out again; the device must be idle.

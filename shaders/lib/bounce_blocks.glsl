@@ -9,7 +9,7 @@
 
 uint bounce_block_pixels() { return frame.bounce_block.x * frame.bounce_block.y; }
 
-uvec2 bounce_block_count() { return (frame.size + frame.bounce_block - 1u) / frame.bounce_block; }
+uvec2 bounce_block_count() { return divide_whole(frame.size + frame.bounce_block - 1u, frame.bounce_block); }
 
 // A block's pixels in the order of this frame, the leader first. Where the screen's size is odd, some lie outside.
 struct BounceBlock {

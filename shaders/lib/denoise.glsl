@@ -55,7 +55,7 @@ void count_broken_pixel() { atomicAdd(FrameStatisticsBuffer(frame.statistics).v.
 // ---- strata: 3 x 3 blocks of pixels that share a bounce ray, mostly of one pixel each. One of them repeats an older sample.
 
 uvec2 stratum_size() { return frame.bounce_block * STRATUM_BLOCKS; }
-uvec2 stratum_count() { return (frame.size + stratum_size() - 1u) / stratum_size(); }
+uvec2 stratum_count() { return divide_whole(frame.size + stratum_size() - 1u, stratum_size()); }
 
 // The stratum's block whose turn it is in this frame: its leader repeats a sample, where the screen has that pixel. A block that had
 // its turn every time would show one sample for ever.
@@ -63,7 +63,7 @@ BounceBlock stratum_block(uvec2 stratum)
 {
     uvec4 hash = hash_pcg4(uvec4(stratum, frame.frame_index, 0x51ed270bu));
     uvec2 first = stratum * STRATUM_BLOCKS;
-    return open_bounce_block(first + hash.xy % min(uvec2(STRATUM_BLOCKS), bounce_block_count() - first));
+    return open_bounce_block(first + ((hash.xy >> 16u) * min(uvec2(STRATUM_BLOCKS), bounce_block_count() - first) >> 16u));
 }
 
 uvec2 stratum_pixel(uvec2 stratum) { return min(pixel_of_block(stratum_block(stratum), 0u), frame.size - 1u); }
@@ -71,20 +71,13 @@ uvec2 stratum_pixel(uvec2 stratum) { return min(pixel_of_block(stratum_block(str
 // How much of either lobe's light has changed around a pixel, by the repeated samples: 0 to 1.
 vec2 changed_share(uvec2 pixel)
 {
-    uvec2 stratum = pixel / stratum_size();
+    uvec2 stratum = divide_whole(pixel, stratum_size());
     vec4 gradient = load_gradient_b(stratum.y * stratum_count().x + stratum.x);
     return clamp(abs(gradient.xz) / max(gradient.yw, 1e-10), 0.0, 1.0);
 }
 
 // main() for passes over strata: run(stratum, its number).
-#define VKPT_RUN_OVER_STRATA(run)                                                                                      \
-    layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
-    void main()                                                                                                        \
-    {                                                                                                                  \
-        uint number = gl_WorkGroupID.x * PIXEL_GROUP_SIZE + gl_LocalInvocationIndex, across = stratum_count().x;       \
-        if (number < across * stratum_count().y)                                                                       \
-            run(uvec2(number % across, number / across), number);                                                      \
-    }
+#define VKPT_RUN_OVER_STRATA(run) VKPT_RUN_OVER(stratum_count(), run)
 
 // ---- moments
 

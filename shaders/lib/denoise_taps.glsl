@@ -78,7 +78,7 @@ Pixel make_pixel(uint index, uvec2 guide, FilteredLight light)
     pixel.normal = kind.xyz * (1.0 / (127.0 * 127.0));
     pixel.material = kind.w;
     pixel.depth = guide_depth(guide);
-    pixel.slope = unpackHalf2x16(load_slope(index));
+    pixel.slope = unpack_upper_halves(load_slope(index));
     pixel.diffuse_luminance = luminance(light.diffuse);
     pixel.specular_luminance = luminance(light.specular);
     pixel.diffuse_allowed = allowed_square(light.diffuse_deviation) + least_square(pixel.diffuse_luminance);

@@ -20,7 +20,7 @@
 #include "whole_numbers.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
-layout(set = 0, binding = 2) uniform sampler samplers[SAMPLER_COUNT];
+layout(set = 0, binding = 1) uniform sampler samplers[SAMPLER_COUNT];
 layout(set = 1, binding = 0) uniform texture2D textures[];
 
 // A picture that may be another one in every lane. Both the index and what is made of it have to be called nonuniform, or the CPU
@@ -72,10 +72,6 @@ uint load_element(ScreenBuffer buffer_, uint index, uint unused) { return load_e
 float load_element(ScreenBuffer buffer_, uint index, float unused) { return load_element(buffer_.address, index, 0.0); }
 vec3 load_element(ScreenBuffer buffer_, uint index, vec3 unused) { return load_element(buffer_.address, index, vec3(0.0)); }
 
-// Whole numbers from -2^22 to 2^22. CPU drivers convert floats to integers lane by lane, because of what lies beyond the range.
-int whole_to_int(float whole) { return floatBitsToInt(whole + 12582912.0) - 0x4b400000; }
-ivec2 whole_to_int(vec2 whole) { return floatBitsToInt(whole + 12582912.0) - 0x4b400000; }
-
 // load_NAME(pixel index) and store_NAME(pixel index, value) for every screen buffer
 #define VKPT_SCREEN_BUFFER(type, name)                                                                                 \
     type load_##name(uint pixel) { return load_element(frame.screen.name, pixel, type(0)); }                           \
@@ -111,32 +107,36 @@ uvec2 pixel_in_tile(uint lane)
 
 #else
 
-// Where tile `tile` of rows of `across` stands. By floats, which are exact enough below a million tiles: CPU drivers divide
-// integers lane by lane.
+// Where tile `tile` of rows of `across` stands.
 uvec2 place_of_tile(uint tile, uint across)
 {
     uint row = divide_whole(tile, across);
     return uvec2(tile - row * across, row);
 }
 
-// Workgroups walk several tiles because starting one costs the CPU driver as much as a cheap pixel pass.
+// Workgroups walk several tiles because starting one costs the CPU driver as much as a cheap pixel pass. The pixel is kept from tile to
+// tile: that driver divides lane by lane for the lane's number, and would do so in every tile.
 #define VKPT_RUN_OVER(size_, run)                                                                                      \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
     void main()                                                                                                        \
     {                                                                                                                  \
-        uvec2 size = size_, tiles = (size + 7u) / 8u;                                                                  \
+        uvec2 size = size_;                                                                                            \
+        uint tiles_across = (size.x + 7u) / 8u;                                                                        \
+        uvec2 pixel = place_of_tile(gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP, tiles_across) * 8u                       \
+            + pixel_in_tile(gl_LocalInvocationID.x);                                                                   \
         [[dont_unroll]] for (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {                                            \
-            uint tile = gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP + i;                                                  \
-            uvec2 pixel = place_of_tile(tile, tiles.x) * 8u + pixel_in_tile(gl_LocalInvocationIndex);                 \
-            if (tile < tiles.x * tiles.y && all(lessThan(pixel, size)))                                                \
+            if (all(lessThan(pixel, size)))                                                                            \
                 run(pixel, pixel.y * size.x + pixel.x);                                                                \
+            pixel.x += 8u;                                                                                             \
+            if (pixel.x >= tiles_across * 8u)                                                                          \
+                pixel += uvec2(-int(tiles_across) * 8, 8);                                                             \
         }                                                                                                              \
     }
 #define VKPT_RUN_OVER_PIXELS(run) VKPT_RUN_OVER(frame.size, run)
 #define VKPT_RUN_OVER_BLOCKS(run) VKPT_RUN_OVER(bounce_block_count(), run)
 #define VKPT_RUN_OVER_LANES(run)                                                                                       \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
-    void main() { run(gl_LocalInvocationIndex); }
+    void main() { run(gl_LocalInvocationID.x); }
 
 #endif
 

@@ -31,6 +31,7 @@
 #include "light_lists.glsl"
 #include "light_weights.glsl"
 #include "random.glsl"
+#include "whole_numbers.glsl"
 
 // The random numbers of one choice. `light` and `point` are dimensions of their own, stratified over the picture.
 struct LightRandom {
@@ -92,10 +93,10 @@ float mis_share(float own, float other)
     return 1.0f / (1.0f + ratio);
 }
 
-// floor(xi * count), safe against rounding up to count.
+// floor(xi * count), safe against rounding up to count; count <= 2^22.
 uint choose_uniformly(float xi, uint count)
 {
-    return min(uint(xi * float(count)), count - 1u);
+    return min(floor_to_uint(xi * float(int(count))), count - 1u);
 }
 
 LightShape unpack_outline(EmitterOutline outline)

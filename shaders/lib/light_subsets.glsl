@@ -5,7 +5,6 @@
 #define VKPT_LIB_LIGHT_SUBSETS
 
 #include "light_sampler.glsl"
-#include "whole_numbers.glsl"
 
 // Longer subsets than this are cut to it (weights are kept in an array).
 const uint max_subset_length = 64u;
@@ -117,7 +116,7 @@ float strided_subset_probability(LightListView list, LightPredictor predictor, u
         return 0.0f;
     uint stride = subset_stride(list.counted, subset_length);
     float mass = weigh_light(list, predictor, uint(place));
-    float total = weigh_lights(list, predictor, uint(place) % stride, stride);
+    float total = weigh_lights(list, predictor, remainder_whole(uint(place), stride), stride);
     return mass > 0.0f ? mass / (total * float(stride)) : 0.0f;
 }
 

@@ -11,6 +11,7 @@
 #include "bsdf.glsl"
 #include "emitters.glsl"
 #include "projected_triangle.glsl"
+#include "whole_numbers.glsl"
 
 const float least_contribution = 1e-30f;    // the weight of what is possible but predicted to be nothing
 const float greatest_contribution = 1e20f;  // keeps sums of weights finite
@@ -70,7 +71,7 @@ LtcEntry find_ltc_entry(LtcBuffer table, float roughness, float cosine)
     float last = float(LTC_SIZE - 1u);
     float y = clamp((roughness - LTC_LEAST_ROUGHNESS) / (1.0f - LTC_LEAST_ROUGHNESS), 0.0f, 1.0f) * last;
     float x = sqrt(clamp(1.0f - cosine, 0.0f, 1.0f)) * last;
-    uint row = min(uint(y), LTC_SIZE - 2u), column = min(uint(x), LTC_SIZE - 2u);
+    uint row = min(floor_to_uint(y), LTC_SIZE - 2u), column = min(floor_to_uint(x), LTC_SIZE - 2u);
     float u = x - float(column), v = y - float(row);
     LtcEntry low = mix_ltc(load_ltc_entry(table, row, column), load_ltc_entry(table, row, column + 1u), u);
     LtcEntry high = mix_ltc(load_ltc_entry(table, row + 1u, column), load_ltc_entry(table, row + 1u, column + 1u), u);

@@ -1,19 +1,63 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Unit vectors in 32 bits (octahedral map, 2 x 16 bit snorm; Cigolle et al., JCGT 2014) and light in 16 bits a number.
+// Numbers in a few bits each, unit vectors in 32 (octahedral map; Cigolle et al., JCGT 2014). CPU drivers' own functions for it
+// convert lane by lane (whole_numbers.glsl): here numbers are added to one so great that they end up, rounded, in its last bits.
 #ifndef VKPT_LIB_PACKING
 #define VKPT_LIB_PACKING
+
+#include "quick_floats.glsl"
+
+// From -1 to 1, in 16 bits each.
+uint pack_snorm2(vec2 v)
+{
+    uvec2 bits = floatBitsToUint(v * 32767.0 + 12582912.0);
+    return (bits.x & 0xffffu) | bits.y << 16u;
+}
+vec2 unpack_snorm2(uint bits) { return vec2(ivec2(bits << 16u, bits) >> 16) * (1.0 / 32767.0); }
+
+// From -1 to 1, in 8 bits each. Unpacked times 127.
+uint pack_snorm4(vec4 v)
+{
+    uvec4 bits = floatBitsToUint(v * 127.0 + 12582912.0) & 0xffu;
+    return bits.x | bits.y << 8u | bits.z << 16u | bits.w << 24u;
+}
+vec4 unpack_snorm4_times_127(uint bits) { return vec4(ivec4(uvec4(bits) << uvec4(24u, 16u, 8u, 0u)) >> 24); }
+
+// Clamped to 0 to 1, in 8 bits each.
+uint pack_unorm4(vec4 v)
+{
+    vec4 clamped = vec4(quick_clamp(v.rgb, 0.0, 1.0), quick_clamp(v.a, 0.0, 1.0));
+    uvec4 bits = floatBitsToUint(clamped * 255.0 + 8388608.0) & 0xffu;
+    return bits.x | bits.y << 8u | bits.z << 16u | bits.w << 24u;
+}
+vec4 unpack_unorm4(uint bits) { return vec4(ivec4((uvec4(bits) >> uvec4(0u, 8u, 16u, 24u)) & 0xffu)) * (1.0 / 255.0); }
+
+// From 0 to 1, in 16 bits each.
+uint pack_unorm2(vec2 v)
+{
+    uvec2 bits = floatBitsToUint(v * 65535.0 + 8388608.0);
+    return (bits.x & 0xffffu) | bits.y << 16u;
+}
+vec2 unpack_unorm2(uint bits) { return vec2(ivec2(bits & 0xffffu, bits >> 16u)) * (1.0 / 65535.0); }
+
+// Floats that lose their last 16 bits.
+uint pack_upper_halves(vec2 v)
+{
+    uvec2 bits = floatBitsToUint(v) + 0x8000u;
+    return bits.x >> 16u | (bits.y & 0xffff0000u);
+}
+vec2 unpack_upper_halves(uint bits) { return uintBitsToFloat(uvec2(bits << 16u, bits & 0xffff0000u)); }
 
 uint pack_direction(vec3 direction)
 {
     vec2 p = direction.xy / (abs(direction.x) + abs(direction.y) + abs(direction.z));
     if (direction.z < 0.0)
         p = (1.0 - abs(p.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0)));
-    return packSnorm2x16(p);
+    return pack_snorm2(p);
 }
 
 vec3 unpack_direction(uint bits)
 {
-    vec2 p = unpackSnorm2x16(bits);
+    vec2 p = unpack_snorm2(bits);
     vec3 direction = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     if (direction.z < 0.0)
         direction.xy = (1.0 - abs(direction.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(direction.xy, vec2(0.0)));

@@ -4,6 +4,7 @@
 #define VKPT_LIB_REPROJECTION
 
 #include "frame.glsl"
+#include "packing.glsl"
 #include "pixel_random.glsl"
 
 struct ScreenPoint {
@@ -32,16 +33,10 @@ vec2 place_in_last_view(ScreenPoint before, vec2 offset)
 // Shading normal, material and depth, as filters compare them. `material`: see material_key.
 uvec2 pack_guide(vec3 normal, float material, float depth)
 {
-    return uvec2(packSnorm4x8(vec4(normal, material)), floatBitsToUint(depth));
+    return uvec2(pack_snorm4(vec4(normal, material)), floatBitsToUint(depth));
 }
-// Normal and material, times 127: unpackSnorm4x8 divides.
-vec4 guide_bytes(uint bits)
-{
-    ivec4 bytes = ivec4(uvec4(bits) << uvec4(24u, 16u, 8u, 0u)) >> 24;
-    return vec4(bytes);
-}
-vec3 guide_normal(uvec2 guide) { return unpackSnorm4x8(guide.x).xyz; }
-float guide_material(uvec2 guide) { return unpackSnorm4x8(guide.x).w; }
+// Normal and material, times 127.
+vec4 guide_bytes(uint bits) { return unpack_snorm4_times_127(bits); }
 float guide_depth(uvec2 guide) { return uintBitsToFloat(guide.y); }
 
 // One number for what tells materials apart: keys of two roughnesses differ by half their difference, those of a metal and another

@@ -14,7 +14,7 @@ const uint max_alpha_layers = 256u;
 uint64_t lane_stack()
 {
     // Not gl_WorkGroupSize: it is only known behind the layout(local_size_x) of the including pass, and 1 before it.
-    uint lane = gl_WorkGroupID.x * PIXEL_GROUP_SIZE + gl_LocalInvocationIndex;
+    uint lane = gl_WorkGroupID.x * PIXEL_GROUP_SIZE + gl_LocalInvocationID.x;
     return software_stack(frame.scene.trace_stack, lane);
 }
 

@@ -24,7 +24,7 @@ vec3 sky_radiance(vec3 direction)
     vec3 d = vec3(dot(direction, frame.scene.sky.rotation[0]), dot(direction, frame.scene.sky.rotation[1]),
         dot(direction, frame.scene.sky.rotation[2]));
     vec3 face = sky_face(d);
-    uint slot = frame.scene.sky.textures[uint(face.z)];
+    uint slot = frame.scene.sky.textures[floor_to_uint(face.z)];
     vec2 uv = face.xy * 0.5 + 0.5;
     vec3 picture = textureLod(VKPT_PICTURE(slot, SAMPLER_CLAMP), uv, 0.0).rgb;
     return picture * frame.scene.sky.radiance;

@@ -120,8 +120,8 @@ void store_surface(uint pixel, HitSurface hit)
     Surface s = hit.surface;
     store_normals(pixel, uvec2(pack_direction(s.normal), pack_direction(s.geometric_normal)));
     store_surface(pixel,
-        uvec4(packHalf2x16(s.albedo.xy), packHalf2x16(vec2(s.albedo.z, s.roughness)),
-            packHalf2x16(vec2(s.metallic, 0.0)) | (uint(hit.cluster + 1) << 16u), pack_direction(s.view)));
+        uvec4(pack_unorm2(s.albedo.xy), pack_unorm2(vec2(s.albedo.z, s.roughness)),
+            pack_unorm2(vec2(s.metallic, 0.0)) | (uint(hit.cluster + 1) << 16u), pack_direction(s.view)));
 }
 
 // position.w of pixels without a surface to light.
@@ -140,16 +140,16 @@ PrimarySurface load_primary_surface(uint pixel)
     vec4 position = load_position(pixel);
     uvec2 normals = load_normals(pixel);
     uvec4 bits = load_surface(pixel);
-    vec2 blue_roughness = unpackHalf2x16(bits.y);
+    vec2 blue_roughness = unpack_unorm2(bits.y);
     result.depth = position.w;
     result.cluster = int(bits.z >> 16u) - 1;
     result.surface.position = position.xyz;
     result.surface.normal = unpack_direction(normals.x);
     result.surface.geometric_normal = unpack_direction(normals.y);
     result.surface.view = unpack_direction(bits.w);
-    result.surface.albedo = vec3(unpackHalf2x16(bits.x), blue_roughness.x);
+    result.surface.albedo = vec3(unpack_unorm2(bits.x), blue_roughness.x);
     result.surface.roughness = blue_roughness.y;
-    result.surface.metallic = unpackHalf2x16(bits.z & 0xffffu).x;
+    result.surface.metallic = unpack_unorm2(bits.z).x;
     return result;
 }
 

@@ -55,9 +55,9 @@ float light_probability(LightListView list, Surface s, uint emitter, LightRandom
     PartChoices choices = choose_parts(list, random.light, options.subset_length);
     uint static_count = list.range.static_count;
     if (uint(place) < static_count)
-        choices.of_static.offset = uint(place) % choices.of_static.stride;
+        choices.of_static.offset = remainder_whole(uint(place), choices.of_static.stride);
     else
-        choices.of_dynamic.offset = (uint(place) - static_count) % choices.of_dynamic.stride;
+        choices.of_dynamic.offset = remainder_whole(uint(place) - static_count, choices.of_dynamic.stride);
     float total = float(choices.of_static.stride)
             * weigh_lights(static_lights(list), predictor, choices.of_static.offset, choices.of_static.stride)
         + float(choices.of_dynamic.stride)

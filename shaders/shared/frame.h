@@ -172,7 +172,9 @@ struct FrameUniforms {
     uint probe_count;
     uvec2 size;          // pixels rendered
     uvec2 resolved_size; // pixels of the buffers `resolved` and `accumulated`: more where anti-aliasing upscales
-    uvec2 output_origin; // where the view lies in the picture
+    uint64_t output_words; // the picture that is shown: a word a pixel, RGBA, red in the lowest byte, sRGB-encoded
+    uint output_across;  // its pixels in a row
+    uvec2 output_origin; // where the view lies in it
     uvec2 output_size;
     float time;          // seconds of the game
     float frame_seconds; // wall time since the last view

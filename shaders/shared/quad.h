@@ -37,9 +37,10 @@ struct QuadPush {
     uint64_t quads;        // Quad
     uint64_t tiles;        // QuadTile, one per workgroup
     uint64_t quad_indices; // uint
+    uint64_t output_words; // FrameUniforms::output_words
     uvec2 output_size;
 };
-VKPT_ASSERT_SIZE(QuadPush, 32);
+VKPT_ASSERT_SIZE(QuadPush, 40);
 
 VKPT_SHARED_END
 
