@@ -1,17 +1,26 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Puts the picture's radiance together, and averages it with the frames before while nothing moves.
+// Puts the picture's radiance together, the last level of the spatial filter included, and averages it with the frames before while
+// nothing moves.
+#define VKPT_DEVIATIONS_ARE_KNOWN
 #include "lib/frame.glsl"
-#include "lib/denoise.glsl"
+#include "lib/denoise_spread.glsl"
+
+layout(push_constant, scalar) uniform PushBlock { SpreadPush push; };
 
 // What the surface reflects towards the viewer.
-vec3 reflected_light(uint index, Surface surface)
+vec3 reflected_light(uvec2 pixel, uint index, Surface surface)
 {
-    if ((frame.flags & FRAME_DENOISED) == 0u)
-        return surface.albedo * load_diffuse_light(index) + load_specular_light(index);
-    bool unfiltered = frame.cvars.flt_denoiser == DENOISER_TEMPORAL;
-    FilteredLight light = unpack_filtered(unfiltered ? load_filtered(index) : load_filter_b(index));
+    if ((frame.flags & FRAME_DENOISED) == 0u) {
+        ReflectedLight unfiltered = load_reflected_light(index);
+        return surface.albedo * unfiltered.diffuse + unfiltered.specular;
+    }
+    FilteredLight light;
+    if (frame.cvars.flt_denoiser == DENOISER_TEMPORAL)
+        light = unpack_filtered(load_filtered(index));
+    else
+        light = spread_light(pixel, index, load_guide(index), load_element(push.source, index, uvec4(0u)), push);
     return surface.albedo * light.diffuse + specular_tint(surface) * light.specular;
 }
 
@@ -20,7 +29,7 @@ void compose_pixel(uvec2 pixel, uint index)
     vec3 radiance = load_emitted(index);
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0)
-        radiance += unpack_light3(load_throughput(index)) * reflected_light(index, primary.surface);
+        radiance += unpack_light3(load_throughput(index)) * reflected_light(pixel, index, primary.surface);
     // One broken path must not blacken a pixel for ever.
     if (is_broken(radiance)) {
         count_broken_pixel();

@@ -27,7 +27,7 @@ void filter_pixel(uvec2 pixel, uint index)
     }
     FilteredLight light = unpack_filtered(bits);
     Pixel centre = make_pixel(index, guide, light);
-    float fall = specular_fall(1.0, unpack_moments(load_moments(index)).specular_reach);
+    float fall = specular_fall(centre, 1.0);
 
     // Taps beyond the edge do not count; they read the pixel at the edge.
     uvec2 last = frame.size - 1u, before = pixel - min(pixel, uvec2(1u)), after = min(pixel + 1u, last);
@@ -42,7 +42,7 @@ void filter_pixel(uvec2 pixel, uint index)
     [[unroll]] for (int y = 0; y < 3; y++)
         [[unroll]] for (int x = 0; x < 3; x++)
             if (x != 1 || y != 1)
-                add_neighbour(diffuse, specular, centre, push.source, rows[y] + columns[x], vec2(x - 1, y - 1), across[x] * down[y],
+                add_neighbour(diffuse, specular, centre, push.source, rows[y] + columns[x], make_way(centre, vec2(x - 1, y - 1)), across[x] * down[y],
                     x != 1 && y != 1 ? fall * fall : fall);
     float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;
     FilteredLight result = FilteredLight(diffuse.light * diffuse_scale, filtered_deviation(diffuse, diffuse_scale, light.diffuse_deviation),

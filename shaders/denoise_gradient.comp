@@ -12,7 +12,8 @@ void compare_stratum(uvec2 stratum, uint number)
     uvec2 pixel = stratum_pixel(stratum);
     uint index = pixel_index(pixel);
     if (before.x >= 0.0 && is_own_sample(load_random_seed(index))) {
-        vec2 now = vec2(luminance(load_diffuse_light(index)), luminance(load_specular_light(index)));
+        ReflectedLight light = load_reflected_light(index);
+        vec2 now = vec2(luminance(light.diffuse), luminance(light.specular));
         vec2 change = now - before, greater = max(now, before);
         gradient = vec4(change.x, greater.x, change.y, greater.y);
         if (any(isnan(gradient)) || any(isinf(gradient)))

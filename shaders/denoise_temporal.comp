@@ -57,7 +57,7 @@ void add_history(inout History sum, inout float total, Search search, ivec2 plac
 History find_history(Search search, vec2 at)
 {
     History none = History(
-        FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0), 0.0, 0.0));
+        FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0), 0.0));
     if ((frame.flags & FRAME_HISTORY) == 0u)
         return none;
     at = clamp(at, vec2(-2.0), vec2(frame.previous_size) + 2.0);
@@ -127,14 +127,14 @@ vec2 place_of_reflection(uvec2 pixel, float distance)
     return place_in_last_view(before, frame.pixel_offset);
 }
 
-// Pixels over which the lobe spreads what it reflects: filters must not reach farther, or reflections blur.
-float specular_reach(PrimarySurface primary, float distance)
+// See specular_fall. The lobe spreads what it reflects over so many pixels: filters must not reach farther, or reflections blur.
+float find_specular_fall(PrimarySurface primary, float distance)
 {
-    const float unlimited = 1e4;
     if (distance <= 0.0)
-        return unlimited;
+        return 0.0;
     float spread = 2.0 * ggx_alpha(primary.surface.roughness) * distance / (distance + primary.depth);
-    return 1.0 + spread * float(frame.size.x) * 0.5 / length(frame.camera.right);
+    float reach = 1.0 + spread * float(frame.size.x) * 0.5 / length(frame.camera.right);
+    return 1.0 / (reach * reach);
 }
 
 // Lambda: the share of the light (diffuse, specular) that has changed since the last view around this pixel.
@@ -168,13 +168,15 @@ void accumulate_pixel(uvec2 pixel, uint index)
         store_moments(index, uvec4(0u));
         return;
     }
-    vec3 diffuse = load_diffuse_light(index), specular = load_specular_light(index) / specular_tint(primary.surface);
+    ReflectedLight reflected = load_reflected_light(index);
+    vec3 diffuse = reflected.diffuse, specular = reflected.specular / specular_tint(primary.surface);
     if (is_broken(diffuse) || is_broken(specular)) {
         count_broken_pixel();
         diffuse = specular = vec3(0.0); // or it would stay in the history
     }
     vec4 kind = guide_bytes(load_guide(index).x);
-    Search search = Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, unpack_upper_halves(load_slope(index)), load_motion(index));
+    uint slope = load_slope(index);
+    Search search = Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, unpack_upper_halves(slope), load_motion(index));
     History history = find_history(search, search.shown.xy);
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
     if (primary.surface.roughness < glossy_roughness && reflected_distance > 0.0) {
@@ -201,8 +203,8 @@ void accumulate_pixel(uvec2 pixel, uint index)
     light.specular_deviation = average_deviation(specular_moments, frames.y);
     store_light(index, pack_filtered(light));
     store_moments(index, pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),
-        vec2(specular_moments.x, sqrt(specular_moments.y)), frames, reflected_distance,
-        specular_reach(primary, reflected_distance))));
+        vec2(specular_moments.x, sqrt(specular_moments.y)), frames, reflected_distance)));
+    store_filter_reach(index, uvec2(slope, floatBitsToUint(find_specular_fall(primary, reflected_distance))));
 }
 
 VKPT_RUN_OVER_PIXELS(accumulate_pixel)

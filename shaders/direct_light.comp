@@ -15,8 +15,7 @@ void light_pixel(uvec2 pixel, uint index)
         light = sample_direct_light(primary.surface, primary.cluster, random, bsdf_ray_count() > 0u);
         store_traced_rays(index, load_ray_count(index));
     }
-    store_diffuse_light(index, light.diffuse);
-    store_specular_light(index, light.specular);
+    store_reflected_light(index, light);
 }
 
 VKPT_RUN_OVER_PIXELS(light_pixel)

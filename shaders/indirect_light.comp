@@ -112,8 +112,9 @@ FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary, out Bsdf
 void add_light(uint index, BsdfValue reflected, vec3 radiance, float reflected_distance)
 {
     store_reflected_distance(index, reflected_distance);
-    store_diffuse_light(index, load_diffuse_light(index) + reflected.diffuse * radiance);
-    store_specular_light(index, load_specular_light(index) + reflected.specular * radiance);
+    ReflectedLight light = load_reflected_light(index);
+    store_reflected_light(
+        index, ReflectedLight(light.diffuse + reflected.diffuse * radiance, light.specular + reflected.specular * radiance));
 }
 
 // Narrower lobes reflect something else one pixel on: such surfaces send rays of their own.

@@ -220,7 +220,7 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfac
     record_lit_pass("indirect_light", pixel_work(count_blocks(uniforms.size, uniforms.bounce_block)));
     if (uniforms.flags & shared::FRAME_DENOISED)
         record_denoiser(uniforms);
-    record_pass("accumulate", pixels.groups);
+    record_composition(uniforms);
     if (uniforms.flags & shared::FRAME_ANTIALIASED)
         record_pass("temporal_antialiasing", pixel_groups(uniforms.resolved_size));
     if (surfaces == Surfaces::probes)
@@ -333,7 +333,7 @@ shared::RayCounts Frame::read_ray_counts() const
 
 bool Frame::read_radiance(float* rgb)
 {
-    const size_t bytes = size_t(state_.size.x) * state_.size.y * sizeof(glm::vec3);
+    const size_t pixels = size_t(state_.size.x) * state_.size.y, bytes = pixels * sizeof(glm::vec4);
     if (bytes == 0 || !state_.radiance)
         return false;
     const Buffer copy(graphics_.gpu, bytes, BufferHome::readback, MemoryKind::staging, "radiance readback");
@@ -345,7 +345,8 @@ bool Frame::read_radiance(float* rgb)
         record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     });
-    std::memcpy(rgb, copy.mapped(), bytes);
+    for (size_t i = 0; i < pixels; i++)
+        std::memcpy(rgb + 3 * i, copy.mapped() + i * sizeof(glm::vec4), sizeof(glm::vec3));
     return true;
 }
 

@@ -141,6 +141,7 @@ private:
     void begin_filters(
         shared::FrameUniforms& uniforms, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average);
     void record_denoiser(const shared::FrameUniforms& uniforms);
+    void record_composition(const shared::FrameUniforms& uniforms);
     void record_replay(const shared::FrameUniforms& uniforms);
     void record_gradient(const shared::FrameUniforms& uniforms);
     void record_spatial_filter(uint32_t groups);

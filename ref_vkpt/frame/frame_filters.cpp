@@ -11,7 +11,8 @@ namespace vkpt {
 namespace {
 
 // To the first tap of each further level of the spatial filter: pixels.
-const glm::ivec2 spread_ways[] = { { 2, 1 }, { -1, 5 }, { 8, 6 }, { -12, 16 } };
+constexpr size_t spread_levels = 4;
+const glm::ivec2 spread_ways[spread_levels] = { { 2, 1 }, { -1, 5 }, { 8, 6 }, { -12, 16 } };
 // Of the gradient's; odd, so that the result lies in gradient_b.
 constexpr uint32_t gradient_levels = 3;
 
@@ -112,6 +113,13 @@ void Frame::record_denoiser(const shared::FrameUniforms& uniforms)
         record_spatial_filter(groups);
 }
 
+// The picture's radiance, and with it the last level of the spatial filter.
+void Frame::record_composition(const shared::FrameUniforms& uniforms)
+{
+    const shared::SpreadPush push { graphics_.screen.rows().filter_b, {}, spread_ways[spread_levels - 1] };
+    record_level("accumulate", push, pixel_groups(uniforms.size));
+}
+
 // Before the light passes.
 void Frame::record_replay(const shared::FrameUniforms& uniforms)
 {
@@ -165,19 +173,19 @@ bool Frame::wants_bloom(const shared::FrameUniforms& uniforms)
         && std::min(uniforms.resolved_size.x, uniforms.resolved_size.y) >= least_bloom_size;
 }
 
-// The first level's result is what the next view accumulates on; the last one's lies in filter_b.
+// All but the last level. The first level's result is what the next view accumulates on.
 void Frame::record_spatial_filter(uint32_t groups)
 {
     const shared::ScreenBuffers& screen = graphics_.screen.rows();
     record_level("denoise_filter", shared::FilterPush { screen.filter_a, screen.filtered, 1, 0 }, groups);
-    static_assert(std::size(spread_ways) % 2 == 0);
-    const shared::ScreenBuffer* source = &screen.filtered;
-    const shared::ScreenBuffer* target = &screen.filter_a;
-    for (const glm::ivec2 way : spread_ways) {
-        record_level("denoise_spread", shared::SpreadPush { *source, *target, way }, groups);
-        source = target;
-        target = target == &screen.filter_a ? &screen.filter_b : &screen.filter_a;
-    }
+    const auto spread
+        = [&](const char* name, size_t level, const shared::ScreenBuffer& source, const shared::ScreenBuffer& target) {
+              record_level(name, shared::SpreadPush { source, target, spread_ways[level] }, groups);
+          };
+    spread("denoise_spread_first", 0, screen.filtered, screen.filter_b);
+    spread("denoise_spread", 1, screen.filter_b, screen.filter_a);
+    spread("denoise_spread", 2, screen.filter_a, screen.filter_b);
+    static_assert(spread_levels == 4);
 }
 
 } // namespace vkpt

@@ -30,7 +30,7 @@ std::vector<std::string> frame_shaders(TraceBackend backend)
             shaders.push_back(std::string(pass) + ".comp");
     };
     if (filters.flt_denoiser == shared::DENOISER_SVGF || filters.flt_denoiser == shared::DENOISER_ASVGF)
-        add({ "denoise_filter", "denoise_spread" });
+        add({ "denoise_filter", "denoise_spread_first", "denoise_spread" });
     if (filters.flt_denoiser != shared::DENOISER_OFF)
         add({ "denoise_temporal" });
     if (filters.flt_denoiser == shared::DENOISER_ASVGF)

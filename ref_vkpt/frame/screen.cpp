@@ -3,12 +3,17 @@
 
 #include <algorithm>
 #include <bit>
+#include <type_traits>
 
 namespace vkpt {
 
 namespace {
 
 size_t pixel_count(glm::uvec2 size) { return size_t(size.x) * size.y; }
+
+// Shaders read and write 64-bit words.
+template <class Element>
+constexpr size_t element_bytes = std::is_same_v<Element, glm::vec3> ? sizeof(glm::vec4) : sizeof(Element);
 
 } // namespace
 
@@ -61,8 +66,9 @@ bool Screen::reserve_pixels(glm::uvec2 size)
     using namespace shared;
     // However the pixels are arranged, and with blocks that the edge cuts.
     const size_t strata = view_.pixels / 3 + 1;
-#define VKPT_SCREEN_BUFFER(type, name) view_.rows.name = renew_row(row_##name, view_.pixels, sizeof(type), #name);
-#define VKPT_STRATUM_BUFFER(type, name) view_.rows.name = renew_row(row_##name, strata, sizeof(type), #name);
+#define VKPT_SCREEN_BUFFER(type, name)                                                                                 \
+    view_.rows.name = renew_row(row_##name, view_.pixels, element_bytes<type>, #name);
+#define VKPT_STRATUM_BUFFER(type, name) view_.rows.name = renew_row(row_##name, strata, element_bytes<type>, #name);
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
     const size_t lanes = size_t(view_.groups) * PIXEL_GROUP_SIZE;

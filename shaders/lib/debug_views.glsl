@@ -87,7 +87,7 @@ vec3 debug_colour(int view, uvec2 pixel, uint index)
     case DEBUG_VIEW_CLUSTER: return primary.cluster < 0 ? vec3(1.0, 0.0, 1.0) : colour_of_number(uint(primary.cluster));
     case DEBUG_VIEW_LIST_LENGTH:
         return heat_colour(float(light_count(open_light_list(light_tables(), primary.cluster))) / longest_list);
-    case DEBUG_VIEW_IRRADIANCE: return load_diffuse_light(index);
+    case DEBUG_VIEW_IRRADIANCE: return load_reflected_light(index).diffuse;
     case DEBUG_VIEW_ROUGHNESS: return vec3(s.roughness, s.metallic, 0.0);
     }
     return filter_colour(view, pixel, index);

@@ -9,7 +9,8 @@
 #include "surfaces.glsl"
 
 // Light of a pixel with the standard deviation of its luminance, either for each of the two lobes. Where too few frames tell how much the
-// luminance varies, minus the root of its mean square: the spatial filter's first levels measure it among the neighbours.
+// luminance varies, minus the root of its mean square: the spatial filter's first levels measure it among the neighbours. The levels behind
+// those define VKPT_DEVIATIONS_ARE_KNOWN.
 struct FilteredLight {
     vec3 diffuse;
     float diffuse_deviation;
@@ -25,7 +26,11 @@ uint deviation_bits(float deviation)
 float unpack_deviation(uint bits)
 {
     uint size = ((bits >> 3u) & 0x1fffc000u) + uint(least_light16);
+#ifdef VKPT_DEVIATIONS_ARE_KNOWN
+    return uintBitsToFloat(size);
+#else
     return uintBitsToFloat(size | ((bits << 15u) & 0x80000000u));
+#endif
 }
 
 uvec4 pack_filtered(FilteredLight light)
@@ -40,7 +45,11 @@ FilteredLight unpack_filtered(uvec4 bits)
         vec3(unpack_light2(bits.z), unpack_light2(bits.w).x), unpack_deviation(bits.w));
 }
 
+#ifdef VKPT_DEVIATIONS_ARE_KNOWN
+bool is_known(float deviation) { return true; }
+#else
 bool is_known(float deviation) { return floatBitsToInt(deviation) >= 0; }
+#endif
 
 // Colour that the specular light of this surface carries.
 vec3 specular_tint(Surface s) { return mix(vec3(1.0), max(s.albedo, 0.05), s.metallic); }
@@ -86,7 +95,6 @@ struct Moments {
     vec2 specular;
     vec2 frames; // how many the light's average is worth: diffuse, specular
     float reflected_distance; // average, to what the specular lobe shows; 0: unknown
-    float specular_reach; // pixels that the specular filter may reach
 };
 
 // Frames are kept in 8 bits each: up to 36 of them, in sevenths.
@@ -96,13 +104,13 @@ uvec4 pack_moments(Moments m)
 {
     ivec2 frames = min(whole_to_int(floor(m.frames * frame_parts + 0.5)), 255);
     return uvec4(pack_light2(m.diffuse), pack_light2(m.specular),
-        light16_bits(m.reflected_distance) | (uint(frames.x) << 16u) | (uint(frames.y) << 24u), floatBitsToUint(m.specular_reach));
+        light16_bits(m.reflected_distance) | (uint(frames.x) << 16u) | (uint(frames.y) << 24u), 0u);
 }
 
 Moments unpack_moments(uvec4 bits)
 {
     return Moments(unpack_light2(bits.x), unpack_light2(bits.y), vec2((bits.z >> 16u) & 255u, bits.z >> 24u) * (1.0 / frame_parts),
-        unpack_light2(bits.z).x, uintBitsToFloat(bits.w));
+        unpack_light2(bits.z).x);
 }
 
 #endif

@@ -67,6 +67,7 @@ struct Pixel {
     float material; // of guide_bytes
     float depth;
     vec2 slope;
+    float specular_fall; // see specular_fall
     float diffuse_luminance, specular_luminance;
     float diffuse_allowed, specular_allowed;
 };
@@ -78,7 +79,9 @@ Pixel make_pixel(uint index, uvec2 guide, FilteredLight light)
     pixel.normal = kind.xyz * (1.0 / (127.0 * 127.0));
     pixel.material = kind.w;
     pixel.depth = guide_depth(guide);
-    pixel.slope = unpack_upper_halves(load_slope(index));
+    uvec2 reach = load_filter_reach(index);
+    pixel.slope = unpack_upper_halves(reach.x);
+    pixel.specular_fall = uintBitsToFloat(reach.y);
     pixel.diffuse_luminance = luminance(light.diffuse);
     pixel.specular_luminance = luminance(light.specular);
     pixel.diffuse_allowed = allowed_square(light.diffuse_deviation) + least_square(pixel.diffuse_luminance);
@@ -86,27 +89,31 @@ Pixel make_pixel(uint index, uvec2 guide, FilteredLight light)
     return pixel;
 }
 
-// What a specular tap counts for at a distance of `pixels` from a pixel whose lobe reaches so far.
-float specular_fall(float pixels, float reach)
-{
-    float share = pixels / reach;
-    return exp(-share * share);
-}
+// What a specular tap counts for, `pixels2` being the square of how many pixels it is off.
+float specular_fall(Pixel pixel, float pixels2) { return exp(-pixel.specular_fall * pixels2); }
 
-// The tap at `there`, which is `way` (pixels) off and counts for `kernel` if all is alike, `fall` times of it for the specular lobe.
-void add_neighbour(inout Sums diffuse, inout Sums specular, Pixel pixel, ScreenBuffer source, uint there, vec2 way, float kernel, float fall)
+// What is foretold of a tap's depth, as a share of it: by how much the pixel's plane rises on the way, and how far off the tap may lie.
+struct Way {
+    float rise;
+    float tolerance;
+};
+Way make_way(Pixel pixel, vec2 pixels) { return Way(dot(pixel.slope, pixels), plane_tolerance(pixel.slope, pixels)); }
+Way backwards(Way way) { return Way(-way.rise, way.tolerance); }
+
+// The tap at `there`, which counts for `kernel` if all is alike, `fall` times of it for the specular lobe.
+void add_neighbour(inout Sums diffuse, inout Sums specular, Pixel pixel, ScreenBuffer source, uint there, Way way, float kernel, float fall)
 {
     uvec2 guide = load_guide(there);
     FilteredLight light = unpack_filtered(load_element(source, there, uvec4(0u)));
-    // As plane_distance and plane_tolerance, without their division.
-    float depth = guide_depth(guide), foretold = depth * (1.0 + dot(pixel.slope, way));
-    float tolerance = depth * (0.008 + 0.25 * dot(abs(pixel.slope), abs(way)));
+    // As plane_distance, without its division.
+    float depth = guide_depth(guide), off_plane = pixel.depth - depth - depth * way.rise;
     vec4 kind = guide_bytes(guide.x);
-    float cosine = dot(pixel.normal, kind.xyz), difference = abs(pixel.material - kind.w) * (1.0 / 127.0);
+    float cosine = dot(pixel.normal, kind.xyz), difference = abs(pixel.material - kind.w);
     float cosine2 = cosine * cosine, cosine4 = cosine2 * cosine2, cosine8 = cosine4 * cosine4, cosine16 = cosine8 * cosine8;
-    bool same = abs(pixel.depth - foretold) < tolerance && cosine > least_cosine && difference < most_material_difference;
+    bool same = abs(off_plane) < depth * way.tolerance && cosine > least_cosine
+        && difference < 127.0 * most_material_difference;
     float weight = same ? kernel * cosine16 * cosine16 : 0.0;
-    float alike = 1.0 - roughness_stop * difference;
+    float alike = 1.0 - roughness_stop / 127.0 * difference;
 
     // For either lobe 1 / (1 + luminance_fall x^2)^2, with x the difference in what is allowed; a division for both.
     float diffuse_luminance = luminance(light.diffuse), specular_luminance = luminance(light.specular);

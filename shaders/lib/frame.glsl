@@ -35,7 +35,6 @@ layout(set = 1, binding = 0) uniform texture2D textures[];
     void store_element(uint64_t address, uint index, type value) { type##_elements(address).v[index] = value; }
 VKPT_ELEMENT(float)
 VKPT_ELEMENT(uint)
-VKPT_ELEMENT(vec3)
 #undef VKPT_ELEMENT
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ElementWords { uint64_t v[]; };
@@ -54,6 +53,15 @@ void store_element(uint64_t address, uint index, uvec4 value)
 }
 void store_element(uint64_t address, uint index, vec2 value) { store_element(address, index, floatBitsToUint(value)); }
 void store_element(uint64_t address, uint index, vec4 value) { store_element(address, index, floatBitsToUint(value)); }
+// 16 bytes apart.
+void store_element(uint64_t address, uint index, vec3 value) { store_element(address, index, vec4(value, 0.0)); }
+void store_element(uint64_t address, uint index, ReflectedLight value)
+{
+    uint64_t words = address + uint64_t(index * 24u);
+    store_element(words, 0u, value.diffuse.xy);
+    store_element(words, 1u, vec2(value.diffuse.z, value.specular.x));
+    store_element(words, 2u, value.specular.yz);
+}
 
 // An element of a screen buffer. Texels may be fetched at any time: a pass must not load what it has stored.
 layout(set = 3, binding = 0) uniform utextureBuffer screen_texels[SCREEN_BUFFER_COUNT];
@@ -70,11 +78,22 @@ vec2 load_element(ScreenBuffer buffer_, uint index, vec2 unused) { return uintBi
 vec4 load_element(ScreenBuffer buffer_, uint index, vec4 unused) { return uintBitsToFloat(load_element(buffer_, index, uvec4(0u))); }
 uint load_element(ScreenBuffer buffer_, uint index, uint unused) { return load_element(buffer_.address, index, 0u); }
 float load_element(ScreenBuffer buffer_, uint index, float unused) { return load_element(buffer_.address, index, 0.0); }
-vec3 load_element(ScreenBuffer buffer_, uint index, vec3 unused) { return load_element(buffer_.address, index, vec3(0.0)); }
+vec3 load_element(ScreenBuffer buffer_, uint index, vec3 unused) { return load_element(buffer_, index, vec4(0.0)).xyz; }
+ReflectedLight load_element(ScreenBuffer buffer_, uint index, ReflectedLight unused)
+{
+    uint64_t words = buffer_.address + uint64_t(index * 24u);
+    vec2 a = uintBitsToFloat(load_element(words, 0u, uvec2(0u))), b = uintBitsToFloat(load_element(words, 1u, uvec2(0u))),
+         c = uintBitsToFloat(load_element(words, 2u, uvec2(0u)));
+    return ReflectedLight(vec3(a, b.x), vec3(b.y, c));
+}
 
 // load_NAME(pixel index) and store_NAME(pixel index, value) for every screen buffer
 #define VKPT_SCREEN_BUFFER(type, name)                                                                                 \
-    type load_##name(uint pixel) { return load_element(frame.screen.name, pixel, type(0)); }                           \
+    type load_##name(uint pixel)                                                                                       \
+    {                                                                                                                  \
+        type unused;                                                                                                   \
+        return load_element(frame.screen.name, pixel, unused);                                                         \
+    }                                                                                                                  \
     void store_##name(uint pixel, type value) { store_element(frame.screen.name.address, pixel, value); }
 #include "../shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER

@@ -9,12 +9,6 @@
 
 const uint mask_shadow = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
 
-// Light that a surface reflects: diffuse without albedo.
-struct ReflectedLight {
-    vec3 diffuse;
-    vec3 specular;
-};
-
 // The lights of a cluster. For a sample of the last view that is repeated: with the last view's lights at their old places.
 LightListView open_light_list_for(LightRandom random, int cluster)
 {

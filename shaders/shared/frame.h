@@ -77,6 +77,13 @@ struct FrameStatistics {
 
 VKPT_CONST uint BLOOM_FIRST_STEP = 4u; // the pyramid's first level has a pixel for so many of the picture's, in either direction
 
+// Light that a surface reflects: diffuse without albedo.
+struct ReflectedLight {
+    vec3 diffuse;
+    vec3 specular;
+};
+VKPT_ASSERT_SIZE(ReflectedLight, 24);
+
 // One level of the bloom's pyramid, which is made smaller from, or added to, another (push constants).
 struct BloomPush {
     uint64_t source; // uvec2: rgb, 16 bits each; 0: the picture's radiance
@@ -93,10 +100,10 @@ struct FilterPush {
     uint level;      // from 0
 };
 
-// What denoise_spread.comp is told (push constants).
+// What a level of lib/denoise_spread.glsl is told (push constants).
 struct SpreadPush {
     ScreenBuffer source; // of the type of the buffer `filtered`
-    ScreenBuffer target;
+    ScreenBuffer target; // of the last level: none
     ivec2 way;       // pixels to the first tap
 };
 

@@ -1,0 +1,12 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The second level of the spatial filter, which is the last to measure how much the light varies where too few frames tell.
+#include "lib/frame.glsl"
+#include "lib/denoise_spread.glsl"
+
+layout(push_constant, scalar) uniform PushBlock { SpreadPush push; };
+
+void run_level(uvec2 pixel, uint index) { spread_pixel(pixel, index, push); }
+
+VKPT_RUN_OVER_PIXELS(run_level)
