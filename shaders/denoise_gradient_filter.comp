@@ -8,24 +8,25 @@
 
 layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
 
+ivec2 place_in_stratum(uvec2 stratum_place) { return ivec2(stratum_place.x & 0xffffu, stratum_place.x >> 16u); }
+
 void filter_stratum(uvec2 stratum, uint number)
 {
-    uvec2 pixel = stratum_pixel(stratum), count = stratum_count();
-    uint index = pixel_index(pixel);
-    uvec2 guide = load_guide(index);
-    vec2 slope = unpack_upper_halves(load_slope(index));
+    uvec2 own = load_stratum_place(number), count = stratum_count();
+    ivec2 pixel = place_in_stratum(own);
+    float depth = guide_depth(own);
+    vec2 slope = unpack_upper_halves(load_slope(pixel_index(uvec2(pixel))));
     vec4 sum = vec4(0.0);
     [[dont_unroll]] for (uint tap = 0u; tap < 9u; tap++) {
         ivec2 way = ivec2(tap % 3u, tap / 3u) - 1;
         ivec2 place = ivec2(stratum) + way * int(push.step);
         if (any(lessThan(place, ivec2(0))) || any(greaterThanEqual(place, ivec2(count))))
             continue;
-        uvec2 other_pixel = stratum_pixel(uvec2(place));
-        float other = guide_depth(load_guide(pixel_index(other_pixel)));
-        vec2 pixels = vec2(other_pixel) - vec2(pixel);
-        if (plane_distance(guide_depth(guide), slope, pixels, other) < plane_tolerance(slope, pixels))
-            sum += load_element(push.source, uint(place.y) * count.x + uint(place.x), vec4(0.0)) * (way.x == 0 || way.y == 0 ? 0.125 : 0.0625)
-                * (tap == 4u ? 2.0 : 1.0);
+        uint there = uint(place.y) * count.x + uint(place.x);
+        uvec2 other = load_stratum_place(there);
+        vec2 pixels = vec2(place_in_stratum(other) - pixel);
+        if (plane_distance(depth, slope, pixels, guide_depth(other)) < plane_tolerance(slope, pixels))
+            sum += load_element(push.source, there, vec4(0.0)) * (way.x == 0 || way.y == 0 ? 0.125 : 0.0625) * (tap == 4u ? 2.0 : 1.0);
     }
     store_element(push.target.address, number, sum);
 }

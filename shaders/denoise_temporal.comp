@@ -85,7 +85,7 @@ float average_deviation(vec2 mean_and_square, float frames)
 {
     if (frames < least_frames)
         return -sqrt(mean_and_square.y);
-    return sqrt(max(mean_and_square.y - mean_and_square.x * mean_and_square.x, 0.0) / frames);
+    return sqrt(quick_max(mean_and_square.y - mean_and_square.x * mean_and_square.x, 0.0) / frames);
 }
 
 // A rare path of great radiance must not stay in the history for seconds: new light counts up to so many times of what is known
@@ -114,25 +114,30 @@ float update_reflected_distance(uint index, float before)
     float now = load_reflected_distance(index);
     if (now <= 0.0)
         return before;
-    now = min(now, 16384.0);
+    now = quick_min(now, 16384.0);
     return before > 0.0 ? mix(before, now, 0.2) : now;
 }
 
-// Where the last view showed what the surface reflects: as far along the camera's ray as the light has come.
-vec2 place_of_reflection(uvec2 pixel, float distance)
+// Along the camera's ray, for 1 along its axis.
+vec3 camera_direction(uvec2 pixel)
 {
     vec2 screen = (vec2(pixel) + frame.pixel_offset) / vec2(frame.size) * 2.0 - 1.0;
-    vec3 direction = normalize(frame.camera.forward + frame.camera.right * screen.x - frame.camera.up * screen.y);
+    return frame.camera.forward + frame.camera.right * screen.x - frame.camera.up * screen.y;
+}
+
+// Where the last view showed what the surface reflects: as far along the camera's ray as the light has come.
+vec2 place_of_reflection(vec3 direction, float distance)
+{
     ScreenPoint before = project(frame.previous_camera, frame.camera.eye + direction * distance, frame.previous_size);
     return place_in_last_view(before, frame.pixel_offset);
 }
 
 // See specular_fall. The lobe spreads what it reflects over so many pixels: filters must not reach farther, or reflections blur.
-float find_specular_fall(PrimarySurface primary, float distance)
+float find_specular_fall(float roughness, float path_length, float distance)
 {
     if (distance <= 0.0)
         return 0.0;
-    float spread = 2.0 * ggx_alpha(primary.surface.roughness) * distance / (distance + primary.depth);
+    float spread = 2.0 * ggx_alpha(roughness) * distance / (distance + path_length);
     float reach = 1.0 + spread * float(frame.size.x) * 0.5 / length(frame.camera.right);
     return 1.0 / (reach * reach);
 }
@@ -148,7 +153,7 @@ vec2 find_lambda(uvec2 pixel)
 float most_specular_frames(uvec2 pixel, vec2 shown)
 {
     vec2 moved = abs(shown - ((vec2(pixel) + 0.5) * frame.previous_scale - 0.5));
-    return mix(most_frames, most_moving_frames, min(4.0 * max(moved.x, moved.y), 1.0));
+    return mix(most_frames, most_moving_frames, quick_min(4.0 * quick_max(moved.x, moved.y), 1.0));
 }
 
 // Without spatial filter this is already what the next view accumulates on.
@@ -162,25 +167,29 @@ void store_light(uint index, uvec4 light)
 
 void accumulate_pixel(uvec2 pixel, uint index)
 {
-    PrimarySurface primary = load_primary_surface(index);
-    if (primary.depth < 0.0) {
+    uvec2 guide = load_guide(index);
+    if (guide_depth(guide) <= 0.0) {
         store_light(index, uvec4(0u));
         store_moments(index, uvec4(0u));
         return;
     }
+    Surface surface; // its material alone
+    unpack_material(load_surface(index), surface);
     ReflectedLight reflected = load_reflected_light(index);
-    vec3 diffuse = reflected.diffuse, specular = reflected.specular / specular_tint(primary.surface);
+    vec3 diffuse = reflected.diffuse, specular = reflected.specular / specular_tint(surface);
     if (is_broken(diffuse) || is_broken(specular)) {
         count_broken_pixel();
         diffuse = specular = vec3(0.0); // or it would stay in the history
     }
-    vec4 kind = guide_bytes(load_guide(index).x);
+    vec4 kind = guide_bytes(guide.x);
     uint slope = load_slope(index);
     Search search = Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, unpack_upper_halves(slope), load_motion(index));
     History history = find_history(search, search.shown.xy);
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
-    if (primary.surface.roughness < glossy_roughness && reflected_distance > 0.0) {
-        History glossy = find_history(search, place_of_reflection(pixel, primary.depth + reflected_distance));
+    vec3 direction = camera_direction(pixel);
+    float direction_length = length(direction), path_length = guide_depth(guide) * direction_length;
+    if (surface.roughness < glossy_roughness && reflected_distance > 0.0) {
+        History glossy = find_history(search, place_of_reflection(direction, (path_length + reflected_distance) / direction_length));
         history.light.specular = glossy.light.specular;
         history.moments.specular = glossy.moments.specular;
         history.moments.frames.y = glossy.moments.frames.y;
@@ -188,10 +197,10 @@ void accumulate_pixel(uvec2 pixel, uint index)
     vec2 changed = find_lambda(pixel);
     diffuse = limit_firefly(diffuse, history.light.diffuse, history.moments.frames.x, changed.x);
     specular = limit_firefly(specular, history.light.specular, history.moments.frames.y, changed.y);
-    vec2 frames = min(history.moments.frames + 1.0, vec2(most_frames, most_specular_frames(pixel, search.shown.xy)));
+    vec2 frames = quick_min(history.moments.frames + 1.0, vec2(most_frames, most_specular_frames(pixel, search.shown.xy)));
     frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed);
     vec2 share = 1.0 / frames;
-    vec2 moment_share = 1.0 / min(frames, most_moment_frames);
+    vec2 moment_share = 1.0 / quick_min(frames, vec2(most_moment_frames));
     vec2 now = vec2(luminance(diffuse), luminance(specular));
     vec2 diffuse_moments = mix(history.moments.diffuse, vec2(now.x, now.x * now.x), moment_share.x);
     vec2 specular_moments = mix(history.moments.specular, vec2(now.y, now.y * now.y), moment_share.y);
@@ -204,7 +213,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
     store_light(index, pack_filtered(light));
     store_moments(index, pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),
         vec2(specular_moments.x, sqrt(specular_moments.y)), frames, reflected_distance)));
-    store_filter_reach(index, uvec2(slope, floatBitsToUint(find_specular_fall(primary, reflected_distance))));
+    store_filter_reach(index, uvec2(slope, floatBitsToUint(find_specular_fall(surface.roughness, path_length, reflected_distance))));
 }
 
 VKPT_RUN_OVER_PIXELS(accumulate_pixel)

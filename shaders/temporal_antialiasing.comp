@@ -21,7 +21,7 @@ const float sample_fall = 2.3;
 
 // Bright pixels count less, or one of them would make a neighbourhood of dark ones flicker. `scale`: about the exposure.
 vec3 compress(vec3 radiance, float scale) { return radiance * (scale / (1.0 + scale * luminance(radiance))); }
-vec3 expand(vec3 colour, float scale) { return colour / (scale * max(1.0 - luminance(colour), 1e-4)); }
+vec3 expand(vec3 colour, float scale) { return colour / (scale * quick_max(1.0 - luminance(colour), 1e-4)); }
 
 void catmull_rom(float t, out float weights[4])
 {
@@ -52,7 +52,7 @@ vec3 sample_history(vec2 place, float scale)
                 if (x == 1 || x == 2 || y == 1 || y == 2)
                     sum += old_colour(first + ivec2(x, y) - 1, scale) * (across[x] * down[y]);
         sum /= 1.0 - (across[0] + across[3]) * (down[0] + down[3]);
-        return max(sum, vec3(0.0));
+        return quick_max(sum, vec3(0.0));
     }
     vec3 upper = mix(old_colour(first, scale), old_colour(first + ivec2(1, 0), scale), part.x);
     vec3 lower = mix(old_colour(first + ivec2(0, 1), scale), old_colour(first + ivec2(1, 1), scale), part.x);
@@ -83,12 +83,12 @@ Neighbourhood look_around(ivec2 rendered, vec2 middle, float scale)
         }
         here += colour * weight;
         weights += weight;
-        nearest = max(nearest, weight);
+        nearest = quick_max(nearest, weight);
         mean += colour;
         square += colour * colour;
     }
-    mean /= 9.0;
-    return Neighbourhood(here / max(weights, 1e-12), nearest, mean, sqrt(max(square / 9.0 - mean * mean, vec3(0.0))));
+    mean *= 1.0 / 9.0;
+    return Neighbourhood(here / max(weights, 1e-12), nearest, mean, sqrt(quick_max(square * (1.0 / 9.0) - mean * mean, vec3(0.0))));
 }
 
 void resolve_pixel(uvec2 pixel, uint index)
@@ -106,12 +106,12 @@ void resolve_pixel(uvec2 pixel, uint index)
     float frames = now.certainty;
     if ((frame.flags & FRAME_HISTORY) != 0u && on_screen) {
         vec3 reach = now.deviation * most_deviations;
-        vec3 old = clamp(sample_history(place, scale), now.mean - reach, now.mean + reach);
+        vec3 old = quick_min(quick_max(sample_history(place, scale), now.mean - reach), now.mean + reach);
         frames += unpack_light2(load_old(whole_to_int(floor(place + 0.5))).y).y;
-        result = mix(old, now.here, now.certainty / max(frames, 1e-3));
-        frames = min(frames, most_frames - 1.0);
+        result = mix(old, now.here, now.certainty / quick_max(frames, 1e-3));
+        frames = quick_min(frames, most_frames - 1.0);
     }
-    vec3 radiance = min(expand(result, scale), 60000.0); // 16 bits end soon after
+    vec3 radiance = quick_min(expand(result, scale), vec3(60000.0)); // 16 bits end soon after
     store_resolved(index, uvec2(pack_light2(radiance.xy), pack_light2(vec2(radiance.z, frames))));
     store_accumulated(index, radiance);
 }

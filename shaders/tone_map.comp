@@ -17,12 +17,12 @@ vec3 filmic_curve(vec3 x)
 {
     const float toe = 0.025, shoulder = 0.96, slope = 0.60, lift = 0.12, white = 11.0;
     const float at_white = white * (white + toe) / (white * (white * shoulder + slope) + lift);
-    return clamp(x * (x + toe) / (x * (x * shoulder + slope) + lift) / at_white, 0.0, 1.0);
+    return quick_clamp(x * (x + toe) / (x * (x * shoulder + slope) + lift) * (1.0 / at_white), 0.0, 1.0);
 }
 
 vec3 encode_srgb(vec3 linear)
 {
-    return mix(1.055 * pow(max(linear, 0.0031308), vec3(1.0 / 2.4)) - 0.055, linear * 12.92, lessThan(linear, vec3(0.0031308)));
+    return mix(1.055 * pow(quick_max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055, linear * 12.92, lessThan(linear, vec3(0.0031308)));
 }
 
 // The picture's radiance at a place from (0, 0) to (1, 1): as it is where pixels match, else between four of them.
@@ -65,7 +65,7 @@ vec3 shown_colour(uvec2 pixel)
     if ((frame.flags & FRAME_BLOOM) != 0u)
         radiance = mix(radiance, sample_bloom_level(frame.screen.bloom.address, bloom_size(), place), frame.cvars.pt_bloom);
     vec3 exposed = radiance * ExposureBuffer(frame.exposure).v.exposure;
-    vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve(exposed) : clamp(exposed, 0.0, 1.0);
+    vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve(exposed) : quick_clamp(exposed, 0.0, 1.0);
     vec3 colour = mix(encode_srgb(display), frame.blend.rgb, frame.blend.a);
     // The players' gamma was made for unlit darkness: 1.2, its default, changes nothing here.
     float gamma = 1.2 / max(frame.gamma, 0.1);

@@ -52,7 +52,7 @@ bool is_known(float deviation) { return floatBitsToInt(deviation) >= 0; }
 #endif
 
 // Colour that the specular light of this surface carries.
-vec3 specular_tint(Surface s) { return mix(vec3(1.0), max(s.albedo, 0.05), s.metallic); }
+vec3 specular_tint(Surface s) { return mix(vec3(1.0), quick_max(s.albedo, vec3(0.05)), s.metallic); }
 
 // ---- broken light
 
@@ -82,7 +82,7 @@ vec2 changed_share(uvec2 pixel)
 {
     uvec2 stratum = divide_whole(pixel, stratum_size());
     vec4 gradient = load_gradient_b(stratum.y * stratum_count().x + stratum.x);
-    return clamp(abs(gradient.xz) / max(gradient.yw, 1e-10), 0.0, 1.0);
+    return quick_min(abs(gradient.xz) / quick_max(gradient.yw, vec2(1e-10)), vec2(1.0));
 }
 
 // main() for passes over strata: run(stratum, its number).

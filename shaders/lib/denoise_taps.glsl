@@ -36,7 +36,7 @@ Sums no_taps() { return Sums(vec3(0.0), 0.0, 0.0, 0.0, 0.0); }
 float measure_variance(Sums sums, float scale, float pixels)
 {
     float mean = luminance(sums.light) * scale;
-    return max(sums.square * scale - mean * mean, 0.0) * (1.0 / pixels);
+    return quick_max(sums.square * scale - mean * mean, 0.0) * (1.0 / pixels);
 }
 
 void add_tap(inout Sums sums, vec3 light, float l, float deviation, float weight)

@@ -24,6 +24,10 @@ vec3 quick_max(vec3 a, vec3 b)
 {
     return intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b)));
 }
+vec2 quick_min(vec2 a, vec2 b)
+{
+    return intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b)));
+}
 vec3 quick_min(vec3 a, vec3 b)
 {
     return intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b)));

@@ -19,7 +19,7 @@ ScreenPoint project(Camera camera, vec3 point, uvec2 size)
     float depth = dot(offset, camera.forward);
     vec2 screen = vec2(dot(offset, camera.right) / dot(camera.right, camera.right),
                       -dot(offset, camera.up) / dot(camera.up, camera.up))
-        / max(depth, 1e-3);
+        / quick_max(depth, 1e-3);
     return ScreenPoint((screen * 0.5 + 0.5) * vec2(size), depth);
 }
 
@@ -46,7 +46,7 @@ float material_key(float roughness, float metallic) { return (0.5 + 0.5 * roughn
 // Relative distance of a tap's depth from the plane through the pixel's surface; 0: on it. 1 / depth is linear on the screen.
 float plane_distance(float depth, vec2 slope, vec2 pixels, float tap_depth)
 {
-    return abs(depth / max(tap_depth, 1e-6) - 1.0 - dot(slope, pixels));
+    return abs(depth / quick_max(tap_depth, 1e-6) - 1.0 - dot(slope, pixels));
 }
 
 // How far from the plane a tap may lie, relative to depth: curved things lean away from it with the slope.

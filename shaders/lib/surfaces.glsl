@@ -128,6 +128,15 @@ void store_surface(uint pixel, HitSurface hit)
 const float DEPTH_NOTHING = -1.0;  // sky, or outside of everything
 const float DEPTH_UNLIT = -2.0;    // a picture that is shown as it is
 
+// What `surface` holds of the material.
+void unpack_material(uvec4 bits, inout Surface s)
+{
+    vec2 blue_roughness = unpack_unorm2(bits.y);
+    s.albedo = vec3(unpack_unorm2(bits.x), blue_roughness.x);
+    s.roughness = blue_roughness.y;
+    s.metallic = unpack_unorm2(bits.z).x;
+}
+
 struct PrimarySurface {
     Surface surface;
     float depth; // < 0: no surface
@@ -140,16 +149,13 @@ PrimarySurface load_primary_surface(uint pixel)
     vec4 position = load_position(pixel);
     uvec2 normals = load_normals(pixel);
     uvec4 bits = load_surface(pixel);
-    vec2 blue_roughness = unpack_unorm2(bits.y);
     result.depth = position.w;
     result.cluster = int(bits.z >> 16u) - 1;
     result.surface.position = position.xyz;
     result.surface.normal = unpack_direction(normals.x);
     result.surface.geometric_normal = unpack_direction(normals.y);
     result.surface.view = unpack_direction(bits.w);
-    result.surface.albedo = vec3(unpack_unorm2(bits.x), blue_roughness.x);
-    result.surface.roughness = blue_roughness.y;
-    result.surface.metallic = unpack_unorm2(bits.z).x;
+    unpack_material(bits, result.surface);
     return result;
 }
 
