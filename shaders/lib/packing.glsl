@@ -4,64 +4,82 @@
 #ifndef VKPT_LIB_PACKING
 #define VKPT_LIB_PACKING
 
+#include "../shared/functions.h"
 #include "quick_floats.glsl"
 
 // From -1 to 1, in 16 bits each.
 uint pack_snorm2(vec2 v)
 {
-    uvec2 bits = floatBitsToUint(v * 32767.0 + 12582912.0);
-    return (bits.x & 0xffffu) | bits.y << 16u;
+    uvec2 bits = floatBitsToUint(v * 32767.0f + 12582912.0f);
+    return (bits.x & 0xffffu) | (bits.y << 16u);
 }
-vec2 unpack_snorm2(uint bits) { return vec2(ivec2(bits << 16u, bits) >> 16) * (1.0 / 32767.0); }
+vec2 unpack_snorm2(uint bits)
+{
+    return vec2(ivec2(int(bits << 16u), int(bits)) >> 16) * (1.0f / 32767.0f);
+}
 
 // From -1 to 1, in 8 bits each. Unpacked times 127.
 uint pack_snorm4(vec4 v)
 {
-    uvec4 bits = floatBitsToUint(v * 127.0 + 12582912.0) & 0xffu;
-    return bits.x | bits.y << 8u | bits.z << 16u | bits.w << 24u;
+    uvec4 bits = floatBitsToUint(v * 127.0f + 12582912.0f) & 0xffu;
+    return bits.x | (bits.y << 8u) | (bits.z << 16u) | (bits.w << 24u);
 }
-vec4 unpack_snorm4_times_127(uint bits) { return vec4(ivec4(uvec4(bits) << uvec4(24u, 16u, 8u, 0u)) >> 24); }
+vec4 unpack_snorm4_times_127(uint bits)
+{
+    return vec4(ivec4(uvec4(bits) << uvec4(24u, 16u, 8u, 0u)) >> 24);
+}
 
 // Clamped to 0 to 1, in 8 bits each.
 uint pack_unorm4(vec4 v)
 {
-    vec4 clamped = vec4(quick_clamp(v.rgb, 0.0, 1.0), quick_clamp(v.a, 0.0, 1.0));
-    uvec4 bits = floatBitsToUint(clamped * 255.0 + 8388608.0) & 0xffu;
-    return bits.x | bits.y << 8u | bits.z << 16u | bits.w << 24u;
+    vec4 clamped = vec4(quick_clamp(vec3(v), 0.0f, 1.0f), quick_clamp(v.w, 0.0f, 1.0f));
+    uvec4 bits = floatBitsToUint(clamped * 255.0f + 8388608.0f) & 0xffu;
+    return bits.x | (bits.y << 8u) | (bits.z << 16u) | (bits.w << 24u);
 }
-vec4 unpack_unorm4(uint bits) { return vec4(ivec4((uvec4(bits) >> uvec4(0u, 8u, 16u, 24u)) & 0xffu)) * (1.0 / 255.0); }
+vec4 unpack_unorm4(uint bits)
+{
+    return vec4(ivec4((uvec4(bits) >> uvec4(0u, 8u, 16u, 24u)) & 0xffu)) * (1.0f / 255.0f);
+}
 
 // From 0 to 1, in 16 bits each.
 uint pack_unorm2(vec2 v)
 {
-    uvec2 bits = floatBitsToUint(v * 65535.0 + 8388608.0);
-    return (bits.x & 0xffffu) | bits.y << 16u;
+    uvec2 bits = floatBitsToUint(v * 65535.0f + 8388608.0f);
+    return (bits.x & 0xffffu) | (bits.y << 16u);
 }
-vec2 unpack_unorm2(uint bits) { return vec2(ivec2(bits & 0xffffu, bits >> 16u)) * (1.0 / 65535.0); }
+vec2 unpack_unorm2(uint bits)
+{
+    return vec2(ivec2(int(bits & 0xffffu), int(bits >> 16u))) * (1.0f / 65535.0f);
+}
 
 // Floats that lose their last 16 bits.
 uint pack_upper_halves(vec2 v)
 {
     uvec2 bits = floatBitsToUint(v) + 0x8000u;
-    return bits.x >> 16u | (bits.y & 0xffff0000u);
+    return (bits.x >> 16u) | (bits.y & 0xffff0000u);
 }
-vec2 unpack_upper_halves(uint bits) { return uintBitsToFloat(uvec2(bits << 16u, bits & 0xffff0000u)); }
+vec2 unpack_upper_halves(uint bits)
+{
+    return uintBitsToFloat(uvec2(bits << 16u, bits & 0xffff0000u));
+}
+
+// The octahedron's lower half, folded out.
+vec2 fold_octahedron(vec2 p)
+{
+    return (1.0f - abs(vec2(p.y, p.x))) * mix(vec2(-1.0f), vec2(1.0f), greaterThanEqual(p, vec2(0.0f)));
+}
 
 uint pack_direction(vec3 direction)
 {
-    vec2 p = direction.xy / (abs(direction.x) + abs(direction.y) + abs(direction.z));
-    if (direction.z < 0.0)
-        p = (1.0 - abs(p.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0)));
-    return pack_snorm2(p);
+    vec2 p = vec2(direction) / (abs(direction.x) + abs(direction.y) + abs(direction.z));
+    return pack_snorm2(direction.z < 0.0f ? fold_octahedron(p) : p);
 }
 
 vec3 unpack_direction(uint bits)
 {
     vec2 p = unpack_snorm2(bits);
-    vec3 direction = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (direction.z < 0.0)
-        direction.xy = (1.0 - abs(direction.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(direction.xy, vec2(0.0)));
-    return normalize(direction);
+    float z = 1.0f - abs(p.x) - abs(p.y);
+    return normalize(vec3(z < 0.0f ? fold_octahedron(p) : p, z));
 }
 
 // Light, and what else is never negative, in 16 bits: 6 of exponent and 10 of mantissa, from 7e-15, which stands for 0, to 131,000;
@@ -73,14 +91,23 @@ uint light16_bits(float x)
 {
     return uint(clamp(floatBitsToInt(x) - (least_light16 - 0x1000), 0, 0x1fffffff)) >> 13u;
 }
-uint pack_light2(vec2 v) { return light16_bits(v.x) | light16_bits(v.y) << 16u; }
+uint pack_light2(vec2 v)
+{
+    return light16_bits(v.x) | (light16_bits(v.y) << 16u);
+}
 vec2 unpack_light2(uint bits)
 {
     return vec2(uintBitsToFloat(((bits << 13u) & 0x1fffe000u) + uint(least_light16)),
         uintBitsToFloat(((bits >> 3u) & 0x1fffe000u) + uint(least_light16)));
 }
 
-uvec2 pack_light3(vec3 colour) { return uvec2(pack_light2(colour.xy), light16_bits(colour.z)); }
-vec3 unpack_light3(uvec2 bits) { return vec3(unpack_light2(bits.x), unpack_light2(bits.y).x); }
+uvec2 pack_light3(vec3 colour)
+{
+    return uvec2(pack_light2(vec2(colour)), light16_bits(colour.z));
+}
+vec3 unpack_light3(uvec2 bits)
+{
+    return vec3(unpack_light2(bits.x), unpack_light2(bits.y).x);
+}
 
 #endif

@@ -23,6 +23,7 @@ using namespace ::glm;
 #include "shaders/lib/light_lists.glsl"
 #include "shaders/lib/light_subsets.glsl"
 #include "shaders/lib/light_weights.glsl"
+#include "shaders/lib/packing.glsl"
 #include "shaders/lib/random.glsl"
 
 } // namespace

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Whole numbers by way of floats, and numbers in a few bits: shaders/lib/whole_numbers.glsl and packing.glsl against
+// C++'s own arithmetic and GLM's packing.
+#include "glsl_libraries.hpp"
+
+#include <cmath>
+#include <glm/packing.hpp>
+#include <gtest/gtest.h>
+#include <limits>
+#include <random>
+
+namespace vkpt::test {
+namespace {
+
+using namespace glsl;
+
+constexpr uint most_whole = 1u << 22;
+
+TEST(WholeNumbers, AreDividedExactly)
+{
+    for (uint divisor = 1; divisor < 3000; divisor += divisor < 130 ? 1 : 97)
+        for (uint quotient = 0; quotient <= most_whole / divisor; quotient += 1 + most_whole / divisor / 500)
+            for (const uint number :
+                { quotient * divisor - (quotient > 0), quotient * divisor, quotient * divisor + divisor - 1 })
+                if (number < most_whole) {
+                    ASSERT_EQ(divide_whole(number, divisor), number / divisor) << number << " / " << divisor;
+                    ASSERT_EQ(remainder_whole(number, divisor), number % divisor) << number << " % " << divisor;
+                }
+}
+
+TEST(WholeNumbers, FloorIsThatOfTheFloat)
+{
+    for (const float whole : { 0.0f, 1.0f, 2.0f, 63.0f, 99999.0f, float(most_whole) }) {
+        EXPECT_EQ(floor_to_uint(whole), uint(whole));
+        const float below = std::nextafter(whole, -1.0f), above = std::nextafter(whole, 1e9f);
+        if (whole > 0) {
+            EXPECT_EQ(floor_to_uint(below), uint(below)) << whole;
+        }
+        EXPECT_EQ(floor_to_uint(above), uint(above)) << whole;
+    }
+    EXPECT_EQ(whole_to_int(-3.0f), -3);
+    EXPECT_EQ(whole_to_int(vec2(-4194304.0f, 4194303.0f)), ivec2(-4194304, 4194303));
+}
+
+// Numbers all over the range of a format, its ends and middle included.
+class Packing : public testing::Test {
+protected:
+    float next(float low, float high)
+    {
+        const float ends[] = { low, high, (low + high) / 2, 0 };
+        number_++;
+        return number_ < 4 ? ends[number_] : std::uniform_real_distribution<float>(low, high)(generator_);
+    }
+
+private:
+    std::mt19937 generator_ { 3 };
+    int number_ = -1;
+};
+
+TEST_F(Packing, NormalizedNumbersAreGlmsToHalfAStep)
+{
+    for (int i = 0; i < 100000; i++) {
+        const vec4 s(next(-1, 1), next(-1, 1), next(-1, 1), next(-1, 1)), u = s * 0.5f + 0.5f;
+        const vec2 s2(s.x, s.y), u2(u.x, u.y);
+        for (int k = 0; k < 2; k++) {
+            ASSERT_NEAR(unpack_snorm2(pack_snorm2(s2))[k], s2[k], 0.51f / 32767);
+            ASSERT_NEAR(unpack_unorm2(pack_unorm2(u2))[k], u2[k], 0.51f / 65535);
+        }
+        for (int k = 0; k < 4; k++) {
+            ASSERT_NEAR(unpack_snorm4_times_127(pack_snorm4(s))[k] / 127, s[k], 0.51f / 127);
+            ASSERT_NEAR(unpack_unorm4(pack_unorm4(u))[k], u[k], 0.51f / 255);
+        }
+        // The words are the formats' own, so that what the CPU packs can be read, too.
+        ASSERT_LT(distance(unpack_snorm2(glm::packSnorm2x16(s2)), glm::unpackSnorm2x16(glm::packSnorm2x16(s2))), 1e-6f);
+        ASSERT_LT(distance(unpack_unorm4(glm::packUnorm4x8(u)), glm::unpackUnorm4x8(glm::packUnorm4x8(u))), 1e-6f);
+    }
+}
+
+TEST_F(Packing, ShownColoursAreClamped)
+{
+    EXPECT_EQ(pack_unorm4(vec4(-0.002f, -5, -0.0f, 1)), 0xff000000u);
+    EXPECT_EQ(pack_unorm4(vec4(1.002f, 7e9f, 1, 2)), 0xffffffffu);
+    EXPECT_EQ(pack_unorm4(vec4(std::numeric_limits<float>::infinity(), 0.5f, 0, 0)) & 0xffu, 0xffu);
+}
+
+TEST_F(Packing, UpperHalvesKeepFloatsToAPartIn256)
+{
+    for (int i = 0; i < 100000; i++) {
+        const float magnitude = std::exp2(next(-30, 3));
+        const vec2 v(magnitude, -magnitude);
+        const vec2 back = unpack_upper_halves(pack_upper_halves(v));
+        ASSERT_NEAR(back.x, v.x, magnitude / 256);
+        ASSERT_NEAR(back.y, v.y, magnitude / 256);
+    }
+    EXPECT_EQ(unpack_upper_halves(pack_upper_halves(vec2(0, -8))), vec2(0, -8));
+}
+
+TEST_F(Packing, DirectionsComeBack)
+{
+    for (int i = 0; i < 100000; i++) {
+        const vec3 d = normalize(vec3(next(-1, 1), next(-1, 1), next(-1, 1)) + vec3(1e-6f));
+        ASSERT_LT(distance(unpack_direction(pack_direction(d)), d), 1e-4f);
+    }
+    for (const vec3 axis : { vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, 1), vec3(0, 0, -1) })
+        EXPECT_LT(distance(unpack_direction(pack_direction(axis)), axis), 1e-6f);
+}
+
+TEST_F(Packing, LightKeepsTenBitsAndIsNeverBroken)
+{
+    for (int i = 0; i < 100000; i++) {
+        const float light = std::exp2(next(-40, 16));
+        ASSERT_NEAR(unpack_light2(pack_light2(vec2(light, 0))).x, light, light / 2000);
+        ASSERT_NEAR(unpack_light3(pack_light3(vec3(0, 0, light))).z, light, light / 2000);
+    }
+    const float broken = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    const vec2 greatest = unpack_light2(pack_light2(vec2(broken, infinity)));
+    EXPECT_TRUE(std::isfinite(greatest.x) && std::isfinite(greatest.y));
+    EXPECT_LT(unpack_light2(pack_light2(vec2(0, -1))).x, 1e-14f);
+}
+
+} // namespace
+} // namespace vkpt::test
