@@ -27,19 +27,9 @@ bool capture_display(uint8_t* rgba)
     Module* m = module();
     if (!m || m->graphics.frame_number() == 0 || m->graphics.is_recording())
         return false;
-    const Buffer& output = m->graphics.screen.output().words;
-    const VkExtent2D size = m->graphics.size();
-    const VkDeviceSize bytes = VkDeviceSize(size.width) * size.height * sizeof(uint32_t);
-    const Buffer copy(m->graphics.gpu, bytes, BufferHome::readback, MemoryKind::staging, "picture readback");
-    m->graphics.run_once([&](VkCommandBuffer commands) {
-        record_memory_barrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
-            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
-        const VkBufferCopy all { 0, 0, bytes };
-        vkCmdCopyBuffer(commands, output.handle(), copy.handle(), 1, &all);
-        record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-            VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-    });
-    std::memcpy(rgba, copy.mapped(), bytes);
+    const OutputPicture& output = m->graphics.screen.output();
+    const size_t bytes = size_t(output.size.width) * output.size.height * sizeof(uint32_t);
+    std::memcpy(rgba, m->graphics.read_back(output.words, bytes).mapped(), bytes);
     return true;
 }
 
@@ -248,8 +238,7 @@ void print_info()
         mib(info.geometry_bytes), mib(info.acceleration_bytes), mib(info.light_bytes), mib(info.image_bytes),
         mib(info.staging_bytes));
     if (info.nearest_rays + info.visibility_rays > 0)
-        engine::print(
-            "rays           {} for the nearest hit, {} for visibility", info.nearest_rays, info.visibility_rays);
+        engine::print("rays           {} for the nearest hit, {} for visibility", info.nearest_rays, info.visibility_rays);
     size_t count = 0;
     const PassTime* times = pass_times(&count);
     for (size_t i = 0; i < count; i++)

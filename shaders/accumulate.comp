@@ -7,8 +7,6 @@
 #include "lib/frame.glsl"
 #include "lib/denoise_spread.glsl"
 
-layout(push_constant, scalar) uniform PushBlock { SpreadPush push; };
-
 // What the surface reflects towards the viewer.
 vec3 reflected_light(uvec2 pixel, uint index, Surface surface)
 {
@@ -20,7 +18,7 @@ vec3 reflected_light(uvec2 pixel, uint index, Surface surface)
     if (frame.cvars.flt_denoiser == DENOISER_TEMPORAL)
         light = unpack_filtered(load_filtered(index));
     else
-        light = spread_light(pixel, index, load_guide(index), load_element(push.source, index, uvec4(0u)), push);
+        light = spread_light(pixel, index, load_guide(index), load_element(push.source, index, uvec4(0u)));
     return surface.albedo * light.diffuse + specular_tint(surface) * light.specular;
 }
 

@@ -20,7 +20,7 @@ void compare_stratum(uvec2 stratum, uint number)
             gradient = vec4(0.0);
     }
     store_gradient_a(number, gradient);
-    store_stratum_place(number, uvec2(pixel.x | pixel.y << 16u, load_guide(index).y));
+    store_stratum_place(number, uvec2(join_halves(pixel), load_guide(index).y));
 }
 
 VKPT_RUN_OVER_STRATA(compare_stratum)

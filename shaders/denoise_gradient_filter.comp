@@ -8,12 +8,10 @@
 
 layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
 
-ivec2 place_in_stratum(uvec2 stratum_place) { return ivec2(stratum_place.x & 0xffffu, stratum_place.x >> 16u); }
-
 void filter_stratum(uvec2 stratum, uint number)
 {
     uvec2 own = load_stratum_place(number), count = stratum_count();
-    ivec2 pixel = place_in_stratum(own);
+    ivec2 pixel = ivec2(split_halves(own.x));
     float depth = guide_depth(own);
     vec2 slope = unpack_upper_halves(load_slope(pixel_index(uvec2(pixel))));
     vec4 sum = vec4(0.0);
@@ -24,7 +22,7 @@ void filter_stratum(uvec2 stratum, uint number)
             continue;
         uint there = uint(place.y) * count.x + uint(place.x);
         uvec2 other = load_stratum_place(there);
-        vec2 pixels = vec2(place_in_stratum(other) - pixel);
+        vec2 pixels = vec2(ivec2(split_halves(other.x)) - pixel);
         if (plane_distance(depth, slope, pixels, guide_depth(other)) < plane_tolerance(slope, pixels))
             sum += load_element(push.source, there, vec4(0.0)) * (way.x == 0 || way.y == 0 ? 0.125 : 0.0625) * (tap == 4u ? 2.0 : 1.0);
     }

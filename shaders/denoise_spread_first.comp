@@ -5,8 +5,4 @@
 #include "lib/frame.glsl"
 #include "lib/denoise_spread.glsl"
 
-layout(push_constant, scalar) uniform PushBlock { SpreadPush push; };
-
-void run_level(uvec2 pixel, uint index) { spread_pixel(pixel, index, push); }
-
-VKPT_RUN_OVER_PIXELS(run_level)
+VKPT_RUN_OVER_PIXELS(spread_pixel)

@@ -118,13 +118,6 @@ float update_reflected_distance(uint index, float before)
     return before > 0.0 ? mix(before, now, 0.2) : now;
 }
 
-// Along the camera's ray, for 1 along its axis.
-vec3 camera_direction(uvec2 pixel)
-{
-    vec2 screen = (vec2(pixel) + frame.pixel_offset) / vec2(frame.size) * 2.0 - 1.0;
-    return frame.camera.forward + frame.camera.right * screen.x - frame.camera.up * screen.y;
-}
-
 // Where the last view showed what the surface reflects: as far along the camera's ray as the light has come.
 vec2 place_of_reflection(vec3 direction, float distance)
 {
@@ -186,7 +179,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
     Search search = Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, unpack_upper_halves(slope), load_motion(index));
     History history = find_history(search, search.shown.xy);
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
-    vec3 direction = camera_direction(pixel);
+    vec3 direction = camera_direction(pixel, frame.pixel_offset);
     float direction_length = length(direction), path_length = guide_depth(guide) * direction_length;
     if (surface.roughness < glossy_roughness && reflected_distance > 0.0) {
         History glossy = find_history(search, place_of_reflection(direction, (path_length + reflected_distance) / direction_length));

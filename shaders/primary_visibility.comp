@@ -16,13 +16,6 @@ const float water_index = 1.33;
 // Absorption of water per unit of length (a unit is about an inch); red goes first.
 const vec3 water_absorption = vec3(0.0045, 0.0016, 0.0010);
 
-Ray camera_ray(uvec2 pixel, vec2 offset)
-{
-    vec2 screen = (vec2(pixel) + offset) / vec2(frame.size) * 2.0 - 1.0;
-    vec3 direction = frame.camera.forward + frame.camera.right * screen.x - frame.camera.up * screen.y;
-    return Ray(frame.camera.eye, normalize(direction), 0.0, ray_far);
-}
-
 // Unpolarised Fresnel reflectance of a smooth dielectric; `ratio` = index behind / index before. 1: total reflection.
 float fresnel_dielectric(float cosine, float ratio)
 {
@@ -180,7 +173,7 @@ void see_pixel(uvec2 pixel, uint index)
     Random random = make_pixel_random(pixel);
     vec2 offset = (frame.flags & FRAME_JITTER) != 0u ? next_vec2(random) : frame.pixel_offset;
     Path path;
-    path.ray = camera_ray(pixel, offset);
+    path.ray = Ray(frame.camera.eye, normalize(camera_direction(pixel, offset)), 0.0, ray_far);
     path.throughput = vec3(1.0);
     path.emitted = vec3(0.0);
     path.path_length = 0.0;
@@ -201,7 +194,7 @@ void see_pixel(uvec2 pixel, uint index)
     if ((frame.flags & FRAME_REPROJECTED) != 0u)
         store_reprojection(index, path, direction, offset);
     if ((frame.flags & FRAME_REPLAYED) != 0u)
-        store_random_seed(index, uvec2(pixel.x | (pixel.y << 16u), frame.frame_index));
+        store_random_seed(index, uvec2(join_halves(pixel), frame.frame_index));
     store_emitted(index, path.emitted);
     store_throughput(index, pack_light3(path.throughput));
     if (!path.reached_surface) {

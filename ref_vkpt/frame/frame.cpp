@@ -336,15 +336,7 @@ bool Frame::read_radiance(float* rgb)
     const size_t pixels = size_t(state_.size.x) * state_.size.y, bytes = pixels * sizeof(glm::vec4);
     if (bytes == 0 || !state_.radiance)
         return false;
-    const Buffer copy(graphics_.gpu, bytes, BufferHome::readback, MemoryKind::staging, "radiance readback");
-    graphics_.run_once([&](VkCommandBuffer commands) {
-        record_memory_barrier(commands, graphics_.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT,
-            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
-        const VkBufferCopy region { 0, 0, bytes };
-        vkCmdCopyBuffer(commands, state_.radiance->handle(), copy.handle(), 1, &region);
-        record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-            VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-    });
+    const Buffer copy = graphics_.read_back(*state_.radiance, bytes);
     for (size_t i = 0; i < pixels; i++)
         std::memcpy(rgb + 3 * i, copy.mapped() + i * sizeof(glm::vec4), sizeof(glm::vec3));
     return true;

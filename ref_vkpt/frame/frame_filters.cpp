@@ -10,9 +10,8 @@ namespace vkpt {
 
 namespace {
 
-// To the first tap of each further level of the spatial filter: pixels.
-constexpr size_t spread_levels = 4;
-const glm::ivec2 spread_ways[spread_levels] = { { 2, 1 }, { -1, 5 }, { 8, 6 }, { -12, 16 } };
+// To the first tap of each further level of the spatial filter, of which the last is part of `accumulate`: pixels.
+const glm::ivec2 spread_ways[] = { { 2, 1 }, { -1, 5 }, { 8, 6 }, { -12, 16 } };
 // Of the gradient's; odd, so that the result lies in gradient_b.
 constexpr uint32_t gradient_levels = 3;
 
@@ -116,7 +115,7 @@ void Frame::record_denoiser(const shared::FrameUniforms& uniforms)
 // The picture's radiance, and with it the last level of the spatial filter.
 void Frame::record_composition(const shared::FrameUniforms& uniforms)
 {
-    const shared::SpreadPush push { graphics_.screen.rows().filter_b, {}, spread_ways[spread_levels - 1] };
+    const shared::SpreadPush push { graphics_.screen.rows().filter_b, {}, spread_ways[3] };
     record_level("accumulate", push, pixel_groups(uniforms.size));
 }
 
@@ -178,14 +177,10 @@ void Frame::record_spatial_filter(uint32_t groups)
 {
     const shared::ScreenBuffers& screen = graphics_.screen.rows();
     record_level("denoise_filter", shared::FilterPush { screen.filter_a, screen.filtered, 1, 0 }, groups);
-    const auto spread
-        = [&](const char* name, size_t level, const shared::ScreenBuffer& source, const shared::ScreenBuffer& target) {
-              record_level(name, shared::SpreadPush { source, target, spread_ways[level] }, groups);
-          };
-    spread("denoise_spread_first", 0, screen.filtered, screen.filter_b);
-    spread("denoise_spread", 1, screen.filter_b, screen.filter_a);
-    spread("denoise_spread", 2, screen.filter_a, screen.filter_b);
-    static_assert(spread_levels == 4);
+    record_level(
+        "denoise_spread_first", shared::SpreadPush { screen.filtered, screen.filter_b, spread_ways[0] }, groups);
+    record_level("denoise_spread", shared::SpreadPush { screen.filter_b, screen.filter_a, spread_ways[1] }, groups);
+    record_level("denoise_spread", shared::SpreadPush { screen.filter_a, screen.filter_b, spread_ways[2] }, groups);
 }
 
 } // namespace vkpt

@@ -206,4 +206,18 @@ void Graphics::run_once(const std::function<void(VkCommandBuffer)>& record)
     finish();
 }
 
+Buffer Graphics::read_back(const Buffer& source, VkDeviceSize bytes)
+{
+    Buffer copy(gpu, bytes, BufferHome::readback, MemoryKind::staging, "readback");
+    run_once([&](VkCommandBuffer commands) {
+        record_memory_barrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
+            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
+        const VkBufferCopy region { 0, 0, bytes };
+        vkCmdCopyBuffer(commands, source.handle(), copy.handle(), 1, &region);
+        record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    });
+    return copy;
+}
+
 } // namespace vkpt

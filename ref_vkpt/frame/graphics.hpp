@@ -53,6 +53,8 @@ public:
     void finish();
     // Records, submits and waits, between frames.
     void run_once(const std::function<void(VkCommandBuffer)>& record);
+    // The first bytes of what was written on the device, copied to where the CPU reads them; between frames.
+    Buffer read_back(const Buffer& source, VkDeviceSize bytes);
 
 private:
     Window window_;

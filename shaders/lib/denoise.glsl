@@ -23,14 +23,16 @@ uint deviation_bits(float deviation)
 {
     return ((light16_bits(abs(deviation)) & ~1u) | (floatBitsToUint(deviation) >> 31u)) << 16u;
 }
+#ifdef VKPT_DEVIATIONS_ARE_KNOWN
+uint sign_of_deviation(uint bits) { return 0u; }
+bool is_known(float deviation) { return true; }
+#else
+uint sign_of_deviation(uint bits) { return (bits << 15u) & 0x80000000u; }
+bool is_known(float deviation) { return floatBitsToInt(deviation) >= 0; }
+#endif
 float unpack_deviation(uint bits)
 {
-    uint size = ((bits >> 3u) & 0x1fffc000u) + uint(least_light16);
-#ifdef VKPT_DEVIATIONS_ARE_KNOWN
-    return uintBitsToFloat(size);
-#else
-    return uintBitsToFloat(size | ((bits << 15u) & 0x80000000u));
-#endif
+    return uintBitsToFloat((((bits >> 3u) & 0x1fffc000u) + uint(least_light16)) | sign_of_deviation(bits));
 }
 
 uvec4 pack_filtered(FilteredLight light)
@@ -44,12 +46,6 @@ FilteredLight unpack_filtered(uvec4 bits)
     return FilteredLight(vec3(unpack_light2(bits.x), unpack_light2(bits.y).x), unpack_deviation(bits.y),
         vec3(unpack_light2(bits.z), unpack_light2(bits.w).x), unpack_deviation(bits.w));
 }
-
-#ifdef VKPT_DEVIATIONS_ARE_KNOWN
-bool is_known(float deviation) { return true; }
-#else
-bool is_known(float deviation) { return floatBitsToInt(deviation) >= 0; }
-#endif
 
 // Colour that the specular light of this surface carries.
 vec3 specular_tint(Surface s) { return mix(vec3(1.0), quick_max(s.albedo, vec3(0.05)), s.metallic); }

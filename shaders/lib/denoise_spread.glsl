@@ -6,6 +6,8 @@
 
 #include "denoise_taps.glsl"
 
+layout(push_constant, scalar) uniform PushBlock { SpreadPush push; };
+
 const float centre_weight = 1.0 / 3.0, tap_weight = 1.0 / 6.0;
 
 // Where too few frames tell how much the light varies, the pixels of this level and the first do, which are worth so many in the average.
@@ -16,22 +18,22 @@ float spread_deviation(Sums sums, float scale, float deviation)
 }
 
 // `bits`: of the pixel, in the level's source.
-FilteredLight spread_light(uvec2 pixel, uint index, uvec2 guide, uvec4 bits, SpreadPush level)
+FilteredLight spread_light(uvec2 pixel, uint index, uvec2 guide, uvec4 bits)
 {
     FilteredLight light = unpack_filtered(bits);
     Pixel centre = make_pixel(index, guide, light);
-    vec2 along = vec2(level.way), across = vec2(-along.y, along.x);
+    vec2 along = vec2(push.way), across = vec2(-along.y, along.x);
     Way way_along = make_way(centre, along), way_across = make_way(centre, across);
     float fall = specular_fall(centre, dot(along, along));
     Sums diffuse = no_taps(), specular = diffuse;
     add_tap(diffuse, light.diffuse, centre.diffuse_luminance, light.diffuse_deviation, centre_weight);
     add_tap(specular, light.specular, centre.specular_luminance, light.specular_deviation, centre_weight);
-    ivec2 places[4] = ivec2[](level.way, -level.way, ivec2(-level.way.y, level.way.x), ivec2(level.way.y, -level.way.x));
+    ivec2 places[4] = ivec2[](push.way, -push.way, ivec2(-push.way.y, push.way.x), ivec2(push.way.y, -push.way.x));
     Way ways[4] = Way[](way_along, backwards(way_along), way_across, backwards(way_across));
     [[unroll]] for (int tap = 0; tap < 4; tap++) {
         uvec2 place = uvec2(ivec2(pixel) + places[tap]);
         bool inside = is_on_screen(place);
-        add_neighbour(diffuse, specular, centre, level.source, inside ? pixel_index(place) : index, ways[tap], inside ? tap_weight : 0.0, fall);
+        add_neighbour(diffuse, specular, centre, push.source, inside ? pixel_index(place) : index, ways[tap], inside ? tap_weight : 0.0, fall);
     }
     float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;
     return FilteredLight(diffuse.light * diffuse_scale, spread_deviation(diffuse, diffuse_scale, light.diffuse_deviation),
@@ -39,13 +41,13 @@ FilteredLight spread_light(uvec2 pixel, uint index, uvec2 guide, uvec4 bits, Spr
 }
 
 // Between the first level and the last one.
-void spread_pixel(uvec2 pixel, uint index, SpreadPush level)
+void spread_pixel(uvec2 pixel, uint index)
 {
     uvec2 guide = load_guide(index);
-    uvec4 bits = load_element(level.source, index, uvec4(0u));
+    uvec4 bits = load_element(push.source, index, uvec4(0u));
     if (guide_depth(guide) > 0.0)
-        bits = pack_filtered(spread_light(pixel, index, guide, bits, level));
-    store_element(level.target.address, index, bits);
+        bits = pack_filtered(spread_light(pixel, index, guide, bits));
+    store_element(push.target.address, index, bits);
 }
 
 #endif

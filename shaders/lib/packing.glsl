@@ -6,12 +6,26 @@
 
 #include "../shared/functions.h"
 #include "quick_floats.glsl"
+#include "whole_numbers.glsl"
+
+// The last 16 bits of two words, the last 8 of four.
+uint join_halves(uvec2 v)
+{
+    return (v.x & 0xffffu) | (v.y << 16u);
+}
+uint join_bytes(uvec4 v)
+{
+    return (v.x & 0xffu) | ((v.y & 0xffu) << 8u) | ((v.z & 0xffu) << 16u) | (v.w << 24u);
+}
+uvec2 split_halves(uint bits)
+{
+    return uvec2(bits & 0xffffu, bits >> 16u);
+}
 
 // From -1 to 1, in 16 bits each.
 uint pack_snorm2(vec2 v)
 {
-    uvec2 bits = floatBitsToUint(v * 32767.0f + 12582912.0f);
-    return (bits.x & 0xffffu) | (bits.y << 16u);
+    return join_halves(floatBitsToUint(v * 32767.0f + whole_base));
 }
 vec2 unpack_snorm2(uint bits)
 {
@@ -21,8 +35,7 @@ vec2 unpack_snorm2(uint bits)
 // From -1 to 1, in 8 bits each. Unpacked times 127.
 uint pack_snorm4(vec4 v)
 {
-    uvec4 bits = floatBitsToUint(v * 127.0f + 12582912.0f) & 0xffu;
-    return bits.x | (bits.y << 8u) | (bits.z << 16u) | (bits.w << 24u);
+    return join_bytes(floatBitsToUint(v * 127.0f + whole_base));
 }
 vec4 unpack_snorm4_times_127(uint bits)
 {
@@ -33,8 +46,7 @@ vec4 unpack_snorm4_times_127(uint bits)
 uint pack_unorm4(vec4 v)
 {
     vec4 clamped = vec4(quick_clamp(vec3(v), 0.0f, 1.0f), quick_clamp(v.w, 0.0f, 1.0f));
-    uvec4 bits = floatBitsToUint(clamped * 255.0f + 8388608.0f) & 0xffu;
-    return bits.x | (bits.y << 8u) | (bits.z << 16u) | (bits.w << 24u);
+    return join_bytes(floatBitsToUint(clamped * 255.0f + unsigned_whole_base));
 }
 vec4 unpack_unorm4(uint bits)
 {
@@ -44,12 +56,11 @@ vec4 unpack_unorm4(uint bits)
 // From 0 to 1, in 16 bits each.
 uint pack_unorm2(vec2 v)
 {
-    uvec2 bits = floatBitsToUint(v * 65535.0f + 8388608.0f);
-    return (bits.x & 0xffffu) | (bits.y << 16u);
+    return join_halves(floatBitsToUint(v * 65535.0f + unsigned_whole_base));
 }
 vec2 unpack_unorm2(uint bits)
 {
-    return vec2(ivec2(int(bits & 0xffffu), int(bits >> 16u))) * (1.0f / 65535.0f);
+    return vec2(ivec2(split_halves(bits))) * (1.0f / 65535.0f);
 }
 
 // Floats that lose their last 16 bits.

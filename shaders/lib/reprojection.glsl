@@ -7,6 +7,13 @@
 #include "packing.glsl"
 #include "pixel_random.glsl"
 
+// Along the camera's ray through a pixel, `offset` from its corner; 1 along the camera's axis.
+vec3 camera_direction(uvec2 pixel, vec2 offset)
+{
+    vec2 screen = (vec2(pixel) + offset) / vec2(frame.size) * 2.0 - 1.0;
+    return frame.camera.forward + frame.camera.right * screen.x - frame.camera.up * screen.y;
+}
+
 struct ScreenPoint {
     vec2 pixel;  // (0, 0): the corner of the first pixel
     float depth; // along the camera's axis; <= 0: behind it
@@ -62,7 +69,7 @@ Random random_of_pixel(uvec2 pixel, uint index)
     if ((frame.flags & FRAME_REPLAYED) == 0u)
         return make_pixel_random(pixel);
     uvec2 seed = load_random_seed(index);
-    return make_pixel_random_of(uvec2(seed.x & 0xffffu, seed.x >> 16u), seed.y);
+    return make_pixel_random_of(split_halves(seed.x), seed.y);
 }
 
 #endif

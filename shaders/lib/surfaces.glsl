@@ -56,7 +56,7 @@ vec2 warp_uv(vec2 uv)
 const int PICTURE_SMOOTH = 0; // between eight texels
 const int PICTURE_TEXEL = 1;  // one texel: enough for bounces, where what is sharp is noise among other noise
 
-uvec2 picture_size(Material material) { return uvec2(material.texture_size & 0xffffu, material.texture_size >> 16u); }
+uvec2 picture_size(Material material) { return split_halves(material.texture_size); }
 
 vec4 sample_picture(Material material, vec2 uv, float mip)
 {

@@ -6,14 +6,19 @@
 
 #include "../shared/functions.h"
 
-// Whole numbers from -2^22 to 2^22: added to 1.5 * 2^23, they are the last bits of the float.
+// Whole numbers from -2^22 to 2^22, added to this (1.5 * 2^23), are the last bits of the sum; other numbers are rounded.
+const float whole_base = 12582912.0f;
+const int whole_base_bits = 0x4b400000;
+// The same for numbers from 0 to 2^23 (2^23).
+const float unsigned_whole_base = 8388608.0f;
+
 int whole_to_int(float whole)
 {
-    return floatBitsToInt(whole + 12582912.0f) - 0x4b400000;
+    return floatBitsToInt(whole + whole_base) - whole_base_bits;
 }
 ivec2 whole_to_int(vec2 whole)
 {
-    return floatBitsToInt(whole + 12582912.0f) - 0x4b400000;
+    return floatBitsToInt(whole + whole_base) - whole_base_bits;
 }
 
 // The greatest whole number that is not above x; from 0 to 2^22.

@@ -50,7 +50,7 @@ float light_probability(LightListView list, Surface s, uint emitter, LightRandom
     float total = 0.0f;
     float mass = 0.0f;
     for (uint index = 0u; index * stride < count; index++) {
-        bool own_stride = index == divide_whole(uint(place), stride);
+        bool own_stride = uint(place) - index * stride < stride; // unsigned: false where the place lies before
         uint position = own_stride ? uint(place) : choose_in_stride(random, index, stride);
         if (position >= count)
             break;
