@@ -35,8 +35,9 @@ struct Case {
 };
 const Case base { "subset", 8 };
 const std::vector<Case> all_cases { base, { "subset", 16 }, { "subset", 32 }, { "subset", 64 },
-    { "subset_onesweep", 8 }, { "subset_dynamic", 8 }, { "subset_strides", 8 }, { "subset_mis", 8 },
-    { "subset_mis_biased", 8 }, { "subset_mis_blue", 8 }, { "ris", 8 }, { "uniform", 8 }, { "full", 8 } };
+    { "subset_onesweep", 8 }, { "subset_dynamic", 8 }, { "subset_pps", 8 }, { "subset_strides", 8 },
+    { "subset_mis", 8 }, { "subset_mis_biased", 8 }, { "subset_mis_blue", 8 }, { "ris", 8 }, { "uniform", 8 },
+    { "full", 8 } };
 
 bool is_wanted(const Options& options, const Case& c)
 {

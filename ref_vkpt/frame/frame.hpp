@@ -22,7 +22,7 @@ namespace vkpt {
 
 // A map's data that does not change, on the device.
 struct GpuWorld {
-    Buffer light_indices;
+    Buffer light_indices, light_multisets;
     Buffer bsp_tree;
     uint64_t version = 0; // another for every map; 0: not uploaded yet
 };

@@ -2,6 +2,7 @@
 // The part of the frame that brings the scene to the device: triangles, trees, emitters, light lists.
 #include "ref_vkpt/frame/frame.hpp"
 
+#include "ref_vkpt/lights/light_multisets.hpp"
 #include "ref_vkpt/trace/wide_tree.hpp"
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace {
 // What a map's data looks like to the shaders where there is no map: one list with every emitter.
 struct NoWorld {
     std::vector<shared::LightList> lists;
+    std::vector<shared::LightMultiset> multisets { {} };
     std::vector<uint32_t> indices;
     std::vector<shared::BspTreeNode> tree;
 };
@@ -35,7 +37,9 @@ GpuWorld upload_world(const World& world, Uploader& uploader)
 {
     static uint64_t versions = 0;
     GpuWorld gpu;
-    gpu.light_indices = uploader.make_buffer(world.light_lists.static_indices(), MemoryKind::lights, "light lists");
+    const LightMultisets multisets = make_light_multisets(world.bsp, world.light_lists, world.models[0].emitters);
+    gpu.light_indices = uploader.make_buffer(multisets.entries, MemoryKind::lights, "light lists");
+    gpu.light_multisets = uploader.make_buffer(multisets.ranges, MemoryKind::lights, "light multisets");
     gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
     gpu.version = ++versions;
     return gpu;
@@ -124,11 +128,13 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
         const NoWorld none = make_no_world(scene.emitters.size());
         out.light_lists = uploads_.push(none.lists);
         out.static_light_indices = out.dynamic_light_indices = uploads_.push(none.indices);
+        out.light_multisets = uploads_.push(none.multisets);
         out.bsp_tree = uploads_.push(none.tree);
         out.light_list_count = 1;
         return;
     }
     out.static_light_indices = gpu_world->light_indices.address();
+    out.light_multisets = gpu_world->light_multisets.address();
     if (scene.kept_lights.lists.empty()) {
         out.light_lists = kept.light_lists.write(slot, lights->lists());
         out.dynamic_light_indices = kept.dynamic_light_indices.write(slot, lights->dynamic_indices());

@@ -8,6 +8,7 @@
 #include <bit>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <iterator>
 
 namespace vkpt {
@@ -67,6 +68,14 @@ std::vector<shared::BspTreeNode> compact_tree(const Bsp& bsp)
         tree[here.target] = { plane.normal, plane.dist, children[0], children[1] };
     }
     return tree;
+}
+
+// Whether any of the box is in front of the triangle.
+bool has_in_front(const Emitter& triangle, const Bounds& box)
+{
+    const glm::vec3 normal = glm::cross(triangle.p1 - triangle.p0, triangle.p2 - triangle.p0);
+    const glm::vec3 foremost = glm::mix(box.mins, box.maxs, glm::greaterThan(normal, glm::vec3(0)));
+    return glm::dot(normal, foremost - triangle.p0) > 0;
 }
 
 // Whether the same clusters list both.
@@ -160,11 +169,13 @@ bool LightLists::find_receivers(const shared::Emitter& emitter, ClusterSet& rece
 
 bool LightLists::reaches(const shared::Emitter& emitter, size_t cluster) const
 {
-    if (!(emitter.reach > 0))
-        return true;
-    const glm::vec3 nearest = glm::clamp(emitter.p0, cluster_mins_[cluster], cluster_maxs_[cluster]);
-    const glm::vec3 offset = nearest - emitter.p0;
-    return glm::dot(offset, offset) <= emitter.reach * emitter.reach;
+    if (emitter.reach > 0) {
+        const glm::vec3 nearest = glm::clamp(emitter.p0, cluster_mins_[cluster], cluster_maxs_[cluster]);
+        const glm::vec3 offset = nearest - emitter.p0;
+        if (!(glm::dot(offset, offset) <= emitter.reach * emitter.reach))
+            return false;
+    }
+    return emitter.type == shared::EMITTER_SPHERE || has_in_front(emitter, cluster_bounds(cluster));
 }
 
 void LightLists::place(Placed& placed, const Emitter& emitter) const

@@ -10,10 +10,14 @@
 
 namespace vkpt {
 
+struct Bounds {
+    glm::vec3 mins, maxs;
+};
+
 class LightLists {
 public:
-    // At map load. An emitter lists in every cluster that the PVS lets see any cluster which it touches. The map must
-    // live as long as update() is called.
+    // At map load. An emitter lists in every cluster that the PVS lets see any cluster which it touches, unless all of it
+    // is behind the emitter. The map must live as long as update() is called.
     void build(const formats::Bsp& bsp, std::span<const shared::Emitter> static_emitters);
     // Each frame: dynamic emitters get indices static_count + i. Emitters with a reach list only where it extends to,
     // dark ones (radiance 0) nowhere. Where in the map an emitter can be seen is looked up again only if it has moved;
@@ -42,6 +46,8 @@ public:
     };
     Repeated repeat() const;
     size_t static_emitter_count() const { return static_emitter_count_; }
+    // Holds all points of the cluster.
+    Bounds cluster_bounds(size_t cluster) const { return { cluster_mins_[cluster], cluster_maxs_[cluster] }; }
     // Static emitters that touch no cluster (they lie in solid): only the list for outside holds them.
     size_t unlisted_static_count() const { return unlisted_static_count_; }
     // The tree that shaders descend to find a point's cluster. Node 0 is the root.
@@ -60,6 +66,7 @@ private:
     };
     void place(Placed& placed, const shared::Emitter& emitter) const;
     void flatten();
+    // Whether light of the emitter can arrive anywhere in the cluster, were nothing in between.
     bool reaches(const shared::Emitter& emitter, size_t cluster) const;
 
     const formats::Bsp* bsp_ = nullptr;

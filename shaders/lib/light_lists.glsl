@@ -5,12 +5,14 @@
 
 #include "../shared/functions.h"
 #include "../shared/scene.h"
+#include "whole_numbers.glsl"
 #include "wide_loads.glsl"
 
 VKPT_BUFFER(EmitterBuffer, Emitter, 16);
 VKPT_BUFFER(EmitterOutlineBuffer, EmitterOutline, 8);
 VKPT_BUFFER(LightListBuffer, LightList, 16);
 VKPT_BUFFER(LightIndexBuffer, uint, 4);
+VKPT_BUFFER(LightMultisetBuffer, LightMultiset, 8);
 VKPT_BUFFER(LightstyleBuffer, float, 4);
 VKPT_BUFFER(BspTreeBuffer, BspTreeNode, 8);
 
@@ -21,6 +23,7 @@ struct LightTables {
     LightListBuffer lists;            // one per cluster, then the one for points outside every cluster
     LightIndexBuffer static_indices;
     LightIndexBuffer dynamic_indices;
+    LightMultisetBuffer multisets;    // one per list
     LightstyleBuffer lightstyles;     // one scale per lightstyle
     BspTreeBuffer tree;
     uint list_count;
@@ -29,6 +32,7 @@ struct LightTables {
 // One list, ready to be read.
 struct LightListView {
     LightTables tables;
+    uint index; // of the list
     LightList range;
     // Lights that random numbers are spread over. Fewer than light_count() where an older sample is repeated: behind the lights
     // that its list held, each at its old place, come those that were not there yet.
@@ -51,7 +55,8 @@ LightListView open_light_list(LightTables tables, int cluster)
     uint outside = tables.list_count - 1u;
     LightListView list;
     list.tables = tables;
-    list.range = VKPT_FETCH(LightList, tables.lists, cluster < 0 ? outside : min(uint(cluster), outside));
+    list.index = cluster < 0 ? outside : min(uint(cluster), outside);
+    list.range = VKPT_FETCH(LightList, tables.lists, list.index);
     list.counted = list.range.static_count + list.range.dynamic_count;
     return list;
 }
@@ -61,13 +66,28 @@ uint light_count(LightListView list)
     return list.range.static_count + list.range.dynamic_count;
 }
 
-// The emitter index at a position of the list; ascending.
-uint light_at(LightListView list, uint position)
+// What stands at a position of a list, or of a multiset, in which a light may have several entries.
+struct LightEntry {
+    uint emitter;
+    float share; // of its light that this entry stands for: a power of two
+};
+
+LightEntry light_entry_at(LightListView list, uint position)
 {
+    uint word;
     if (position < list.range.static_count)
-        return VKPT_FETCH(LightIndex, list.tables.static_indices, list.range.first_static + position);
-    return list.tables.dynamic_indices.v[list.range.first_dynamic + position - list.range.static_count];
+        word = VKPT_FETCH(LightIndex, list.tables.static_indices, list.range.first_static + position);
+    else
+        word = list.tables.dynamic_indices.v[list.range.first_dynamic + position - list.range.static_count];
+    const uint bits_of_one = 0x3f800000u, exponent_shift = 23u;
+    LightEntry entry;
+    entry.emitter = word & ((1u << LIGHT_COPIES_SHIFT) - 1u);
+    entry.share = uintBitsToFloat(bits_of_one - ((word >> LIGHT_COPIES_SHIFT) << exponent_shift));
+    return entry;
 }
+
+// The emitter index at a position of the list; ascending.
+uint light_at(LightListView list, uint position) { return light_entry_at(list, position).emitter; }
 
 // The lights of a repeated sample's list that were there when it was drawn, and those that were not. Static lights always were.
 LightListView counted_lights(LightListView list)
@@ -97,6 +117,17 @@ LightListView dynamic_lights(LightListView list)
 {
     list.counted -= list.range.static_count;
     list.range.static_count = 0u;
+    return list;
+}
+
+// The same lights with each static one as often as the cluster's multiset has it. All else that takes a list takes this, too, but for
+// find_light.
+LightListView open_multiset(LightListView list)
+{
+    LightMultiset multiset = list.tables.multisets.v[list.index];
+    list.counted += multiset.count - list.range.static_count;
+    list.range.first_static = multiset.first;
+    list.range.static_count = multiset.count;
     return list;
 }
 
@@ -131,6 +162,26 @@ int find_light_in(LightListView list, uint emitter, uint first, uint end)
 int find_light(LightListView list, uint emitter)
 {
     int place = find_light_in(list, emitter, 0u, list.counted);
+    return place >= 0 ? place : find_light_in(list, emitter, list.counted, light_count(list));
+}
+
+// Where one of an emitter's entries stands in a multiset, -1: it has none. xi in [0, 1) chooses among them.
+int find_light_entry(LightListView list, uint emitter, float xi)
+{
+    uint low = 0u, high = list.range.static_count;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (light_at(list, middle) < emitter)
+            low = middle + 1u;
+        else
+            high = middle;
+    }
+    if (low < list.range.static_count) {
+        LightEntry first = light_entry_at(list, low);
+        if (first.emitter == emitter)
+            return int(low + floor_to_uint(xi / first.share));
+    }
+    int place = find_light_in(list, emitter, list.range.static_count, list.counted);
     return place >= 0 ? place : find_light_in(list, emitter, list.counted, light_count(list));
 }
 

@@ -129,9 +129,14 @@ float weigh_emitter(LightListView list, LightPredictor predictor, uint emitter)
     return light_contribution(predictor, load_outline(list, emitter));
 }
 
+float weigh_entry(LightListView list, LightPredictor predictor, LightEntry entry)
+{
+    return weigh_emitter(list, predictor, entry.emitter) * entry.share;
+}
+
 float weigh_light(LightListView list, LightPredictor predictor, uint position)
 {
-    return weigh_emitter(list, predictor, light_at(list, position));
+    return weigh_entry(list, predictor, light_entry_at(list, position));
 }
 
 // The sum of the weights of the lights at `first` and every `stride` from there on.

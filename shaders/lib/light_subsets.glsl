@@ -43,6 +43,12 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LaneFloat { 
 #define VKPT_SUM(i) sums[i]
 #endif
 
+// The list to draw candidates from: a multiset, where the list is longer than a subset, which else would hold all of it.
+LightListView likely_lights(LightListView list, uint subset_length)
+{
+    return list.range.static_count > subset_length ? open_multiset(list) : list;
+}
+
 // Listing 47-1 from line 6 on, with what `others` holds behind the subset's lights. It keeps the sums of the weights so far instead of the
 // weights: they are sorted, so that the second sweep is a search that halves what is left, and a light's chance is its interval to the
 // last bit.
@@ -76,8 +82,8 @@ LightSample sample_subset_in_two_sweeps(
     }
     float before = VKPT_SUM(max(low, 1u) - 1u);
     float mass = VKPT_SUM(low) - (low > 0u ? before : 0.0f);
-    uint emitter = light_at(list, choice.offset + low * choice.stride);
-    return make_light_sample(emitter, mass / (total * float(choice.stride)), random);
+    LightEntry entry = light_entry_at(list, choice.offset + low * choice.stride);
+    return make_light_sample(entry.emitter, mass / (total * float(choice.stride) * entry.share), random);
 }
 
 LightSample sample_strided_subset(LightListView list, Surface s, LightRandom random, LightOptions options)
@@ -98,6 +104,62 @@ Reservoir sweep_subset(LightListView list, LightPredictor predictor, SubsetChoic
         offer_light(reservoir, emitter, weigh_emitter(list, predictor, emitter));
     }
     return reservoir;
+}
+
+// A subset of the static lights and one of the dynamic ones, positions counted from the part's first light.
+struct PartChoices {
+    SubsetChoice of_static;
+    SubsetChoice of_dynamic;
+};
+
+// One number for all: what the first offset leaves of it decides the second one, and what that leaves the light.
+PartChoices choose_parts(LightListView list, float xi, uint subset_length)
+{
+    PartChoices choices;
+    choices.of_static = choose_subset(static_lights(list).counted, xi, subset_length);
+    choices.of_dynamic = choose_subset(dynamic_lights(list).counted, choices.of_static.rest, subset_length);
+    choices.of_static.rest = choices.of_dynamic.rest;
+    return choices;
+}
+
+// With S and T strides, offsets i and j, sums of weights W_i of static and V_j of dynamic lights, a light of weight w is picked with
+// probability w / (S W_i + T V_j), whichever part it is from: given the other part's offset, that is its chance over the offsets of
+// its own (1 / S or 1 / T for the right one, and then S w or T w of all), so dividing by it is unbiased as in equation 47.19.
+LightSample sample_subsets_of_parts(LightListView list, Surface s, LightRandom random, LightOptions options)
+{
+    if (light_count(list) == 0u)
+        return no_light();
+    PartChoices choices = choose_parts(list, random.light, options.subset_length);
+    LightPredictor predictor = make_predictor(s, options);
+    LightListView moving = dynamic_lights(list);
+    Reservoir others = make_reservoir(0.0f);
+    if (light_count(moving) > 0u) {
+        uint state = start_fast_random(random.more);
+        others = sweep_subset(moving, predictor, choices.of_dynamic, next_fast_random(state));
+        // One of the static subset's lights stands for so many, one of these for so many others.
+        others.total *= float(choices.of_dynamic.stride) / float(choices.of_static.stride);
+    }
+    return sample_subset_in_two_sweeps(static_lights(list), predictor, choices.of_static, others, random);
+}
+
+// Of the light that stands at `place`, -1: 0.
+float subsets_of_parts_probability(
+    LightListView list, LightPredictor predictor, int place, LightRandom random, uint subset_length)
+{
+    if (place < 0)
+        return 0.0f;
+    PartChoices choices = choose_parts(list, random.light, subset_length);
+    uint static_count = list.range.static_count;
+    if (uint(place) < static_count)
+        choices.of_static.offset = remainder_whole(uint(place), choices.of_static.stride);
+    else
+        choices.of_dynamic.offset = remainder_whole(uint(place) - static_count, choices.of_dynamic.stride);
+    float total = float(choices.of_static.stride)
+            * weigh_lights(static_lights(list), predictor, choices.of_static.offset, choices.of_static.stride)
+        + float(choices.of_dynamic.stride)
+            * weigh_lights(dynamic_lights(list), predictor, choices.of_dynamic.offset, choices.of_dynamic.stride);
+    float weight = weigh_emitter(list, predictor, light_at(list, uint(place)));
+    return weight > 0.0f ? weight / total : 0.0f;
 }
 
 // The light that a reservoir has kept of a subset with one light of each stride.

@@ -18,8 +18,7 @@ LightListView open_light_list_for(LightRandom random, int cluster)
     tables.lists = LightListBuffer(frame.scene.repeated_lists);
     tables.dynamic_indices = LightIndexBuffer(frame.scene.repeated_light_indices);
     LightListView list = open_light_list(tables, cluster);
-    uint outside = tables.list_count - 1u;
-    list.counted = LightIndexBuffer(frame.scene.previous_list_lengths).v[cluster < 0 ? outside : min(uint(cluster), outside)];
+    list.counted = LightIndexBuffer(frame.scene.previous_list_lengths).v[list.index];
     return list;
 }
 

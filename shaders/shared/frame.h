@@ -147,6 +147,7 @@ struct SceneView {
     uint64_t light_lists;
     uint64_t static_light_indices;
     uint64_t dynamic_light_indices;
+    uint64_t light_multisets; // among the static indices, one per list
     // The same for samples that repeat the last view's random numbers, see LightLists::repeat(). 0: nothing has changed.
     uint64_t repeated_lists;
     uint64_t repeated_light_indices;

@@ -95,6 +95,16 @@ struct LightList {
 };
 VKPT_ASSERT_SIZE(LightList, 16);
 
+// A list's static lights once more, each as many times as it is likely to matter to the cluster's points: a power of two. A light's
+// entries follow one another, and each stands for an equal share of its light. See ref_vkpt/lights/light_multisets.hpp.
+struct LightMultiset {
+    uint first; // entry of the table of static indices
+    uint count;
+};
+VKPT_ASSERT_SIZE(LightMultiset, 8);
+// An entry of the static indices: emitter index, and above it the binary logarithm of how often the light is there, 0 in lists.
+VKPT_CONST uint LIGHT_COPIES_SHIFT = 27u;
+
 // BSP tree for finding a point's cluster. child >= 0: node; < 0: cluster -(child + 2), where -1 stands for solid (cluster -1).
 struct BspTreeNode {
     vec3 normal;

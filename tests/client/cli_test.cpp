@@ -266,7 +266,7 @@ void expect_info_schema(const ProgramResult& result)
     EXPECT_TRUE(std::ranges::count(backends, info.at("trace_backend").get<std::string>())) << info.dump(2);
     const std::vector<std::string> samplers = info.at("light_samplers");
     EXPECT_TRUE(std::ranges::count(samplers, "uniform")) << info.dump(2);
-    EXPECT_TRUE(std::ranges::count(samplers, "subset_dynamic")) << info.dump(2);
+    EXPECT_TRUE(std::ranges::count(samplers, "subset_pps")) << info.dump(2);
     EXPECT_TRUE(info.at("denoisers").is_array());
     EXPECT_GE(info.at("limits").at("entities"), 128);
     EXPECT_GE(info.at("limits").at("dlights"), 32);
@@ -400,7 +400,7 @@ TEST_F(Cli, CompareWritesAllOfItsFiles)
     const ProgramResult result = run(command);
     ASSERT_EQ(result.status, 0) << result.errors;
     expect_in(result.output, "compared/index.html");
-    expect_in(result.output, "| `subset_dynamic R8 white asvgf` |");
+    expect_in(result.output, "| `subset_pps R8 white asvgf` |");
     const ScratchFolder& files = folder;
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "compared"))
@@ -408,7 +408,7 @@ TEST_F(Cli, CompareWritesAllOfItsFiles)
     std::ranges::sort(names);
     EXPECT_EQ(names, (std::vector<std::string> { "figures.csv", "figures.json", "index.html", "sheet.png" }));
     const nlohmann::json json = nlohmann::json::parse(files.read("compared/figures.json"));
-    EXPECT_EQ(json.at("rows").size(), 12u); // subset_dynamic: 2 * 2 * 2, uniform: 2 * 2
+    EXPECT_EQ(json.at("rows").size(), 12u); // subset_pps: 2 * 2 * 2, uniform: 2 * 2
     for (const nlohmann::json& row : json.at("rows")) {
         EXPECT_EQ(row.at("rmse"), 0) << "the module of paper always draws the same";
         EXPECT_EQ(row.at("flicker"), 0);
@@ -430,8 +430,8 @@ TEST_F(Cli, CompareRefusesWhatThereIsNot)
         { { "compare", "-o", "compared" }, 2, "--figures" },
         { { "compare", "maps/sample.bsp", "--figures", "-o", "compared" }, 2, "SCENE" },
         { { "compare", "--figures", "-o", "compared" }, 1, "maps/vkpt1.bsp" },
-        { { "compare", "maps/sample.bsp", "--samplers", "best", "-o", "compared" }, 2, "subset_dynamic, uniform" },
-        { { "compare", "maps/sample.bsp", "--reference-sampler", "best", "--samplers", "subset_dynamic", "-o",
+        { { "compare", "maps/sample.bsp", "--samplers", "best", "-o", "compared" }, 2, "subset_pps, uniform" },
+        { { "compare", "maps/sample.bsp", "--reference-sampler", "best", "--samplers", "subset_pps", "-o",
               "compared" },
             2, "best" },
         { { "compare", "maps/sample.bsp", "--runs", "1", "-o", "compared" }, 2, "--runs" },

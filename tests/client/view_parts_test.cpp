@@ -172,7 +172,7 @@ TEST_F(LiveSettings, ReferenceIsUnfilteredAndUnbiased)
     settings["pt_bounces"] = "2";
     settings["pt_emission_scale"] = "5";
     const Settings reference = reference_settings(settings, live);
-    EXPECT_EQ(reference.at("pt_light_sampler"), "subset_dynamic");
+    EXPECT_EQ(reference.at("pt_light_sampler"), "subset_pps");
     EXPECT_EQ(reference.at("pt_max_radiance"), "0");
     EXPECT_EQ(reference.at("flt_denoiser"), "off");
     EXPECT_EQ(reference.at("flt_taa"), "off");

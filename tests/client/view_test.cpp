@@ -174,11 +174,11 @@ protected:
 TEST_F(ViewWindow, KeysSwitchSplitSaveAndLeave)
 {
     start(FAKE_MODULE, { "maps/sample.bsp", "--size", "320x200" }, (folder.path() / "cache").string());
-    expect_title("A: subset_dynamic  R 8  asvgf");
+    expect_title("A: subset_pps  R 8  asvgf");
     press("l");
     expect_title("A: uniform");
     press("shift+l r shift+n");
-    expect_title("A: subset_dynamic  R 16  svgf");
+    expect_title("A: subset_pps  R 16  svgf");
     press("x l");
     expect_title("| B: uniform");
     press("b");

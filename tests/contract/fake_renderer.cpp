@@ -70,7 +70,7 @@ bool capture_radiance(float* rgb)
 }
 
 constexpr const char* backends[] = { "software", nullptr };
-constexpr const char* samplers[] = { "subset_dynamic", "uniform", nullptr };
+constexpr const char* samplers[] = { "subset_pps", "uniform", nullptr };
 constexpr const char* denoisers[] = { "off", "asvgf", nullptr };
 
 ModuleInfo info()

@@ -78,6 +78,11 @@ public:
     float extent;
 };
 
+bool is_in_front(const Emitter& e, glm::vec3 p)
+{
+    return e.type == shared::EMITTER_SPHERE || glm::dot(glm::cross(e.p1 - e.p0, e.p2 - e.p0), p - e.p0) > 0;
+}
+
 void expect_well_formed(const LightLists& lists, size_t emitter_count)
 {
     for (size_t cluster = 0; cluster < lists.lists().size(); cluster++) {
@@ -107,7 +112,8 @@ TEST(LightLists, HoldEveryEmitterThatIsInSight)
             const size_t index = world.rng() % (fixed.size() + moving.size());
             const Emitter& e = index < fixed.size() ? fixed[index] : moving[index - fixed.size()];
             const glm::vec3 from = world.point_in_the_open(), to = world.point_on(e);
-            if ((e.reach > 0 && glm::distance(from, e.p0) > e.reach) || !is_line_clear(world.bsp, from, to))
+            if ((e.reach > 0 && glm::distance(from, e.p0) > e.reach) || !is_in_front(e, from)
+                || !is_line_clear(world.bsp, from, to))
                 continue;
             seen++;
             const std::vector<uint32_t> list = collect_list(lists, size_t(world.bsp.find_cluster(from)));
@@ -145,6 +151,30 @@ TEST(LightLists, LeaveOutWhatCannotBeSeen)
     for (size_t cluster = 0; cluster + 1 < lists.lists().size(); cluster++)
         entries += lists.lists()[cluster].static_count;
     EXPECT_LT(entries, fixed.size() * (lists.lists().size() - 1) / 2);
+}
+
+// A lamp in the floor lights what is above it, and one in the ceiling what is below.
+TEST(LightLists, LeaveOutWhatIsBehindAnEmitter)
+{
+    CellWorld world(4, 1, 1);
+    const float middle = 1.5f * cell_size;
+    Emitter east {};
+    east.radiance = glm::vec3(1);
+    east.p0 = glm::vec3(2 * cell_size - 8, middle, 40);
+    east.p1 = east.p0 + glm::vec3(0, 10, 0);
+    east.p2 = east.p0 + glm::vec3(0, 0, 10);
+    ASSERT_TRUE(is_in_front(east, east.p0 + glm::vec3(1, 0, 0)));
+    Emitter west = east;
+    std::swap(west.p1, west.p2);
+    LightLists lists;
+    lists.build(world.bsp, std::vector { east });
+    lists.update(std::vector { west });
+    for (int column = 0; column < 4; column++) {
+        const glm::vec3 p((float(column) + 0.5f) * cell_size, middle, 64);
+        const std::vector<uint32_t> list = collect_list(lists, size_t(world.bsp.find_cluster(p)));
+        EXPECT_EQ(std::ranges::count(list, 0u), column >= 1) << column; // their own cell is on both sides
+        EXPECT_EQ(std::ranges::count(list, 1u), column <= 1) << column;
+    }
 }
 
 // Births, moves and deaths leave nothing behind: the lists equal those of a fresh object, and the static part is

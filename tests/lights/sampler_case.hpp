@@ -20,12 +20,13 @@ struct ShadingPoint {
     float roughness = 0.5f, metallic = 0;
 };
 
-// A light list in memory. Emitters that are not in it are part of the scene, too: BSDF rays may meet them.
+// A light list in memory, its static part once more as a multiset. Emitters that are not in it are part of the scene, too: BSDF rays may meet them.
 struct ListCase {
     std::vector<shared::Emitter> emitters;
     std::vector<uint32_t> static_indices, dynamic_indices;
     std::vector<float> lightstyles = std::vector<float>(256, 1.0f);
     shared::LightList range {};
+    shared::LightMultiset multiset {};
     ShadingPoint point;
 
     bool contains(uint32_t emitter) const
@@ -93,7 +94,12 @@ struct Sampler {
     // The same by quadrature with n x n points on each emitter.
     double (*integrate)(const ListCase& list, int n);
 
-    bool is_biased() const { return std::string_view(name).find("biased") != std::string_view::npos; }
+    bool is_biased() const { return has_in_name("biased"); }
+    // Whether it picks an entry of a multiset, of which a light may have several: `probability` is then of one at random.
+    bool draws_entries() const { return has_in_name("pps") || has_in_name("blue"); }
+
+private:
+    bool has_in_name(std::string_view part) const { return std::string_view(name).find(part) != std::string_view::npos; }
 };
 
 std::vector<Sampler>& all_samplers();

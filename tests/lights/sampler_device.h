@@ -36,6 +36,7 @@ struct DeviceCase {
     uint64_t lists; // one
     uint64_t static_indices;
     uint64_t dynamic_indices;
+    uint64_t multisets; // one
     uint64_t lightstyles;
     uint64_t ltc;
     uint64_t draws;
@@ -53,7 +54,7 @@ struct DeviceCase {
     vec3 albedo;
     uint padding;
 };
-VKPT_ASSERT_SIZE(DeviceCase, 152);
+VKPT_ASSERT_SIZE(DeviceCase, 160);
 
 VKPT_CONST uint SAMPLER_GROUP = 64u; // lanes, an estimate each
 

@@ -117,6 +117,7 @@ protected:
         };
         c.static_indices = upload(padded(list.static_indices));
         c.dynamic_indices = upload(padded(list.dynamic_indices));
+        c.multisets = upload(std::vector { list.multiset });
         c.lightstyles = upload(list.lightstyles);
         c.ltc = upload(std::vector<float>(ltc_table.begin(), ltc_table.end()));
         c.draws = upload(draws);

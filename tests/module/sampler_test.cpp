@@ -106,7 +106,7 @@ TEST_F(Samplers, AnUnknownNameIsToldAndReplaced)
     session_->set("pt_light_sampler", "no_such_sampler");
     session_->draw();
     EXPECT_TRUE(session_->has_line("\"no_such_sampler\" is unknown"));
-    EXPECT_STREQ(session_->host().cvars().get("pt_light_sampler", "", 0)->text, "subset_dynamic");
+    EXPECT_STREQ(session_->host().cvars().get("pt_light_sampler", "", 0)->text, "subset_pps");
     EXPECT_FALSE(is_black(session_->capture()));
 }
 

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/lights/light_multisets.hpp"
+
+#include "ref_vkpt/lights/luminance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <numbers>
+#include <random>
+
+namespace vkpt {
+
+namespace {
+
+using shared::Emitter;
+
+constexpr size_t points_on_faces = 40, points_in_air = 8;
+constexpr float least_cosine
+    = 0.02f; // of what arrives: large lights reach above the horizon though their centre does not
+constexpr float cosine_in_air = 0.5f; // things there look anywhere
+constexpr float nearest_share = 0.02f; // of the square of what a light may have at its nearest place
+constexpr size_t copies_per_light = 2; // beyond one each, on average over a list
+constexpr size_t most_copies = 1024; // in one multiset beyond one each: longer ones leave the caches
+constexpr int greatest_exponent = 10;
+
+struct Receiver {
+    glm::vec3 position, normal; // normal 0: in the air
+};
+
+// What a light's weight depends on.
+struct Source {
+    glm::vec3 centre, normal; // normal 0: a sphere
+    float area; // that is seen from its front
+    float power; // radiance times area
+};
+
+Source make_source(const Emitter& e)
+{
+    if (e.type == shared::EMITTER_SPHERE) {
+        const float disc = std::numbers::pi_v<float> * e.p1.x * e.p1.x;
+        return { e.p0, glm::vec3(0), disc, luminance(e.radiance) * disc };
+    }
+    const glm::vec3 across = glm::cross(e.p1 - e.p0, e.p2 - e.p0);
+    const float size = glm::length(across), area = 0.5f * size;
+    return { (e.p0 + e.p1 + e.p2) / 3.0f, size > 0 ? across / size : glm::vec3(0), area, luminance(e.radiance) * area };
+}
+
+// About the irradiance: a disc's, never closer than it is large.
+float predict_irradiance(const Source& source, const Receiver& receiver)
+{
+    const glm::vec3 to_receiver = receiver.position - source.centre;
+    const float distance2 = std::max(glm::dot(to_receiver, to_receiver), 1e-6f), inverse = 1 / std::sqrt(distance2);
+    const float sent
+        = source.normal == glm::vec3(0) ? 1 : std::max(glm::dot(to_receiver, source.normal) * inverse, 0.0f);
+    const float arriving = receiver.normal == glm::vec3(0)
+        ? cosine_in_air
+        : std::max(-glm::dot(to_receiver, receiver.normal) * inverse, least_cosine);
+    return source.power * sent * arriving / std::max(distance2, source.area);
+}
+
+float predict_greatest_irradiance(const Source& source, const Bounds& bounds)
+{
+    const glm::vec3 to_receiver = glm::clamp(source.centre, bounds.mins, bounds.maxs) - source.centre;
+    return source.power / std::max(glm::dot(to_receiver, to_receiver), 2 * source.area);
+}
+
+bool holds(const Bounds& bounds, glm::vec3 p)
+{
+    return !glm::any(glm::lessThan(p, bounds.mins)) && !glm::any(glm::greaterThan(p, bounds.maxs));
+}
+
+// The faces of a cluster as triangles to draw points from.
+class ClusterFaces {
+public:
+    void add(const formats::Bsp& bsp, size_t face)
+    {
+        const std::vector<glm::vec3> outline = bsp.face_polygon(face);
+        for (size_t i = 2; i < outline.size(); i++) {
+            const glm::vec3 a = outline[0], b = outline[i - 1], c = outline[i];
+            const float area = glm::length(glm::cross(b - a, c - a));
+            if (!(area > 0))
+                continue;
+            triangles_.push_back({ a, b, c, bsp.face_normal(face) });
+            areas_.push_back((areas_.empty() ? 0 : areas_.back()) + area);
+        }
+    }
+
+    // Faces reach into other clusters: only what is in the bounds counts.
+    std::vector<Receiver> draw(const Bounds& bounds, std::mt19937& rng) const
+    {
+        constexpr size_t tries = 8 * points_on_faces;
+        std::uniform_real_distribution<float> unit(0, 1);
+        std::vector<Receiver> receivers;
+        for (size_t i = 0; i < tries && receivers.size() < points_on_faces && !areas_.empty(); i++) {
+            const auto at = std::ranges::upper_bound(areas_, unit(rng) * areas_.back());
+            const Triangle& t = triangles_[std::min(size_t(at - areas_.begin()), areas_.size() - 1)];
+            const float root = std::sqrt(unit(rng)), v = unit(rng);
+            const glm::vec3 p = t.a * (1 - root) + t.b * (root * (1 - v)) + t.c * (root * v) + t.normal;
+            if (holds(bounds, p))
+                receivers.push_back({ p, t.normal });
+        }
+        for (size_t i = 0; i < points_in_air; i++) {
+            const glm::vec3 place(unit(rng), unit(rng), unit(rng));
+            receivers.push_back({ glm::mix(bounds.mins, bounds.maxs, place), glm::vec3(0) });
+        }
+        return receivers;
+    }
+
+private:
+    struct Triangle {
+        glm::vec3 a, b, c, normal;
+    };
+    std::vector<Triangle> triangles_;
+    std::vector<float> areas_; // running sums
+};
+
+std::vector<ClusterFaces> collect_faces(const formats::Bsp& bsp, size_t cluster_count)
+{
+    std::vector<ClusterFaces> clusters(cluster_count);
+    for (const formats::BspLeaf& leaf : bsp.leaves)
+        if (leaf.cluster >= 0 && size_t(leaf.cluster) < cluster_count)
+            for (size_t i = 0; i < leaf.leaf_face_count; i++)
+                clusters[size_t(leaf.cluster)].add(bsp, bsp.leaf_faces[leaf.first_leaf_face + i]);
+    return clusters;
+}
+
+// Per light, in proportion to which they are to be drawn.
+std::vector<float> measure_sizes(
+    const std::vector<Source>& sources, const std::vector<Receiver>& receivers, const Bounds& bounds)
+{
+    std::vector<float> squares(sources.size(), 0), light(sources.size());
+    float mean_sum = 0;
+    for (const Receiver& receiver : receivers) {
+        float sum = 0;
+        for (size_t i = 0; i < sources.size(); i++)
+            sum += light[i] = predict_irradiance(sources[i], receiver);
+        mean_sum += sum / float(receivers.size());
+        if (!(sum > 0))
+            continue;
+        for (size_t i = 0; i < sources.size(); i++)
+            squares[i] += light[i] / sum * (light[i] / sum) / float(receivers.size());
+    }
+    for (size_t i = 0; i < sources.size(); i++) {
+        const float most = predict_greatest_irradiance(sources[i], bounds);
+        const float share = most > 0 ? most / (most + mean_sum) : 0;
+        squares[i] = std::sqrt(squares[i] + nearest_share * share * share);
+    }
+    return squares;
+}
+
+// The power of two next to `copies`, at least 1.
+uint32_t round_to_exponent(float copies)
+{
+    return copies > 1 ? uint32_t(std::clamp(int(std::lround(std::log2(copies))), 0, greatest_exponent)) : 0;
+}
+
+} // namespace
+
+LightMultisets make_light_multisets(
+    const formats::Bsp& bsp, const LightLists& lists, std::span<const Emitter> static_emitters)
+{
+    LightMultisets result;
+    result.entries = lists.static_indices();
+    for (const shared::LightList& list : lists.lists()) // for outside every cluster, that is all
+        result.ranges.push_back({ list.first_static, list.static_count });
+    std::vector<Source> sources;
+    for (const Emitter& emitter : static_emitters)
+        sources.push_back(make_source(emitter));
+    const size_t cluster_count = lists.lists().size() - 1;
+    const std::vector<ClusterFaces> faces = collect_faces(bsp, cluster_count);
+    std::mt19937 rng;
+    for (size_t cluster = 0; cluster < cluster_count; cluster++) {
+        const shared::LightList& list = lists.lists()[cluster];
+        if (list.static_count == 0)
+            continue;
+        const std::span indices = std::span(lists.static_indices()).subspan(list.first_static, list.static_count);
+        std::vector<Source> listed;
+        for (const uint32_t index : indices)
+            listed.push_back(sources[index]);
+        const Bounds bounds = lists.cluster_bounds(cluster);
+        const std::vector<float> sizes = measure_sizes(listed, faces[cluster].draw(bounds, rng), bounds);
+        float total = 0;
+        for (const float size : sizes)
+            total += size;
+        const size_t first = result.entries.size();
+        const float copies = float(std::min(copies_per_light * indices.size(), most_copies));
+        for (size_t i = 0; i < indices.size(); i++) {
+            const uint32_t exponent = total > 0 ? round_to_exponent(sizes[i] / total * copies) : 0;
+            result.entries.insert(
+                result.entries.end(), size_t(1) << exponent, indices[i] | exponent << shared::LIGHT_COPIES_SHIFT);
+        }
+        result.ranges[cluster] = { uint32_t(first), uint32_t(result.entries.size() - first) };
+    }
+    return result;
+}
+
+} // namespace vkpt
