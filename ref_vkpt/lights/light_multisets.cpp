@@ -17,9 +17,11 @@ namespace {
 
 using shared::Emitter;
 
-constexpr size_t points_on_faces = 40, points_in_air = 8;
-constexpr float least_cosine
-    = 0.02f; // of what arrives: large lights reach above the horizon though their centre does not
+// Per cluster. Fewer in maps whose lists are long, so that there are about so many predictions (a quarter of a second).
+constexpr size_t most_points = 48, fewest_points = 6, most_predictions = 16'000'000;
+constexpr size_t points_per_point_in_air = 6;
+// Of what arrives: large lights reach above the horizon though their centre does not.
+constexpr float least_cosine = 0.02f;
 constexpr float cosine_in_air = 0.5f; // things there look anywhere
 constexpr float nearest_share = 0.02f; // of the square of what a light may have at its nearest place
 constexpr size_t copies_per_light = 2; // beyond one each, on average over a list
@@ -72,11 +74,13 @@ bool holds(const Bounds& bounds, glm::vec3 p)
     return !glm::any(glm::lessThan(p, bounds.mins)) && !glm::any(glm::greaterThan(p, bounds.maxs));
 }
 
-// The faces of a cluster as triangles to draw points from.
+// The lit faces of a cluster as triangles to draw points from.
 class ClusterFaces {
 public:
     void add(const formats::Bsp& bsp, size_t face)
     {
+        if (bsp.texinfos[bsp.faces[face].texinfo].flags & (formats::SURF_SKY | formats::SURF_NODRAW))
+            return;
         const std::vector<glm::vec3> outline = bsp.face_polygon(face);
         for (size_t i = 2; i < outline.size(); i++) {
             const glm::vec3 a = outline[0], b = outline[i - 1], c = outline[i];
@@ -89,9 +93,10 @@ public:
     }
 
     // Faces reach into other clusters: only what is in the bounds counts.
-    std::vector<Receiver> draw(const Bounds& bounds, std::mt19937& rng) const
+    std::vector<Receiver> draw(const Bounds& bounds, size_t count, std::mt19937& rng) const
     {
-        constexpr size_t tries = 8 * points_on_faces;
+        const size_t points_in_air = count / points_per_point_in_air, points_on_faces = count - points_in_air;
+        const size_t tries = 8 * points_on_faces;
         std::uniform_real_distribution<float> unit(0, 1);
         std::vector<Receiver> receivers;
         for (size_t i = 0; i < tries && receivers.size() < points_on_faces && !areas_.empty(); i++) {
@@ -171,6 +176,8 @@ LightMultisets make_light_multisets(
         sources.push_back(make_source(emitter));
     const size_t cluster_count = lists.lists().size() - 1;
     const std::vector<ClusterFaces> faces = collect_faces(bsp, cluster_count);
+    const size_t points
+        = std::clamp(most_predictions / std::max<size_t>(lists.static_indices().size(), 1), fewest_points, most_points);
     std::mt19937 rng;
     for (size_t cluster = 0; cluster < cluster_count; cluster++) {
         const shared::LightList& list = lists.lists()[cluster];
@@ -181,7 +188,7 @@ LightMultisets make_light_multisets(
         for (const uint32_t index : indices)
             listed.push_back(sources[index]);
         const Bounds bounds = lists.cluster_bounds(cluster);
-        const std::vector<float> sizes = measure_sizes(listed, faces[cluster].draw(bounds, rng), bounds);
+        const std::vector<float> sizes = measure_sizes(listed, faces[cluster].draw(bounds, points, rng), bounds);
         float total = 0;
         for (const float size : sizes)
             total += size;
