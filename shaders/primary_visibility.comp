@@ -161,8 +161,10 @@ void store_reprojection(uint index, Path path, vec3 direction, vec2 offset)
     Surface s = path.hit.surface;
     store_guide(index,
         path.reached_surface ? pack_guide(mirrored(path, s.normal), material_key(s.roughness, s.metallic), depth) : uvec2(0u));
-    if (!path.reached_surface)
+    if (!path.reached_surface) {
+        store_slope(index, 0u); // strata of such pixels ask for it, too
         return;
+    }
     vec3 plane = mirrored(path, s.geometric_normal);
     vec2 slope = vec2(dot(plane, camera.right), -dot(plane, camera.up)) * 2.0 / vec2(frame.size) * depth / dot(plane, seen);
     store_slope(index, pack_upper_halves(clamp(slope, -8.0, 8.0)));
