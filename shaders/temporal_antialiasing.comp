@@ -64,6 +64,7 @@ struct Neighbourhood {
     float certainty; // 1: right there
     vec3 mean;
     vec3 deviation;
+    float brightest; // luminance
 };
 
 // `middle`: of the result's pixel, in rendered pixels; `rendered`: the one it lies in.
@@ -72,7 +73,7 @@ Neighbourhood look_around(ivec2 rendered, vec2 middle, float scale)
     bool same_size = frame.size == frame.resolved_size;
     vec2 enlargement = vec2(frame.resolved_size) / vec2(frame.size);
     vec3 mean = vec3(0.0), square = vec3(0.0), here = vec3(0.0);
-    float weights = 0.0, nearest = 0.0;
+    float weights = 0.0, nearest = 0.0, brightest = 0.0;
     [[unroll]] for (int tap = 0; tap < 9; tap++) {
         ivec2 at = clamp(rendered + ivec2(tap % 3, tap / 3) - 1, ivec2(0), ivec2(frame.size) - 1);
         vec3 colour = compress(unpack_light3(load_composed(uint(at.y) * frame.size.x + uint(at.x))), scale);
@@ -86,9 +87,10 @@ Neighbourhood look_around(ivec2 rendered, vec2 middle, float scale)
         nearest = quick_max(nearest, weight);
         mean += colour;
         square += colour * colour;
+        brightest = quick_max(brightest, luminance(colour));
     }
     mean *= 1.0 / 9.0;
-    return Neighbourhood(here / max(weights, 1e-12), nearest, mean, sqrt(quick_max(square * (1.0 / 9.0) - mean * mean, vec3(0.0))));
+    return Neighbourhood(here / max(weights, 1e-12), nearest, mean, sqrt(quick_max(square * (1.0 / 9.0) - mean * mean, vec3(0.0))), brightest);
 }
 
 void resolve_pixel(uvec2 pixel, uint index)
@@ -107,6 +109,8 @@ void resolve_pixel(uvec2 pixel, uint index)
     if ((frame.flags & FRAME_HISTORY) != 0u && on_screen) {
         vec3 reach = now.deviation * most_deviations;
         vec3 old = quick_min(quick_max(sample_history(place, scale), now.mean - reach), now.mean + reach);
+        // Beside lamps that lies above all that is there, and where colours end expand() would make a flash of it.
+        old *= quick_min(1.0, now.brightest / quick_max(luminance(old), 1e-6));
         frames += unpack_light2(load_old(whole_to_int(floor(place + 0.5))).y).y;
         result = mix(old, now.here, now.certainty / quick_max(frames, 1e-3));
         frames = quick_min(frames, most_frames - 1.0);

@@ -265,6 +265,36 @@ TEST_F(FiltersAndLists, ErrorStays)
     }
 }
 
+// The history is sampled between pixels, and beside a lamp that can be more than there was anywhere.
+TEST(Antialiasing, NothingOutshinesTheLamp)
+{
+    GameFolder folder;
+    folder.add_wall("wall", 180);
+    folder.add_wall("lamp", white_index);
+    MapBuilder map;
+    map.add_room({ -128, -128, -128 }, { 128, 128, 128 }, map.add_material("wall"));
+    map.add(rectangle({ 120, 0, 0 }, { 0, -20, 0 }, { 0, 0, 10 }), map.add_material("lamp", 0, 4000));
+    folder.add_map("room", map.finish());
+    Session session(
+        folder, { { "flt_denoiser", "asvgf" }, { "flt_taa", "off" }, { "pt_exposure", "1" }, { "pt_seed", "0" } });
+    session.load_map("room");
+    const auto brightest = [&](const char* antialiasing) {
+        session.set("flt_taa", antialiasing);
+        float most = 0;
+        for (int frame = 0; frame < 24; frame++) {
+            session.look({ 0, 0, 0 }, { 100, -30 + 2.3f * float(frame), 7 }, 60);
+            session.draw();
+            for (const glm::vec3& pixel : session.capture().pixels)
+                most = std::max(most, luminance(pixel));
+        }
+        return most;
+    };
+    const float lamp = brightest("off");
+    EXPECT_GT(lamp, 1);
+    EXPECT_LT(brightest("on"), 1.02f * lamp);
+    EXPECT_LT(brightest("upscale"), 1.02f * lamp);
+}
+
 // But a light that comes into view is seen at once.
 TEST_F(Filters, ANewLightIsSeenAtOnce)
 {
