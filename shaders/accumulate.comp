@@ -6,6 +6,7 @@
 #define VKPT_DEVIATIONS_ARE_KNOWN
 #include "lib/frame.glsl"
 #include "lib/denoise_spread.glsl"
+#include "lib/picture.glsl"
 
 // What the surface reflects towards the viewer.
 vec3 reflected_light(uvec2 pixel, uint index, Surface surface)
@@ -33,14 +34,10 @@ void compose_pixel(uvec2 pixel, uint index)
         count_broken_pixel();
         radiance = vec3(0.0);
     }
-    if ((frame.flags & FRAME_ANTIALIASED) != 0u) {
-        store_composed(index, pack_light3(radiance));
-        return; // temporal_antialiasing stores `accumulated`, perhaps at another size
-    }
-    store_radiance(index, radiance);
-    float share = 1.0 / float(frame.accumulated_frames + 1u);
-    vec3 before = frame.accumulated_frames > 0u ? load_accumulated(index) : vec3(0.0);
-    store_accumulated(index, before + (radiance - before) * share);
+    if ((frame.flags & FRAME_LAYERED) != 0u)
+        store_layers(index, pack_light3(radiance));
+    else
+        store_picture(index, radiance);
 }
 
 VKPT_RUN_OVER_PIXELS(compose_pixel)

@@ -4,6 +4,7 @@
 // This frame's light, averaged with what the last view knew of the same surface; and how much it varies.
 #include "lib/frame.glsl"
 #include "lib/denoise.glsl"
+#include "lib/layers.glsl"
 
 // Frames that the averages are worth at most; specular light's where the picture moves, for what a surface reflects moves otherwise.
 const float most_frames = 32.0, most_moving_frames = 4.0;
@@ -52,9 +53,16 @@ void add_history(inout History sum, inout float total, Search search, ivec2 plac
     total += share;
 }
 
+// Pixels that share out layers show another one in each view; neighbours on all sides have shown this one.
+void add_layer_history(inout History sum, inout float total, Search search, ivec2 place)
+{
+    [[dont_unroll]] for (int tap = 0; tap < 9; tap++)
+        add_history(sum, total, search, place + ivec2(tap % 3, tap / 3) - 1, 1.0 / 9.0);
+}
+
 // The four pixels of the last view around where the surface was then, as far as they show the same surface. `at`: where to look
 // for what the surface showed.
-History find_history(Search search, vec2 at)
+History find_history(uint index, Search search, vec2 at)
 {
     History none = History(
         FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0), 0.0));
@@ -68,6 +76,8 @@ History find_history(Search search, vec2 at)
     [[unroll]] for (int y = 0; y < 2; y++)
         [[unroll]] for (int x = 0; x < 2; x++)
             add_history(sum, total, search, first + ivec2(x, y), (x == 0 ? 1.0 - part.x : part.x) * (y == 0 ? 1.0 - part.y : part.y));
+    if (total < 0.01 && (frame.flags & FRAME_LAYERED) != 0u && differing_layers(index) != 0u)
+        add_layer_history(sum, total, search, whole_to_int(floor(at + 0.5)));
     if (total < 0.01)
         return none;
     float scale = 1.0 / total;
@@ -177,12 +187,12 @@ void accumulate_pixel(uvec2 pixel, uint index)
     vec4 kind = guide_bytes(guide.x);
     uint slope = load_slope(index);
     Search search = Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, unpack_upper_halves(slope), load_motion(index));
-    History history = find_history(search, search.shown.xy);
+    History history = find_history(index, search, search.shown.xy);
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
     vec3 direction = camera_direction(pixel, frame.pixel_offset);
     float direction_length = length(direction), path_length = guide_depth(guide) * direction_length;
     if (surface.roughness < glossy_roughness && reflected_distance > 0.0) {
-        History glossy = find_history(search, place_of_reflection(direction, (path_length + reflected_distance) / direction_length));
+        History glossy = find_history(index, search, place_of_reflection(direction, (path_length + reflected_distance) / direction_length));
         history.light.specular = glossy.light.specular;
         history.moments.specular = glossy.moments.specular;
         history.moments.frames.y = glossy.moments.frames.y;

@@ -3,11 +3,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Camera rays through mirrors, glass and water to the first surface that is shaded, written to the G-buffer.
 #include "lib/frame.glsl"
+#include "lib/layers.glsl"
 #include "lib/pixel_random.glsl"
 #include "lib/reprojection.glsl"
 #include "lib/surfaces.glsl"
 
-const uint max_specular_segments = 8u;
+const uint max_specular_segments = 12u;
+// What is behind particles that let less than this through is not looked for.
+const float least_throughput = 0.015;
 const uint mask_camera = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_VIEW_WEAPON | MASK_SKY;
 const uint mask_reflected = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
 // Metals smoother than this are mirrors.
@@ -39,6 +42,20 @@ vec3 water_normal(vec3 position, vec3 normal)
     return normalize(normal - vec3(slope, 0.0) * sign(normal.z));
 }
 
+// Whether to follow the layer that is `share` of the whole rather than the one behind it; `weight`: what it then counts for.
+bool choose_layer(inout Layers layers, float share, inout Random random, out float weight)
+{
+    weight = 1.0;
+    if (layers.count == 1u || share <= 0.0 || share >= 1.0)
+        return next_float(random) < share;
+    uint nearer = layers.count == 3u && share >= 0.5 ? 2u : 1u, farther = layers.count - nearer;
+    bool chosen = layers.own < layers.first + nearer;
+    weight = float(layers.count) * (chosen ? share / float(nearer) : (1.0 - share) / float(farther));
+    layers.first += chosen ? 0u : nearer;
+    layers.count = chosen ? nearer : farther;
+    return chosen;
+}
+
 struct Path {
     Ray ray;
     vec3 throughput;
@@ -51,6 +68,7 @@ struct Path {
     HitSurface hit;
     vec3 mirror; // normal of the last mirror, 0: none
     vec3 moved;  // from where the surface's point was in the last view
+    Layers layers;
 };
 
 void reflect_path(inout Path path, Surface s, vec3 normal)
@@ -73,8 +91,10 @@ void meet_water(inout Path path, Surface s, inout Random random)
 {
     vec3 normal = water_normal(s.position, s.normal);
     float ratio = path.in_water ? 1.0 / water_index : water_index;
-    float reflectance = fresnel_dielectric(clamp(dot(normal, s.view), 0.0, 1.0), ratio);
-    if (next_float(random) < reflectance) {
+    float reflectance = fresnel_dielectric(clamp(dot(normal, s.view), 0.0, 1.0), ratio), weight;
+    bool reflected = choose_layer(path.layers, reflectance, random, weight);
+    path.throughput *= weight;
+    if (reflected) {
         reflect_path(path, s, normal);
         return;
     }
@@ -117,19 +137,32 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
         path.emitted += path.throughput * sky_radiance(path.ray.direction);
         return false;
     }
+    bool is_unlit = (hit.flags & MATERIAL_FULLBRIGHT) != 0u;
     if ((hit.flags & MATERIAL_TRANSLUCENT) != 0u) {
         if ((hit.flags & MATERIAL_WARP) != 0u) {
             path.emitted += path.throughput * hit.emission * hit.opacity; // slime that glows
             meet_water(path, s, random);
             return true;
         }
-        if (next_float(random) >= hit.opacity) {
+        if (!is_unlit) {
+            path.emitted += path.throughput * hit.emission * hit.opacity; // needs no choice
+            hit.emission = vec3(0.0);
+            float weight = 1.0;
+            bool shown = hit.front > 0.0 && choose_layer(path.layers, hit.opacity, random, weight); // only fronts are
+            path.throughput *= weight;
+            if (!shown) {
+                pass_through(path, s, path.ray.direction);
+                return true;
+            }
+        }
+    }
+    if (is_unlit) {
+        path.emitted += path.throughput * s.albedo * hit.opacity;
+        path.throughput *= 1.0 - hit.opacity;
+        if (quick_max3(path.throughput) > least_throughput) {
             pass_through(path, s, path.ray.direction);
             return true;
         }
-    }
-    if ((hit.flags & MATERIAL_FULLBRIGHT) != 0u) {
-        path.emitted += path.throughput * s.albedo;
         path.unlit_depth = DEPTH_UNLIT;
         return false;
     }
@@ -186,6 +219,7 @@ void see_pixel(uvec2 pixel, uint index)
     path.in_water = (frame.flags & FRAME_UNDERWATER) != 0u;
     path.reached_surface = false;
     path.unlit_depth = DEPTH_NOTHING;
+    path.layers = (frame.flags & FRAME_LAYERED) != 0u ? share_layers(pixel) : unshared_layers;
     float cone_spread = 2.0 * length(frame.camera.right) / float(frame.size.x);
 
     [[dont_unroll]] for (uint segment = 0u; segment < max_specular_segments; segment++)
@@ -198,7 +232,7 @@ void see_pixel(uvec2 pixel, uint index)
     if ((frame.flags & FRAME_REPLAYED) != 0u)
         store_random_seed(index, uvec2(join_halves(pixel), frame.frame_index));
     store_emitted(index, path.emitted);
-    store_throughput(index, pack_light3(path.throughput));
+    store_throughput(index, pack_light3(path.throughput) | uvec2(0u, other_layers_bits(path.layers)));
     if (!path.reached_surface) {
         store_position(index, vec4(path.ray.direction, path.unlit_depth));
         return;

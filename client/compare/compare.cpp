@@ -148,6 +148,11 @@ void run_compare(CompareOptions options)
     if (options.makes_chapter_figures != options.scenes.empty())
         throw WrongUse(options.scenes.empty() ? "compare: name a SCENE, or use --figures"
                                               : "compare: --figures has scenes of its own; leave SCENE out");
+    for (const std::string& setting : options.module.settings)
+        if (setting.starts_with("flt_taa="))
+            throw WrongUse(
+                "compare: --set flt_taa: pictures are compared pixel by pixel and without anti-aliasing, which "
+                "would blur the converged ones, too; leave it out");
     options.has_all_samplers = options.lists.samplers == std::vector<std::string> { "all" };
     Report report;
     report.size = parse_size(options.size);

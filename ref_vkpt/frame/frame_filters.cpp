@@ -56,6 +56,15 @@ uint32_t stratum_groups(const shared::FrameUniforms& uniforms)
     return pixel_groups(count_blocks(uniforms.size, uniforms.bounce_block * shared::STRATUM_BLOCKS));
 }
 
+// Whether anything is seen through something that is lit itself: glass, water, translucent models.
+bool has_layers(const SceneSnapshot& scene)
+{
+    return std::ranges::any_of(scene.materials, [](const shared::Material& material) {
+        return (material.flags & (shared::MATERIAL_TRANSLUCENT | shared::MATERIAL_FULLBRIGHT))
+            == shared::MATERIAL_TRANSLUCENT;
+    });
+}
+
 } // namespace
 
 // Fills what the filters' passes ask of the uniforms. An averaged view, and one without a world, stays as it is
@@ -78,8 +87,8 @@ void Frame::begin_filters(
         uniforms.resolved_size = uniforms.output_size;
     if (antialiases)
         uniforms.pixel_offset = offset_in_pixel(state_.offset_index++, uniforms.size, uniforms.resolved_size);
-    uniforms.flags |= shared::FRAME_REPROJECTED | (antialiases ? shared::FRAME_ANTIALIASED : 0)
-        | (denoises ? shared::FRAME_DENOISED : 0)
+    uniforms.flags |= shared::FRAME_REPROJECTED | (has_layers(scene) ? shared::FRAME_LAYERED : 0)
+        | (antialiases ? shared::FRAME_ANTIALIASED : 0) | (denoises ? shared::FRAME_DENOISED : 0)
         | (uniforms.cvars.flt_denoiser == shared::DENOISER_ASVGF ? shared::FRAME_REPLAYED : 0);
     ViewHistory::Key key;
     key.camera = uniforms.camera;
@@ -117,6 +126,8 @@ void Frame::record_composition(const shared::FrameUniforms& uniforms)
 {
     const shared::SpreadPush push { graphics_.screen.rows().filter_b, {}, spread_ways[3] };
     record_level("accumulate", push, pixel_groups(uniforms.size));
+    if (uniforms.flags & shared::FRAME_LAYERED)
+        record_pass("blend_layers", pixel_groups(uniforms.size));
 }
 
 // Before the light passes.

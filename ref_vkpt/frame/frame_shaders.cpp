@@ -35,6 +35,8 @@ std::vector<std::string> frame_shaders(TraceBackend backend)
         add({ "denoise_temporal" });
     if (filters.flt_denoiser == shared::DENOISER_ASVGF)
         add({ "denoise_gradient", "denoise_gradient_filter", "replay_samples" });
+    if (cvars.flt_taa != "off" || filters.flt_denoiser != shared::DENOISER_OFF)
+        add({ "blend_layers" });
     if (cvars.flt_taa != "off")
         add({ "temporal_antialiasing" });
     add({ "accumulate", "exposure", "tone_map", "draw_quads" });

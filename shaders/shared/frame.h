@@ -35,6 +35,7 @@ VKPT_CONST uint FRAME_DENOISED = 128u;  // the picture is made from the filtered
 VKPT_CONST uint FRAME_ANTIALIASED = 1024u; // the picture is averaged over views
 VKPT_CONST uint FRAME_REPLAYED = 256u;  // random numbers follow the buffer random_seed: some pixels repeat an older sample
 VKPT_CONST uint FRAME_BLOOM = 2048u; // the picture is mixed with what bloom_*.comp made of it
+VKPT_CONST uint FRAME_LAYERED = 8192u; // pixels share out what glass and water show, and are mixed by blend_layers
 VKPT_CONST uint FRAME_COUNT_RAYS = 4096u; // every ray is counted in `ray_counts`
 
 // Rays of a view, by what they were asked.

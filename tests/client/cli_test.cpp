@@ -82,6 +82,7 @@ TEST_F(Cli, WrongUseExitsWithTwo)
         { "record", "x.dm2" },
         { "record", "x.dm2", "-o", "x.trace" },
         { "record", "x.dm2", "--rate", "5", "-o", "x.rtrace" },
+        { "compare", "maps/sample.bsp", "--set", "flt_taa=on", "-o", "compared" },
         { "diff" },
         { "export", "maps/sample.bsp" },
     };
@@ -431,8 +432,7 @@ TEST_F(Cli, CompareRefusesWhatThereIsNot)
         { { "compare", "maps/sample.bsp", "--figures", "-o", "compared" }, 2, "SCENE" },
         { { "compare", "--figures", "-o", "compared" }, 1, "maps/vkpt1.bsp" },
         { { "compare", "maps/sample.bsp", "--samplers", "best", "-o", "compared" }, 2, "subset_pps, uniform" },
-        { { "compare", "maps/sample.bsp", "--reference-sampler", "best", "--samplers", "subset_pps", "-o",
-              "compared" },
+        { { "compare", "maps/sample.bsp", "--reference-sampler", "best", "--samplers", "subset_pps", "-o", "compared" },
             2, "best" },
         { { "compare", "maps/sample.bsp", "--runs", "1", "-o", "compared" }, 2, "--runs" },
         { { "compare", "maps/nowhere.bsp", "-o", "compared" }, 1, "maps/nowhere.bsp" },

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The picture's radiance on its way from the passes that make it to anti-aliasing, or to the average.
+#ifndef VKPT_LIB_PICTURE
+#define VKPT_LIB_PICTURE
+
+#include "packing.glsl"
+
+// temporal_antialiasing stores `accumulated` itself, perhaps at another size.
+void store_picture(uint index, vec3 radiance)
+{
+    if ((frame.flags & FRAME_ANTIALIASED) != 0u) {
+        store_composed(index, pack_light3(radiance));
+        return;
+    }
+    store_radiance(index, radiance);
+    float share = 1.0 / float(frame.accumulated_frames + 1u);
+    vec3 before = frame.accumulated_frames > 0u ? load_accumulated(index) : vec3(0.0);
+    store_accumulated(index, before + (radiance - before) * share);
+}
+
+#endif
