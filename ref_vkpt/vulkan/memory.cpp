@@ -4,9 +4,10 @@
 #include "ref_vkpt/engine/errors.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <fmt/format.h>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 namespace vkpt {
@@ -17,7 +18,8 @@ constexpr VkDeviceSize block_size = 32u << 20;
 
 const char* describe(MemoryKind kind)
 {
-    constexpr const char* names[] = { "textures", "geometry", "acceleration structures", "lights", "images", "staging" };
+    constexpr const char* names[]
+        = { "textures", "geometry", "acceleration structures", "lights", "images", "staging" };
     return names[size_t(kind)];
 }
 
@@ -62,6 +64,13 @@ void Allocation::swap(Allocation& other) noexcept
     std::swap(kind_, other.kind_);
 }
 
+MemoryAllocator::MemoryAllocator(const Device& device)
+    : device_(device)
+{
+    if (const char* wanted = std::getenv("VKPT_FILL_MEMORY"))
+        fill_ = std::atoi(wanted) & 0xff;
+}
+
 MemoryAllocator::~MemoryAllocator()
 {
     for (MemoryBlock& block : blocks_)
@@ -89,6 +98,8 @@ Allocation MemoryAllocator::allocate(const VkMemoryRequirements& requirements, V
         place(add_block(std::max(block_size, allocation.size_), type, linear, kind));
     allocation.allocator_ = this;
     in_use_[size_t(kind)] += allocation.size_;
+    if (fill_ && allocation.mapped())
+        std::memset(allocation.mapped(), *fill_, allocation.size_);
     return allocation;
 }
 

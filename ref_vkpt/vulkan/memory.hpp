@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Device memory in large blocks, cut up first-fit: drivers allow only a few thousand allocations, a mod has more pictures.
+// Device memory in large blocks, cut up first-fit: drivers allow only a few thousand allocations, a mod has more
+// pictures.
 #pragma once
 
 #include "ref_vkpt/vulkan/device.hpp"
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <list>
 #include <map>
+#include <optional>
 
 namespace vkpt {
 
@@ -54,7 +56,9 @@ struct MemoryBlock {
 
 class MemoryAllocator {
 public:
-    explicit MemoryAllocator(const Device& device) : device_(device) {}
+    // $VKPT_FILL_MEMORY, a number from 0 to 255: bytes that host-visible memory holds until it is written. No picture
+    // may depend on it.
+    explicit MemoryAllocator(const Device& device);
     ~MemoryAllocator();
     MemoryAllocator(const MemoryAllocator&) = delete;
     MemoryAllocator& operator=(const MemoryAllocator&) = delete;
@@ -70,6 +74,7 @@ private:
     void release(Allocation& allocation);
 
     const Device& device_;
+    std::optional<int> fill_;
     std::list<MemoryBlock> blocks_;
     std::array<uint64_t, size_t(MemoryKind::count)> in_use_ {};
 };
