@@ -122,7 +122,7 @@ TEST_F(Filters, EveryTraceBackendGivesTheSamePicture)
                 << backend << ", " << pixels;
         }
     }
-    session_->set("pt_bounce_pixels", "half");
+    session_->set("pt_bounce_pixels", "quarter");
 }
 
 TEST_F(Filters, AMenuLeavesTheGamesHistoryAlone)
