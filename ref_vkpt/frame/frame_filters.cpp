@@ -43,12 +43,12 @@ glm::vec2 offset_in_pixel(uint32_t index, glm::uvec2 rendered, glm::uvec2 resolv
 }
 
 // Pixels that share a bounce ray.
-glm::uvec2 bounce_block()
+glm::uvec2 bounce_block(const Device& device)
 {
     const std::string& pixels = cvars::values().pt_bounce_pixels;
-    if (cvars::values().pt_bounces == 0)
-        return glm::uvec2(1); // there is next to nothing to share
-    return { pixels == "all" ? 1 : 2, pixels == "quarter" ? 2 : 1 };
+    if (cvars::values().pt_bounces == 0 || pixels == "all")
+        return glm::uvec2(1); // without bounces there is next to nothing to share
+    return { 2, pixels == "quarter" || (pixels == "auto" && device.is_cpu) ? 2 : 1 };
 }
 
 uint32_t stratum_groups(const shared::FrameUniforms& uniforms)
@@ -82,7 +82,7 @@ void Frame::begin_filters(
         return;
     }
     if (denoises)
-        uniforms.bounce_block = bounce_block();
+        uniforms.bounce_block = bounce_block(graphics_.device);
     if (upscales)
         uniforms.resolved_size = uniforms.output_size;
     if (antialiases)

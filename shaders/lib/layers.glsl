@@ -30,13 +30,14 @@ Layers share_layers(uvec2 pixel)
 
 // In `throughput`, above blue: the next class, or the last one, shows another layer.
 const uint next_differs = 0x10000u, last_differs = 0x20000u;
+
 uint other_layers_bits(Layers layers)
 {
     uint same = ((1u << layers.count) - 1u) << layers.first, others = ~(same | (same << layer_classes)) >> layers.own;
     return (others << 15u) & (next_differs | last_differs);
 }
 
-// Of the pixel's layer and its neighbours': next_differs, last_differs.
+// Whether another layer than the pixel's own is next to it: next_differs, last_differs.
 uint differing_layers(uint index) { return load_throughput(index).y & (next_differs | last_differs); }
 
 #endif

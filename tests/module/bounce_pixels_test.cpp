@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <string_view>
 
 namespace vkpt::tests {
 namespace {
@@ -71,6 +72,8 @@ TEST_F(BouncePixels, SendSoManyRays)
     EXPECT_EQ(bounce_rays("all"), 1);
     EXPECT_EQ(bounce_rays("half"), 0.5);
     EXPECT_EQ(bounce_rays("quarter"), 0.25);
+    const bool is_cpu = std::string_view(session->extension().info().device).find("llvmpipe") != std::string_view::npos;
+    EXPECT_EQ(bounce_rays("auto"), is_cpu ? 0.25 : 0.5);
     session->set("flt_denoiser", "off"); // nothing would even out what neighbours have in common
     EXPECT_EQ(bounce_rays("quarter"), 1);
     session->set("flt_denoiser", "svgf");

@@ -122,7 +122,7 @@ TEST_F(Filters, EveryTraceBackendGivesTheSamePicture)
                 << backend << ", " << pixels;
         }
     }
-    session_->set("pt_bounce_pixels", "quarter");
+    session_->set("pt_bounce_pixels", "auto");
 }
 
 TEST_F(Filters, AMenuLeavesTheGamesHistoryAlone)
