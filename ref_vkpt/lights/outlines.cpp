@@ -18,19 +18,28 @@ uint32_t shorten_float(float value, uint32_t bits)
     return (std::bit_cast<uint32_t>(value) + half) & (~0u << (32 - bits));
 }
 
+// The biased exponent of the least power of two that is no less than any component.
+uint32_t exponent_above(const glm::vec3& a, const glm::vec3& b)
+{
+    const glm::vec3 sides = glm::max(glm::abs(a), glm::abs(b));
+    const uint32_t side = std::bit_cast<uint32_t>(std::max({ sides.x, sides.y, sides.z }));
+    return (side + 0x7fffffu) >> 23;
+}
+
 } // namespace
 
 shared::EmitterOutline make_outline(const shared::Emitter& emitter, float lightstyle)
 {
-    const float radiance = std::abs(luminance(emitter.radiance * lightstyle));
+    const uint32_t radiance
+        = std::bit_cast<uint32_t>(std::abs(luminance(emitter.radiance * lightstyle))) & shared::OUTLINE_RADIANCE_MASK;
     if (emitter.type == shared::EMITTER_SPHERE)
-        return { emitter.p0, -radiance,
+        return { emitter.p0, radiance | 0x80000000u,
             { std::bit_cast<uint32_t>(emitter.p1.x), std::bit_cast<uint32_t>(emitter.reach), 0, 0 } };
     const glm::vec3 first = emitter.p1 - emitter.p0, second = emitter.p2 - emitter.p0;
     constexpr uint32_t bits = shared::OUTLINE_BITS, more_bits = shared::OUTLINE_MORE_BITS,
                        left = (1u << (32 - bits)) - 1;
     const uint32_t y = shorten_float(second.y, more_bits), z = shorten_float(second.z, more_bits);
-    return { emitter.p0, radiance,
+    return { emitter.p0, radiance | exponent_above(first, second),
         { shorten_float(first.x, bits) | y >> bits, shorten_float(first.y, bits) | (y >> (32 - more_bits) & left),
             shorten_float(first.z, bits) | z >> bits,
             shorten_float(second.x, bits) | (z >> (32 - more_bits) & left) } };

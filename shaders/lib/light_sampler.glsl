@@ -108,10 +108,11 @@ LightShape unpack_outline(EmitterOutline outline)
     light.first = uintBitsToFloat(uvec3(w0 & kept, w1 & kept, w2 & kept));
     light.second
         = uintBitsToFloat(uvec3(w3 & kept, (w0 << OUTLINE_BITS) | ((w1 & left) << more), (w2 << OUTLINE_BITS) | ((w3 & left) << more)));
+    light.side = uintBitsToFloat(outline.radiance << 23u);
     light.radius = uintBitsToFloat(w0);
     light.reach = uintBitsToFloat(w1);
-    light.is_sphere = floatBitsToInt(outline.radiance) < 0;
-    light.radiance = abs(outline.radiance);
+    light.is_sphere = int(outline.radiance) < 0;
+    light.radiance = uintBitsToFloat(outline.radiance & OUTLINE_RADIANCE_MASK);
     return light;
 }
 

@@ -26,8 +26,9 @@ struct LightPredictor {
     // Chapter's weight only: what predict_reflectance needs of the surface and its viewer.
     float view_height; // cosine
     float view_root;   // smith_root
-    float albedo;      // luminance
-    float base;        // diffuse reflectance (luminance), but for what the layer takes from the light on its way in
+    float alpha2;      // alpha^2
+    vec2 base;         // diffuse reflectance (luminance): x - y schlick_power
+    vec2 layer;        // specular_fresnel (luminance) times alpha^2 / (2 pi): x + y schlick_power
     // LTC only: rows that turn the world into the space where the lobe is a cosine, and what the lobes reflect (luminance).
     vec3 diffuse_rows[3];
     vec3 specular_rows[3];
@@ -105,8 +106,13 @@ void prepare_reflectance(INOUT(LightPredictor) p)
     float alpha = ggx_alpha(p.s.roughness);
     p.view_height = dot(p.s.normal, p.s.view);
     p.view_root = smith_root(p.view_height, alpha);
-    p.albedo = luminance(p.s.albedo);
-    p.base = coupled_diffuse_base(p.s, p.view_height) * p.albedo;
+    p.alpha2 = alpha * alpha;
+    // Both are linear in schlick_power, so that two values give all.
+    float base = coupled_diffuse_base(p.s, p.view_height) * luminance(p.s.albedo);
+    float upright = coupled_diffuse_share(p.s, 1.0f), level = coupled_diffuse_share(p.s, 0.0f);
+    p.base = base * vec2(upright, upright - level);
+    float head_on = luminance(specular_fresnel(p.s, 0.0f)), grazing = luminance(specular_fresnel(p.s, 1.0f));
+    p.layer = p.alpha2 * (0.5f / bsdf_pi) * vec2(head_on, grazing - head_on);
 }
 
 LightPredictor make_predictor(Surface s, LightOptions options)
@@ -188,6 +194,7 @@ vec2 sphere_form_factors(LightPredictor p, vec3 to_centre, float radius)
 struct LightShape {
     vec3 p0;            // a triangle's first corner, a sphere's centre
     vec3 first, second; // a triangle's edges from there
+    float side;          // no less than any component of the two edges
     float radius, reach; // of a sphere
     bool is_sphere;
     float radiance; // luminance
@@ -195,14 +202,22 @@ struct LightShape {
 
 // What the prediction needs to know of an emitter's shape. solid_angle 0: it cannot light the surface.
 struct EmitterAspect {
-    vec3 direction; // receiver to centre, unit; 0 at the centre
+    // A vector from the surface towards the emitter's centre, of any length: what it is along the normal and along the view, and its square.
+    float height;
+    float along_view;
+    float length2;
+    float length_bound;  // no less than its length
     float solid_angle;
-    float cosine_bound;
+    float highest_cosine; // of the emitter's points, but for its centre
 };
 
-vec3 direction_or_zero(vec3 v)
+EmitterAspect aspect_of_centre(Surface s, vec3 to_centre)
 {
-    return v * quick_inversesqrt(quick_max(dot(v, v), 1e-20f));
+    EmitterAspect aspect;
+    aspect.height = dot(s.normal, to_centre);
+    aspect.along_view = dot(s.view, to_centre);
+    aspect.length2 = dot(to_centre, to_centre);
+    return aspect;
 }
 
 // angle_above_axis (lib/emitters.glsl) to 0.6 %.
@@ -227,71 +242,73 @@ bool is_below(vec3 heights, float limit)
 EmitterAspect view_emitter_triangle(Surface s, LightShape light)
 {
     vec3 a = light.p0 - s.position, b = a + light.first, c = a + light.second;
-    float side = quick_max3(quick_max(abs(light.first), abs(light.second))), offset = quick_max3(abs(a));
-    float slack = 3.0f * OUTLINE_ERROR * side;
     vec3 heights = vec3(dot(s.normal, a), dot(s.normal, b), dot(s.normal, c));
     vec3 geometric_heights = vec3(dot(s.geometric_normal, a), dot(s.geometric_normal, b), dot(s.geometric_normal, c));
-    float volume = -dot(a, cross(light.first, light.second));
-    bool unseen = is_below(heights, -slack) || is_below(geometric_heights, -slack) || volume <= -6.0f * slack * side * offset;
     vec3 squares = quick_max(vec3(dot(a, a), dot(b, b), dot(c, c)), vec3(1e-20f));
     vec3 inverse = vec3(quick_inversesqrt(squares.x), quick_inversesqrt(squares.y), quick_inversesqrt(squares.z));
     vec3 lengths = squares * inverse;
+    float volume = -dot(a, cross(light.first, light.second));
+    float slack = 3.0f * OUTLINE_ERROR * light.side;
+    bool unseen = is_below(heights, -slack) || is_below(geometric_heights, -slack)
+        || volume <= -6.0f * slack * light.side * lengths.x;
     float angle = quick_angle_above_axis(quick_max(volume, 1e-20f), solid_angle_denominator(a, b, c, lengths));
-    vec3 cosines = heights * inverse;
-    EmitterAspect aspect;
-    aspect.direction = direction_or_zero(a + b + c);
+    EmitterAspect aspect = aspect_of_centre(s, a + b + c);
+    aspect.length_bound = lengths.x + lengths.y + lengths.z;
     aspect.solid_angle = unseen ? 0.0f : 2.0f * angle;
-    // The highest corner may lie lower than the middle of a triangle right above.
-    aspect.cosine_bound = quick_max(quick_max3(cosines), dot(s.normal, aspect.direction));
+    aspect.highest_cosine = quick_max3(heights * inverse);
     return aspect;
 }
 
 EmitterAspect view_emitter_sphere(Surface s, LightShape light)
 {
-    EmitterAspect aspect;
     float radius = light.radius;
     vec3 centre = light.p0 - s.position;
-    aspect.direction = direction_or_zero(centre);
-    float height = dot(s.normal, centre) + radius;
-    bool unseen = radius <= 0.0f || height <= 0.0f || dot(s.geometric_normal, centre) + radius <= 0.0f;
+    EmitterAspect aspect = aspect_of_centre(s, centre);
+    float square = quick_max(aspect.length2, 1e-20f);
+    aspect.length_bound = square * quick_inversesqrt(square);
+    bool unseen = radius <= 0.0f || aspect.height + radius <= 0.0f || dot(s.geometric_normal, centre) + radius <= 0.0f;
     aspect.solid_angle = unseen ? 0.0f : 2.0f * emitter_pi * sphere_cone_depth(centre, radius);
-    aspect.cosine_bound = height * quick_inversesqrt(quick_max(quick_max(dot(centre, centre), radius * radius), 1e-20f));
+    aspect.highest_cosine = (aspect.height + radius) * quick_inversesqrt(quick_max(square, radius * radius));
     return aspect;
 }
 
-// Luminance of evaluate_brdf towards a unit direction, or 0, that is lifted above the horizon.
-float predict_reflectance(LightPredictor p, vec3 direction)
+// The highest corner may lie lower than the middle of a triangle right above. `inverse`: of the length of what points to the centre.
+float cosine_bound(EmitterAspect aspect, float inverse)
 {
-    Surface s = p.s;
-    float height = dot(s.normal, direction);
-    if (height < prediction_horizon) {
-        direction = direction_or_zero(direction + s.normal * (prediction_horizon - height));
-        height = dot(s.normal, direction);
-    }
-    vec3 h = direction_or_zero(s.view + direction); // not 0: both are above the horizon
-    vec3 across = cross(s.normal, h);
-    float cosine = dot(s.normal, h);
-    float alpha = ggx_alpha(s.roughness);
-    float a2 = alpha * alpha;
-    float d = cosine * cosine * a2 + dot(across, across);
-    float root2 = a2 + (1.0f - a2) * height * height;
+    return quick_max(aspect.highest_cosine, aspect.height * inverse);
+}
+
+// Luminance of evaluate_brdf. The unit direction to the light is told by its cosines to the normal (> 0) and to the view, and by what its
+// squared length is in truth: the half vector's length, and its cosines, follow from those without the vector itself.
+float predict_reflectance(LightPredictor p, float height, float view_cosine, float length2)
+{
+    float sum2 = 1.0f + length2 + 2.0f * view_cosine; // |view + direction|^2, not 0: both are above the horizon
+    float sum_height = p.view_height + height;
+    float sum_height2 = sum_height * sum_height;
+    float d = p.alpha2 * sum_height2 + quick_max(sum2 - sum_height2, 0.0f); // GGX's, times sum2
+    float root2 = p.alpha2 + (1.0f - p.alpha2) * height * height;
     float roots = height * p.view_root + p.view_height * root2 * quick_inversesqrt(root2); // smith_root
-    float inverse = quick_inversesqrt(d * d * roots);
-    float lobe = a2 * (0.5f / bsdf_pi) * inverse * inverse;
-    float schlick = schlick_power(dot(s.view, h));
-    float specular = mix(dielectric_fresnel(s, schlick), p.albedo + (1.0f - p.albedo) * schlick, s.metallic);
-    return p.base * coupled_diffuse_share(s, height) + specular * lobe;
+    float inverse = sum2 * quick_inversesqrt(d * d * roots);
+    float schlick = schlick_power(0.5f * sum2 * quick_inversesqrt(sum2)); // half the sum's length is the cosine to the half vector
+    return p.base.x - p.base.y * schlick_power(height) + (p.layer.x + p.layer.y * schlick) * inverse * inverse;
 }
 
 // Reflectance at the horizon-clipped centre, its lobes not too narrow, x solid angle x bounded cosine.
 float predict_by_chapter(LightPredictor p, EmitterAspect aspect)
 {
-    float reflectance = quick_max(predict_reflectance(p, aspect.direction), 1e-4f);
-    return reflectance * aspect.solid_angle * quick_clamp(aspect.cosine_bound, 1e-4f, 1.0f);
+    float lift = quick_max(prediction_horizon * aspect.length_bound - aspect.height, 0.0f);
+    float lifted = aspect.height + lift;
+    float length2 = quick_max(aspect.length2 + lift * (aspect.height + lifted), 1e-20f);
+    float inverse = quick_inversesqrt(length2);
+    float reflectance = predict_reflectance(
+        p, lifted * inverse, (aspect.along_view + lift * p.view_height) * inverse, length2 * inverse * inverse);
+    return quick_max(reflectance, 1e-4f) * aspect.solid_angle * quick_clamp(cosine_bound(aspect, inverse), 1e-4f, 1.0f);
 }
 
 float predict_by_ltc(LightPredictor p, LightShape light, EmitterAspect aspect)
 {
+    if (!(aspect.solid_angle > 0.0f))
+        return 0.0f;
     vec3 a = light.p0 - p.s.position;
     vec2 shares = vec2(1.0f); // inside of a sphere: it is all around
     if (!light.is_sphere)
@@ -300,7 +317,8 @@ float predict_by_ltc(LightPredictor p, LightShape light, EmitterAspect aspect)
         shares = sphere_form_factors(p, a, light.radius);
     // Transformed cosines end at a horizon of their own, GGX does not: about what it has far off its peak.
     float alpha = ggx_alpha(p.s.roughness);
-    float tail = ltc_tail * alpha * alpha * aspect.solid_angle * quick_clamp(aspect.cosine_bound, 1e-2f, 1.0f);
+    float cosine = cosine_bound(aspect, quick_inversesqrt(quick_max(aspect.length2, 1e-20f)));
+    float tail = ltc_tail * alpha * alpha * aspect.solid_angle * quick_clamp(cosine, 1e-2f, 1.0f);
     return p.diffuse * quick_max(shares.x, 1e-4f * aspect.solid_angle) + p.specular * quick_max(shares.y, tail);
 }
 
@@ -313,10 +331,9 @@ float light_contribution(LightPredictor p, LightShape light)
         radiance *= reach_window(light.p0 - p.s.position, light.reach); // no triangle has a reach
         aspect = view_emitter_sphere(p.s, light);
     }
-    if (!(aspect.solid_angle > 0.0f && radiance > 0.0f))
-        return 0.0f;
     float share = p.weight == LIGHT_WEIGHT_LTC ? predict_by_ltc(p, light, aspect) : predict_by_chapter(p, aspect);
-    return quick_clamp(radiance * share, least_contribution, greatest_contribution);
+    bool arrives = aspect.solid_angle > 0.0f && radiance > 0.0f;
+    return arrives ? quick_clamp(radiance * share, least_contribution, greatest_contribution) : 0.0f;
 }
 
 float light_contribution(LightPredictor p, Emitter e)
@@ -325,6 +342,7 @@ float light_contribution(LightPredictor p, Emitter e)
     light.p0 = e.p0;
     light.first = e.p1 - e.p0;
     light.second = e.p2 - e.p0;
+    light.side = quick_max3(quick_max(abs(light.first), abs(light.second)));
     light.radius = e.p1.x;
     light.reach = e.reach;
     light.is_sphere = e.type == EMITTER_SPHERE;

@@ -65,7 +65,7 @@ Emitter fetch_Emitter(uint64_t table, uint index)
 EmitterOutline fetch_EmitterOutline(uint64_t table, uint index)
 {
     uvec4 a = VKPT_ENTRY_TEXEL(outline_texels, table, 32u, index, 0u), b = VKPT_ENTRY_TEXEL(outline_texels, table, 32u, index, 1u);
-    return EmitterOutline(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uint[4](b.x, b.y, b.z, b.w));
+    return EmitterOutline(uintBitsToFloat(a.xyz), a.w, uint[4](b.x, b.y, b.z, b.w));
 }
 
 Triangle fetch_Triangle(uint64_t table, uint index)

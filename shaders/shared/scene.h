@@ -75,13 +75,16 @@ VKPT_ASSERT_SIZE(Emitter, 64);
 // therefore small. make_outline (ref_vkpt/lights/outlines.hpp) packs it, unpack_outline (lib/light_sampler.glsl) unpacks it.
 struct EmitterOutline {
     vec3 p0;
-    float radiance; // luminance; its sign bit is set for spheres
+    // A float without its lowest bits, luminance; its sign bit is set for spheres. In the lowest 9 bits, the exponent of a power of two
+    // that is no less than any component of p1 - p0 and p2 - p0, with a float's bias.
+    uint radiance;
     // Triangle: six floats without their lowest bits, OUTLINE_BITS of p1 - p0 and p2.x - p0.x at the top of a word each; what the four
     // words have left holds the highest OUTLINE_MORE_BITS of p2.y - p0.y (words 0 and 1) and p2.z - p0.z. Sphere: radius and reach.
     uint shape[4];
 };
 VKPT_CONST uint OUTLINE_BITS = 21u; // of a float: relative error 2^-13
 VKPT_CONST uint OUTLINE_MORE_BITS = 22u; // of those in what is left: 2 * (32 - OUTLINE_BITS)
+VKPT_CONST uint OUTLINE_RADIANCE_MASK = 0x7ffffe00u; // relative error 2^-14
 VKPT_CONST float OUTLINE_ERROR = 1.220703125e-4f;
 VKPT_ASSERT_SIZE(EmitterOutline, 32);
 

@@ -62,6 +62,31 @@ TEST(LightWeights, AngleOverSine)
             << angle;
 }
 
+// From cosines alone it is what the BSDF works out with vectors.
+TEST(LightWeights, PredictsTheReflectance)
+{
+    std::mt19937 rng(4);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int i = 0; i < 20000; i++) {
+        const float roughness = prediction_roughness + (1 - prediction_roughness) * unit(rng);
+        const float metallic = rng() % 2 ? unit(rng) : float(rng() % 2);
+        Case c = make_case(rng, roughness, metallic);
+        c.surface.albedo = vec3(unit(rng), unit(rng), unit(rng));
+        const float height = prediction_horizon + (1 - prediction_horizon) * unit(rng), angle = 2 * bsdf_pi * unit(rng),
+                    across = std::sqrt(1 - height * height);
+        // Mirror directions as often as others.
+        const vec3 view = c.surface.view,
+                   towards = rng() % 2 ? normalize(vec3(-view.x, -view.y, std::max(view.z, prediction_horizon)))
+                                       : vec3(across * std::cos(angle), across * std::sin(angle), height);
+        const float truth = luminance(reflected_radiance(c.surface, evaluate_brdf(c.surface, towards), vec3(1)));
+        // Lengths are only as good as a quick root.
+        const vec3 direction = towards * (1 + 9e-4f * (2 * unit(rng) - 1));
+        const float predicted = predict_reflectance(make_predictor(c.surface, by_chapter),
+            dot(c.surface.normal, direction), dot(view, direction), dot(direction, direction));
+        ASSERT_NEAR(predicted / truth, 1, 0.02) << i << ": roughness " << roughness << ", metallic " << metallic;
+    }
+}
+
 // The cosine lobe's integral is Lambert's formula; clipping included.
 TEST(LightWeights, MatteSurfacesAreExact)
 {
