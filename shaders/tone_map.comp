@@ -71,7 +71,8 @@ vec3 shown_colour(uvec2 pixel)
     float gamma = 1.2 / max(frame.gamma, 0.1);
     if (abs(gamma - 1.0) > 1e-3)
         colour = pow(colour, vec3(gamma));
-    float dither = blue_dimension(BlueNoiseBuffer(frame.blue_noise), pixel, frame.frame_index, 0u, 0u) - 0.5;
+    float dither = blue_dimension(BlueNoiseBuffer(frame.blue_noise), pixel, frame.frame_index,
+        blue_period_key(frame.frame_index, 0u), 0u) - 0.5;
     return colour + dither / 255.0;
 }
 

@@ -18,7 +18,9 @@ struct Random {
     uint seed;
     uint dimension; // of the next number
     int kind;       // NOISE_*
-    BlueNoiseBuffer masks; // read where kind is NOISE_BLUE
+    // Read where kind is NOISE_BLUE:
+    BlueNoiseBuffer masks;
+    uint period_key;
 };
 
 // Dimensions are handed out in blocks: one block for each bounce of a path.
@@ -55,26 +57,40 @@ float white_dimension(uvec2 pixel, uint frame, uint seed, uint dimension)
     return uint_to_unit_float(words.x);
 }
 
+// One word's bits mixed thoroughly: two multiplications between xor-shifts (constants: Wellons 2018, "lowbias32").
+uint hash_word(uint word)
+{
+    word = (word ^ (word >> 16u)) * 0x7feb352du;
+    word = (word ^ (word >> 15u)) * 0x846ca68bu;
+    return word ^ (word >> 16u);
+}
+
+// What the shifts of all masks in a frame's period are hashed from. To be worked out once: CPU drivers leave in a loop what does not
+// depend on it.
+uint blue_period_key(uint frame, uint seed)
+{
+    return hash_pcg4(uvec4(0x6a09e667u, frame / BLUE_NOISE_SLICES, seed, 0u)).x;
+}
+
 // A mask runs through its slices with the frames. Each period of a dimension shifts it anew, by a hash: over the periods a
 // pixel sees every value of the mask equally often, independently in each dimension, so the mean of any estimate is that
 // under white numbers. The hash also gives the bits below the mask's 16.
-float blue_dimension(BlueNoiseBuffer masks, uvec2 pixel, uint frame, uint seed, uint dimension)
+float blue_dimension(BlueNoiseBuffer masks, uvec2 pixel, uint frame, uint period_key, uint dimension)
 {
-    uint slice = frame % BLUE_NOISE_SLICES;
-    uvec4 words = hash_pcg4(uvec4(0x6a09e667u, frame / BLUE_NOISE_SLICES, seed, dimension));
-    uint x = (pixel.x + (words.x >> 16u)) % BLUE_NOISE_SIZE;
-    uint y = (pixel.y + (words.y >> 16u)) % BLUE_NOISE_SIZE;
-    uint mask = dimension % BLUE_NOISE_MASKS;
+    uint hash = hash_word(period_key + dimension * 0x9e3779b9u);
+    uint x = (pixel.x + (hash >> 16u)) % BLUE_NOISE_SIZE;
+    uint y = (pixel.y + (hash >> 22u)) % BLUE_NOISE_SIZE;
+    uint slice = frame % BLUE_NOISE_SLICES, mask = dimension % BLUE_NOISE_MASKS;
     uint voxel = ((mask / 2u * BLUE_NOISE_SLICES + slice) * BLUE_NOISE_SIZE + y) * BLUE_NOISE_SIZE + x;
     uint value = (masks.v[voxel] >> (mask % 2u * 16u)) & 0xffffu;
-    return uint_to_unit_float((value << 16u) | (words.z >> 16u));
+    return uint_to_unit_float((value << 16u) | (hash & 0xffffu));
 }
 
 // The number of one dimension. Every number of the renderer comes through here.
 float random_dimension(Random random, uint dimension)
 {
     if (random.kind == NOISE_BLUE)
-        return blue_dimension(random.masks, random.pixel, random.frame, random.seed, dimension);
+        return blue_dimension(random.masks, random.pixel, random.frame, random.period_key, dimension);
     return white_dimension(random.pixel, random.frame, random.seed, dimension);
 }
 
@@ -87,6 +103,7 @@ Random make_random(uvec2 pixel, uint frame, uint seed)
     random.frame = frame;
     random.seed = seed;
     random.dimension = 0u;
+    random.period_key = 0u;
     return random;
 }
 
@@ -95,6 +112,7 @@ Random make_blue_random(BlueNoiseBuffer masks, uvec2 pixel, uint frame, uint see
     Random random = make_random(pixel, frame, seed);
     random.kind = NOISE_BLUE;
     random.masks = masks;
+    random.period_key = blue_period_key(frame, seed);
     return random;
 }
 
@@ -112,6 +130,8 @@ Random random_stream(Random random, uint stream)
 {
     random.seed = hash_pcg4(uvec4(random.seed, stream, 0x9e3779b9u, 0x85ebca6bu)).x;
     random.dimension = 0u;
+    if (random.kind == NOISE_BLUE)
+        random.period_key = blue_period_key(random.frame, random.seed);
     return random;
 }
 

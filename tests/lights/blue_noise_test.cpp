@@ -54,7 +54,8 @@ std::vector<double> picture_of(uint frame, uint seed, uint dimension)
     std::vector<double> numbers;
     for (uint y = 0; y < side; y++)
         for (uint x = 0; x < side; x++)
-            numbers.push_back(blue_dimension({ blue_noise_words.data() }, uvec2(x, y), frame, seed, dimension));
+            numbers.push_back(blue_dimension(
+                { blue_noise_words.data() }, uvec2(x, y), frame, blue_period_key(frame, seed), dimension));
     return numbers;
 }
 
@@ -150,7 +151,8 @@ TEST(BlueNoise, APixelsNumbersFillTheSquareOverTheFrames)
     std::vector<double> counts(bins * bins, 0);
     for (uint frame = 0; frame < frames; frame++) {
         const auto number = [&](uint dimension) {
-            return blue_dimension({ blue_noise_words.data() }, uvec2(17, 40), frame, 3, dimension);
+            return blue_dimension(
+                { blue_noise_words.data() }, uvec2(17, 40), frame, blue_period_key(frame, 3), dimension);
         };
         counts[size_t(number(16) * bins) * bins + size_t(number(20) * bins)]++; // both of one mask
     }
