@@ -7,8 +7,12 @@
 
 #include "denoise.glsl"
 
-// Luminance differences of this many deviations count for 1 / e.
-const float deviations = 1.5;
+// Luminance differences of this many deviations count for 1 / e. With 1.5 narrow lights and reflections that are well known by now spread
+// over their surroundings, level by level.
+const float deviations = 0.9;
+// Deviations measured over neighbours, for want of history, count for so many times as much: little is known then, and the rare bright
+// samples of a first frame must find others to mix with.
+const float measured_slack = 1.7;
 // Relative to the luminance: what is below cannot be seen, and half floats end there.
 const float least_deviation = 2e-3;
 // (1 + luminance_fall)^2 = e
@@ -32,11 +36,11 @@ struct Sums {
 
 Sums no_taps() { return Sums(vec3(0.0), 0.0, 0.0, 0.0, 0.0); }
 
-// How much the luminances of the taps vary, as an average of `pixels` of them. `scale`: 1 over the weight.
+// How much the luminances of the taps vary, as an average of `pixels` of them, and with slack. `scale`: 1 over the weight.
 float measure_variance(Sums sums, float scale, float pixels)
 {
     float mean = luminance(sums.light) * scale;
-    return quick_max(sums.square * scale - mean * mean, 0.0) * (1.0 / pixels);
+    return quick_max(sums.square * scale - mean * mean, 0.0) * (measured_slack * measured_slack / pixels);
 }
 
 void add_tap(inout Sums sums, vec3 light, float l, float deviation, float weight)
