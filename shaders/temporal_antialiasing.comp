@@ -11,8 +11,9 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
-// Frames that the history is worth at most.
-const float most_frames = 10.0;
+// Frames that the history is worth at most; where the picture moves, each reading of it blurs, and reflections in it stay behind.
+const float most_frames = 10.0, most_moving_frames = 5.0;
+const float moving2 = 0.0625; // square of how many pixels a frame that is
 // Standard deviations of the neighbourhood that the history may lie off its mean.
 const float most_deviations = 1.25;
 // A sample counts for exp(-sample_fall d^2) at a distance of d of the result's pixels. Where samples are scarce the least weight
@@ -113,7 +114,8 @@ void resolve_pixel(uvec2 pixel, uint index)
         old *= quick_min(1.0, now.brightest / quick_max(luminance(old), 1e-6));
         frames += unpack_light2(load_old(whole_to_int(floor(place + 0.5))).y).y;
         result = mix(old, now.here, now.certainty / quick_max(frames, 1e-3));
-        frames = quick_min(frames, most_frames - 1.0);
+        vec2 moved = place - vec2(pixel);
+        frames = quick_min(frames, (dot(moved, moved) < moving2 ? most_frames : most_moving_frames) - 1.0);
     }
     vec3 radiance = quick_min(expand(result, scale), vec3(60000.0)); // 16 bits end soon after
     store_resolved(index, uvec2(pack_light2(radiance.xy), pack_light2(vec2(radiance.z, frames))));
