@@ -29,6 +29,13 @@ struct Search {
     vec3 shown;
 };
 
+// What is averaged over the taps: by how much the taps differ is how the picture varies from place to place, not the light from frame to frame.
+float variance_of(vec2 mean_and_root)
+{
+    return quick_max(mean_and_root.y * mean_and_root.y - mean_and_root.x * mean_and_root.x, 0.0);
+}
+
+// In `sum`, moments are mean and variance.
 void add_history(inout History sum, inout float total, Search search, ivec2 place, float share)
 {
     bool inside = all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, ivec2(frame.previous_size)));
@@ -46,8 +53,8 @@ void add_history(inout History sum, inout float total, Search search, ivec2 plac
     Moments moments = unpack_moments(load_previous_moments(there));
     sum.light.diffuse += light.diffuse * share;
     sum.light.specular += light.specular * share;
-    sum.moments.diffuse += vec2(moments.diffuse.x, moments.diffuse.y * moments.diffuse.y) * share;
-    sum.moments.specular += vec2(moments.specular.x, moments.specular.y * moments.specular.y) * share;
+    sum.moments.diffuse += vec2(moments.diffuse.x, variance_of(moments.diffuse)) * share;
+    sum.moments.specular += vec2(moments.specular.x, variance_of(moments.specular)) * share;
     sum.moments.frames += moments.frames * share;
     sum.moments.reflected_distance += moments.reflected_distance * share;
     total += share;
@@ -61,7 +68,7 @@ void add_layer_history(inout History sum, inout float total, Search search, ivec
 }
 
 // The four pixels of the last view around where the surface was then, as far as they show the same surface. `at`: where to look
-// for what the surface showed.
+// for what the surface showed. Its moments are mean and mean square.
 History find_history(uint index, Search search, vec2 at)
 {
     History none = History(
@@ -85,6 +92,8 @@ History find_history(uint index, Search search, vec2 at)
     sum.light.specular *= scale;
     sum.moments.diffuse *= scale;
     sum.moments.specular *= scale;
+    sum.moments.diffuse.y += sum.moments.diffuse.x * sum.moments.diffuse.x;
+    sum.moments.specular.y += sum.moments.specular.x * sum.moments.specular.x;
     sum.moments.frames *= scale;
     sum.moments.reflected_distance *= scale;
     return sum;
