@@ -3,6 +3,7 @@
 // each trace backend of the real module, and by Embree, one ray at a time. Time is the process's CPU time, so that a
 // driver with several threads and Embree's one thread compare; rounds alternate between all of them, and ratios are
 // medians over rounds, so that other load on the machine matters little.
+#include "bench/embree_scene.hpp"
 #include "bench/module_tracer.hpp"
 #include "bench/ray_sets.hpp"
 #include "shaders/shared/scene.h"
@@ -18,9 +19,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#ifdef VKPT_HAVE_EMBREE
-#include <embree3/rtcore.h>
-#endif
 
 namespace vkpt::tests {
 namespace {
@@ -35,62 +33,6 @@ struct Options {
     int rounds = 15;
     bool bare = false; // without the module
 };
-
-#ifdef VKPT_HAVE_EMBREE
-class EmbreeScene {
-public:
-    explicit EmbreeScene(std::span<const BvhTriangle> triangles)
-        : device_(rtcNewDevice("threads=1"))
-        , scene_(rtcNewScene(device_))
-    {
-        rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
-        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* corners = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), triangles.size() * 3));
-        auto* indices = static_cast<uint32_t*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles.size()));
-        for (size_t i = 0; i < triangles.size() * 3; i++) {
-            corners[i] = triangles[i / 3].positions[i % 3];
-            indices[i] = uint32_t(i);
-        }
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene_, geometry);
-        rtcReleaseGeometry(geometry);
-        rtcCommitScene(scene_);
-    }
-    ~EmbreeScene()
-    {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    EmbreeScene(const EmbreeScene&) = delete;
-    EmbreeScene& operator=(const EmbreeScene&) = delete;
-
-    // How many rays met something.
-    size_t trace(std::span<const TestRay> rays, bool any_hit) const
-    {
-        size_t met = 0;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        for (const TestRay& ray : rays) {
-            RTCRayHit query {};
-            query.ray = { ray.origin.x, ray.origin.y, ray.origin.z, ray.t_min, ray.direction.x, ray.direction.y,
-                ray.direction.z, 0.0f, ray.t_max, ~0u, 0, 0 };
-            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            if (any_hit)
-                rtcOccluded1(scene_, &context, &query.ray);
-            else
-                rtcIntersect1(scene_, &context, &query);
-            met += any_hit ? query.ray.tfar < 0.0f : query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-        }
-        return met;
-    }
-
-private:
-    RTCDevice device_;
-    RTCScene scene_;
-};
-#endif
 
 // Row by row, as the module takes them; pixels without a ray have one that ends where it starts.
 std::vector<TracedRay> make_picture(const RaySet& set, const Options& options)

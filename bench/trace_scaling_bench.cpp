@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a ray's time grows with the triangles of a map: the same hall, its walls and pillars cut into ever more triangles
-// whose corners are displaced, traced by the software backend's traversal in a shader of its own. And how much faster
-// two threads of the CPU driver are than one.
+// How a ray's time grows with the triangles of a map, traced by the software backend's traversal in a shader of its own
+// and by Embree: of a hall whose walls and pillars are cut into ever more triangles with displaced corners, and of a
+// map of ever more rooms with doors. And how much faster two threads of the CPU driver are than one.
+#include "bench/embree_scene.hpp"
 #include "bench/ray_sets.hpp"
 #include "tests/trace/gpu_tracer.hpp"
 
@@ -29,6 +30,7 @@ struct Options {
     int rounds = 7;
     uint32_t width = 640, height = 360;
     uint32_t most = 1'000'000;
+    bool rooms = false, texels = false;
 };
 
 // A pseudo-random displacement that depends on the place alone, so that neighbouring faces stay joined.
@@ -37,10 +39,11 @@ float bump(glm::vec3 p)
     return 1.5f * (std::sin(p.x * 0.37f + p.y * 0.11f) + std::sin(p.y * 0.29f + p.z * 0.23f) + std::sin(p.z * 0.41f));
 }
 
-class HallMaker {
+class FaceMaker {
 public:
-    explicit HallMaker(uint32_t cuts)
+    FaceMaker(uint32_t cuts, bool bumpy)
         : cuts_(cuts)
+        , bumpy_(bumpy)
     {
     }
 
@@ -50,7 +53,7 @@ public:
         const glm::vec3 normal = glm::normalize(glm::cross(u, v));
         const auto point = [&](uint32_t i, uint32_t j) {
             const glm::vec3 flat = corner + u * (float(i) / float(cuts_)) + v * (float(j) / float(cuts_));
-            return flat + normal * bump(flat);
+            return bumpy_ ? flat + normal * bump(flat) : flat;
         };
         for (uint32_t i = 0; i < cuts_; i++)
             for (uint32_t j = 0; j < cuts_; j++) {
@@ -82,13 +85,15 @@ private:
     }
 
     uint32_t cuts_;
+    bool bumpy_;
 };
 
-MapScene make_hall(uint32_t cuts)
+// 262 faces of 2 cuts^2 triangles.
+MapScene make_hall(int cuts)
 {
     constexpr float size = 2048, height = 384;
     constexpr int pillars = 8; // along each side
-    HallMaker hall(cuts);
+    FaceMaker hall(uint32_t(cuts), true);
     hall.add_walls({ 0, 0, 0 }, { size, size, height }, true);
     hall.add_face({ 0, 0, 0 }, { size, 0, 0 }, { 0, size, 0 });
     hall.add_face({ 0, 0, height }, { 0, size, 0 }, { size, 0, 0 });
@@ -103,16 +108,67 @@ MapScene make_hall(uint32_t cuts)
     return scene; // without lights, shadow rays go to random triangles
 }
 
+// rooms x rooms of them with four pillars each, some 1,000 triangles, a door in each wall between two. The eye is in
+// the middle one, lights are the ceilings of that and of its neighbours.
+MapScene make_rooms(int rooms)
+{
+    constexpr float size = 512, height = 224, wall = 16, door = 96, door_height = 128;
+    FaceMaker map(5, false);
+    MapScene scene;
+    // A wall around its door, as `across` and `up` see it from inside the room, and half of the way through the door.
+    const auto add_wall = [&](glm::vec3 corner, glm::vec3 across, bool has_door) {
+        const glm::vec3 up(0, 0, 1), out = glm::cross(across, up);
+        const auto panel = [&](float from, float to, float low, float high) {
+            map.add_face(corner + across * from + up * low, up * (high - low), across * (to - from));
+        };
+        if (!has_door) {
+            panel(0, size, 0, height);
+            return;
+        }
+        const float left = (size - door) / 2, right = left + door;
+        panel(0, left, 0, height);
+        panel(right, size, 0, height);
+        panel(left, right, door_height, height);
+        const glm::vec3 at_left = corner + across * left, at_right = corner + across * right, depth = out * (wall / 2);
+        map.add_face(at_left, depth, up * door_height);
+        map.add_face(at_right, up * door_height, depth);
+        map.add_face(at_left, across * door, depth);
+        map.add_face(at_left + up * door_height, depth, across * door);
+    };
+    for (int y = 0; y < rooms; y++)
+        for (int x = 0; x < rooms; x++) {
+            const glm::vec3 low = glm::vec3(x, y, 0) * (size + wall);
+            add_wall(low, { 1, 0, 0 }, y > 0);
+            add_wall(low + glm::vec3(size, 0, 0), { 0, 1, 0 }, x + 1 < rooms);
+            add_wall(low + glm::vec3(size, size, 0), { -1, 0, 0 }, y + 1 < rooms);
+            add_wall(low + glm::vec3(0, size, 0), { 0, -1, 0 }, x > 0);
+            map.add_face(low, { size, 0, 0 }, { 0, size, 0 });
+            const size_t ceiling = map.triangles.size();
+            map.add_face(low + glm::vec3(0, 0, height), { 0, size, 0 }, { size, 0, 0 });
+            if (std::abs(x - rooms / 2) + std::abs(y - rooms / 2) <= 1)
+                for (size_t i = ceiling; i < map.triangles.size(); i++)
+                    scene.lights.push_back(uint32_t(i));
+            for (int i = 0; i < 4; i++) {
+                const glm::vec3 at = low + glm::vec3(float(i % 2) * 256 + 128, float(i / 2) * 256 + 128, 0);
+                map.add_walls(at - glm::vec3(24, 24, 0), at + glm::vec3(24, 24, height), false);
+            }
+        }
+    scene.triangles = std::move(map.triangles);
+    scene.eye = glm::vec3(float(rooms / 2), float(rooms / 2), 0) * (size + wall) + glm::vec3(60, 80, 56);
+    scene.yaw = 40;
+    return scene;
+}
+
 struct Traced {
     RaySet set;
     std::unique_ptr<GpuTracer> tracer;
 };
 
-// One hall on one device, ready to be traced.
+// One scene on one device, ready to be traced.
 class Contender {
 public:
     Contender(HeadlessCompute& device, const MapScene& scene, const Options& options)
-        : pipelines_(create_trace_pipelines(device))
+        : pipelines_(create_trace_pipelines(device, options.texels))
         , tree_(build_bvh(scene.triangles, BvhQuality::best))
     {
         std::vector<TestRay> camera = camera_rays(scene, { options.width, options.height });
@@ -129,44 +185,66 @@ public:
     void run(const Traced& traced) const { traced.tracer->run(pipelines_[traced.set.any_hit]); }
 
 private:
-    std::array<HeadlessCompute::Pipeline, 2> pipelines_;
+    TracePipelines pipelines_;
     Bvh tree_;
     std::vector<Traced> sets_;
 };
 
+// What a tracer took for the rays of a set, round by round.
+using SetTimes = std::array<std::vector<double>, 3>;
+
+void show_row(const char* who, size_t triangles, const SetTimes& times, const SetTimes& first)
+{
+    std::printf("%8zu triangles  %-6s", triangles, who);
+    for (size_t set = 0; set < times.size(); set++) {
+        std::vector<double> ratios;
+        for (size_t round = 0; round < times[set].size(); round++)
+            ratios.push_back(times[set][round] / first[set][round]);
+        std::printf("  %6.1f x%.2f", median(times[set]) * 1e9, median(ratios));
+    }
+    std::printf("\n");
+}
+
 void report_scaling(const Options& options)
 {
-    // 262 faces: 2 * 262 * cuts^2 triangles
+    const auto make = options.rooms ? make_rooms : make_hall;
+    const auto sizes = options.rooms ? std::array { 1, 2, 5, 10, 22, 32 } : std::array { 1, 3, 9, 14, 31, 44 };
     HeadlessCompute device(HeadlessCompute::Validation::off);
-    std::printf("device: %s\nns of CPU time per ray, then relative to the first row\n", device.device_name().c_str());
-    std::vector<Contender> halls;
+    std::printf("device: %s\nns of CPU time for a primary, bounce and shadow ray, then relative to the first row\n",
+        device.device_name().c_str());
+    std::vector<Contender> scenes;
     std::vector<size_t> counts;
-    for (const uint32_t cuts : { 1u, 3u, 9u, 14u, 31u, 44u }) {
-        const MapScene scene = make_hall(cuts);
+#ifdef VKPT_HAVE_EMBREE
+    std::vector<std::unique_ptr<EmbreeScene>> embree;
+#endif
+    for (const int size : sizes) {
+        const MapScene scene = make(size);
         if (scene.triangles.size() > options.most * 5ull / 4)
             break;
         counts.push_back(scene.triangles.size());
-        halls.emplace_back(device, scene, options);
+        scenes.emplace_back(device, scene, options);
+#ifdef VKPT_HAVE_EMBREE
+        embree.push_back(std::make_unique<EmbreeScene>(scene.triangles));
+#endif
     }
-    std::vector<std::array<std::vector<double>, 3>> times(halls.size());
+    std::vector<SetTimes> times(scenes.size()), embree_times(scenes.size());
     for (int round = 0; round < options.rounds; round++)
-        for (size_t hall = 0; hall < halls.size(); hall++)
+        for (size_t scene = 0; scene < scenes.size(); scene++)
             for (size_t set = 0; set < 3; set++) {
-                const Traced& traced = halls[hall].sets()[set];
-                times[hall][set].push_back(
-                    cpu_seconds_of([&] { halls[hall].run(traced); }) / double(traced.set.rays.size()));
+                const Traced& traced = scenes[scene].sets()[set];
+                const double rays = double(traced.set.rays.size());
+                times[scene][set].push_back(cpu_seconds_of([&] { scenes[scene].run(traced); }) / rays);
+#ifdef VKPT_HAVE_EMBREE
+                const auto trace = [&] { embree[scene]->trace(traced.set.rays, traced.set.any_hit); };
+                embree_times[scene][set].push_back(cpu_seconds_of(trace) / rays);
+#endif
             }
-    for (size_t hall = 0; hall < halls.size(); hall++) {
-        std::printf("%8zu triangles", counts[hall]);
-        for (size_t set = 0; set < 3; set++) {
-            std::vector<double> ratios;
-            for (size_t round = 0; round < times[hall][set].size(); round++)
-                ratios.push_back(times[hall][set][round] / times[0][set][round]);
-            std::printf(
-                "  %s %6.1f x%.2f", halls[hall].sets()[set].set.name, median(times[hall][set]) * 1e9, median(ratios));
-        }
-        std::printf("\n");
-    }
+    for (size_t scene = 0; scene < scenes.size(); scene++)
+        show_row("ours", counts[scene], times[scene], times[0]);
+#ifdef VKPT_HAVE_EMBREE
+    for (size_t scene = 0; scene < scenes.size(); scene++)
+        show_row("Embree", counts[scene], embree_times[scene], embree_times[0]);
+#endif
 }
 
 // CPU seconds of every thread of this process so far.
@@ -198,7 +276,7 @@ double busiest_thread_seconds_of(const std::function<void()>& work)
 // the busiest thread takes is what a quiet machine would take, whatever else runs on this one.
 void report_threads(const Options& options)
 {
-    constexpr uint32_t cuts = 4;
+    constexpr int cuts = 4;
     const MapScene scene = make_hall(cuts);
     std::vector<std::unique_ptr<HeadlessCompute>> devices;
     std::vector<Contender> contenders;
@@ -229,7 +307,9 @@ int main(int argc, char** argv)
     bool threads = false;
     CLI::App app { "A ray's time against the number of triangles, and against the CPU driver's threads" };
     app.add_option("--rounds", options.rounds)->check(CLI::Range(1, 1000))->capture_default_str();
-    app.add_option("--most", options.most, "triangles of the largest hall")->capture_default_str();
+    app.add_option("--most", options.most, "triangles of the largest scene")->capture_default_str();
+    app.add_flag("--rooms", options.rooms, "a map of more and more rooms instead of a hall cut finer and finer");
+    app.add_flag("--texels", options.texels, "nodes and triangles read as texels instead of by address");
     app.add_flag("--threads", threads, "one and two threads of the CPU driver instead");
     try {
         app.parse(argc, argv);
