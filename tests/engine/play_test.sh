@@ -27,6 +27,12 @@ expect() {
 
 play() { "$root/play" --no-setup "$@"; }
 
+# Where only ./play has been started, nothing else is built: all that the scripts run is among what its target makes.
+made=$(ninja -C "$1" -t commands play) || fail "no target 'play' in $1"
+while read -r program; do
+    grep -qF -- "-o $program " <<<"$made" || fail "the target 'play' does not make $program"
+done < <(grep -ohE 'build_dir/(bin|scripts)/[a-z_.]+' "$root"/scripts/lib/*.sh | sed 's|^build_dir/||' | sort -u)
+
 expect 0 'contact_sheet.png' play --size 160x90 --out "$folder/out"
 pictures=$(find "$folder/out" -name 'frame*.png' | wc -l)
 ((pictures >= 5 && pictures <= 13)) || fail "$pictures pictures instead of about 6"
