@@ -11,22 +11,12 @@ const float most_frames = 32.0, most_moving_frames = 4.0;
 const float most_moment_frames = 16.0;
 // From so many frames on, their variance is believed.
 const float least_frames = 4.0;
-const float least_normal_cosine = 0.9;
-const float most_material_difference = 0.1; // of material_key
 // Smoother surfaces show their reflections, which move as things behind them.
 const float glossy_roughness = 0.3;
 
 struct History {
     FilteredLight light;
     Moments moments; // frames 0: nothing is known
-};
-
-// What finds a pixel's history: the pixel's guide and slope, and where the surface was in the last view, with its depth there.
-struct Search {
-    vec3 normal;    // over 127^2, for tap's normals times 127
-    float material; // times 127
-    vec2 slope;
-    vec3 shown;
 };
 
 // What is averaged over the taps: by how much the taps differ is how the picture varies from place to place, not the light from frame to frame.
@@ -38,16 +28,8 @@ float variance_of(vec2 mean_and_root)
 // In `sum`, moments are mean and variance.
 void add_history(inout History sum, inout float total, Search search, ivec2 place, float share)
 {
-    bool inside = all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, ivec2(frame.previous_size)));
-    uint there = inside ? uint(place.y) * frame.previous_size.x + uint(place.x) : 0u;
-    uvec2 old = load_previous_guide(there);
-    vec2 pixels = (vec2(place) + frame.offset_change - search.shown.xy) / frame.previous_scale;
-    float distance = plane_distance(search.shown.z, search.slope, pixels, guide_depth(old));
-    vec4 kind = guide_bytes(old.x);
-    bool same = inside && distance <= plane_tolerance(search.slope, vec2(1.0))
-        && dot(search.normal, kind.xyz) >= least_normal_cosine
-        && abs(search.material - kind.w) <= 127.0 * most_material_difference && share >= 1e-3;
-    if (!same)
+    uint there;
+    if (!shows_surface(search, place, there) || share < 1e-3)
         return;
     FilteredLight light = unpack_filtered(load_previous_filtered(there));
     Moments moments = unpack_moments(load_previous_moments(there));
@@ -193,9 +175,8 @@ void accumulate_pixel(uvec2 pixel, uint index)
         count_broken_pixel();
         diffuse = specular = vec3(0.0); // or it would stay in the history
     }
-    vec4 kind = guide_bytes(guide.x);
     uint slope = load_slope(index);
-    Search search = Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, unpack_upper_halves(slope), load_motion(index));
+    Search search = make_search(guide, unpack_upper_halves(slope), load_motion(index));
     History history = find_history(index, search, search.shown.xy);
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
     vec3 direction = camera_direction(pixel, frame.pixel_offset);
@@ -225,7 +206,10 @@ void accumulate_pixel(uvec2 pixel, uint index)
     store_light(index, pack_filtered(light));
     store_moments(index, pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),
         vec2(specular_moments.x, sqrt(specular_moments.y)), frames, reflected_distance)));
-    store_filter_reach(index, uvec2(slope, floatBitsToUint(find_specular_fall(surface.roughness, path_length, reflected_distance))));
+    // One ray's distance tells little: beside an edge it ends near, and without neighbours to mix with its light is a speck.
+    float likely_distance
+        = frames.y < least_frames && reflected_distance > 0.0 ? quick_max(reflected_distance, path_length) : reflected_distance;
+    store_filter_reach(index, uvec2(slope, floatBitsToUint(find_specular_fall(surface.roughness, path_length, likely_distance))));
 }
 
 VKPT_RUN_OVER_PIXELS(accumulate_pixel)

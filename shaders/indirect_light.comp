@@ -119,7 +119,7 @@ void add_light(uint index, BsdfValue reflected, vec3 radiance, float reflected_d
 
 // Narrower lobes reflect something else one pixel on: such surfaces send rays of their own.
 const float least_shared_roughness = 0.2;
-bool sends_own_rays(PrimarySurface p) { return bounce_block_pixels() == 1u || p.surface.roughness < least_shared_roughness; }
+bool sends_own_rays(PrimarySurface p) { return p.surface.roughness < least_shared_roughness; }
 
 // Of a block's pixel; without depth where it lies outside the screen.
 PrimarySurface load_block_surface(uvec2 pixel)
@@ -127,6 +127,31 @@ PrimarySurface load_block_surface(uvec2 pixel)
     PrimarySurface primary = load_primary_surface(is_on_screen(pixel) ? pixel_index(pixel) : 0u);
     primary.depth = is_on_screen(pixel) ? primary.depth : DEPTH_NOTHING;
     return primary;
+}
+
+// Whether the last view showed what the pixel shows, so that the filters have older light to add to.
+bool was_seen(uvec2 pixel, PrimarySurface primary)
+{
+    if (primary.depth < 0.0)
+        return false;
+    uint index = pixel_index(pixel), there;
+    vec3 shown = load_motion(index);
+    Search search = Search(primary.surface.normal * (1.0 / 127.0),
+        127.0 * material_key(primary.surface.roughness, primary.surface.metallic), unpack_upper_halves(load_slope(index)), shown);
+    return shows_surface(search, whole_to_int(floor(clamp(shown.xy, vec2(-2.0), vec2(frame.previous_size) + 2.0) + 0.5)), there);
+}
+
+// Whether the block has no history: what its pixels share would stand out as specks then.
+bool is_new(BounceBlock block, PrimarySurface leader)
+{
+    if ((frame.flags & FRAME_HISTORY) == 0u)
+        return true;
+    bool seen = was_seen(pixel_of_block(block, 0u), leader);
+    if (!seen) { // beside an edge, or of a thin thing: the one farthest away may be
+        uvec2 other = pixel_of_block(block, bounce_block_pixels() - 1u);
+        seen = was_seen(other, load_block_surface(other));
+    }
+    return !seen;
 }
 
 // Whether the same light falls on two neighbouring pixels, and their lobes are alike.
@@ -142,9 +167,8 @@ bool are_alike(PrimarySurface a, PrimarySurface b)
 }
 
 // A bit for each pixel of the block that takes over what its leader finds, the leader included; 0: nobody does.
-uint find_alike(BounceBlock block)
+uint find_alike(BounceBlock block, PrimarySurface leader)
 {
-    PrimarySurface leader = load_block_surface(pixel_of_block(block, 0u));
     uint alike = are_alike(leader, leader) ? 1u : 0u;
     [[dont_unroll]] for (uint i = 1u; i < bounce_block_pixels(); i++)
         alike |= are_alike(leader, load_block_surface(pixel_of_block(block, i))) ? 1u << i : 0u;
@@ -153,18 +177,26 @@ uint find_alike(BounceBlock block)
 
 // The leader's path, and those of pixels that do not share. What the leader found goes to the pixels that are like it, as if each
 // had sent the ray. Who has fewer of its kind in the block is lit more seldom, as those have fewer turns to lead, and the
-// more when it is: the mean stays.
+// more when it is: the mean stays. Where the last view did not show what the block does, all go their own way.
 void light_block(uvec2 number, uint)
 {
     BounceBlock block = open_bounce_block(number);
-    uint pixels = bounce_block_pixels(), alike = pixels > 1u ? find_alike(block) : 0u;
+    uint pixels = bounce_block_pixels();
+    bool shares = false;
+    uint alike = 0u;
+    if (pixels > 1u) {
+        PrimarySurface leader = load_block_surface(pixel_of_block(block, 0u));
+        shares = !is_new(block, leader);
+        if (shares)
+            alike = find_alike(block, leader);
+    }
     float scale = alike != 0u ? float(pixels) / float(bitCount(alike)) : 1.0;
     FoundLight found = FoundLight(vec3(0.0), vec3(0.0), 0.0, -1.0);
     [[dont_unroll]] for (uint i = 0u; i < pixels; i++) {
         uvec2 pixel = pixel_of_block(block, i);
         uint index = pixel_index(pixel);
         PrimarySurface primary = load_block_surface(pixel);
-        bool leads = i == 0u, alone = sends_own_rays(primary);
+        bool leads = i == 0u, alone = !shares || sends_own_rays(primary);
         if (primary.depth >= 0.0) {
             if (leads || alone) {
                 BsdfValue reflected;

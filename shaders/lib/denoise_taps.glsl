@@ -12,7 +12,7 @@
 const float deviations = 0.9;
 // Deviations measured over neighbours, for want of history, count for so many times as much: little is known then, and the rare bright
 // samples of a first frame must find others to mix with.
-const float measured_slack = 1.7;
+const float measured_slack = 3.0;
 // Relative to the luminance: what is below cannot be seen, and half floats end there.
 const float least_deviation = 2e-3;
 // (1 + luminance_fall)^2 = e

@@ -59,6 +59,34 @@ float plane_distance(float depth, vec2 slope, vec2 pixels, float tap_depth)
 // How far from the plane a tap may lie, relative to depth: curved things lean away from it with the slope.
 float plane_tolerance(vec2 slope, vec2 pixels) { return 0.008 + 0.25 * dot(abs(slope), abs(pixels)); }
 
+// What finds a pixel's surface in the last view: its guide and slope, and where it was then, with its depth there.
+struct Search {
+    vec3 normal;    // over 127^2, for taps' normals times 127
+    float material; // times 127
+    vec2 slope;
+    vec3 shown;
+};
+
+Search make_search(uvec2 guide, vec2 slope, vec3 shown)
+{
+    vec4 kind = guide_bytes(guide.x);
+    return Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, slope, shown);
+}
+
+// Whether the last view's pixel `place` shows the surface; `there`: its index, 0 outside of that view.
+bool shows_surface(Search search, ivec2 place, out uint there)
+{
+    const float least_normal_cosine = 0.9, most_material_difference = 0.1; // of material_key
+    bool inside = all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, ivec2(frame.previous_size)));
+    there = inside ? uint(place.y) * frame.previous_size.x + uint(place.x) : 0u;
+    uvec2 old = load_previous_guide(there);
+    vec2 pixels = (vec2(place) + frame.offset_change - search.shown.xy) / frame.previous_scale;
+    float distance = plane_distance(search.shown.z, search.slope, pixels, guide_depth(old));
+    vec4 kind = guide_bytes(old.x);
+    return inside && distance <= plane_tolerance(search.slope, vec2(1.0)) && dot(search.normal, kind.xyz) >= least_normal_cosine
+        && abs(search.material - kind.w) <= 127.0 * most_material_difference;
+}
+
 // What the buffer random_seed holds where the light is not the pixel's own sample alone.
 const uvec2 no_random_seed = uvec2(0xffffffffu);
 bool is_own_sample(uvec2 seed) { return seed.y != no_random_seed.y; }
