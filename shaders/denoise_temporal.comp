@@ -126,14 +126,11 @@ vec2 place_of_reflection(vec3 direction, float distance)
     return place_in_last_view(before, frame.pixel_offset);
 }
 
-// See specular_fall. The lobe spreads what it reflects over so many pixels: filters must not reach farther, or reflections blur.
-float find_specular_fall(float roughness, float path_length, float distance)
+// Over so many pixels the lobe spreads what it reflects.
+float find_lobe_reach(float roughness, float path_length, float distance)
 {
-    if (distance <= 0.0)
-        return 0.0;
     float spread = 2.0 * ggx_alpha(roughness) * distance / (distance + path_length);
-    float reach = 1.0 + spread * float(frame.size.x) * 0.5 / length(frame.camera.right);
-    return 1.0 / (reach * reach);
+    return 1.0 + spread * float(frame.size.x) * 0.5 / length(frame.camera.right);
 }
 
 // Lambda: the share of the light (diffuse, specular) that has changed since the last view around this pixel.
@@ -143,8 +140,14 @@ vec2 find_lambda(uvec2 pixel)
     return (frame.flags & measured) == measured ? changed_share(pixel) : vec2(0.0);
 }
 
-// Of specular light, which depends on where it is seen from: less and less up to a quarter of a pixel in a frame.
-float most_specular_frames(uvec2 pixel, vec2 shown)
+// Of specular light, where its history is the surface's: as many as what is reflected stays in the lobe, sliding so many pixels in each.
+float most_specular_frames(float slide, float reach)
+{
+    return clamp(0.12 * reach / quick_max(slide, 0.01), 1.0, most_frames);
+}
+
+// The same where the history is that of what is reflected: less and less up to a quarter of a pixel in a frame.
+float most_glossy_frames(uvec2 pixel, vec2 shown)
 {
     vec2 moved = abs(shown - ((vec2(pixel) + 0.5) * frame.previous_scale - 0.5));
     return mix(most_frames, most_moving_frames, quick_min(4.0 * quick_max(moved.x, moved.y), 1.0));
@@ -181,16 +184,23 @@ void accumulate_pixel(uvec2 pixel, uint index)
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
     vec3 direction = camera_direction(pixel, frame.pixel_offset);
     float direction_length = length(direction), path_length = guide_depth(guide) * direction_length;
-    if (surface.roughness < glossy_roughness && reflected_distance > 0.0) {
-        History glossy = find_history(index, search, place_of_reflection(direction, (path_length + reflected_distance) / direction_length));
-        history.light.specular = glossy.light.specular;
-        history.moments.specular = glossy.moments.specular;
-        history.moments.frames.y = glossy.moments.frames.y;
+    float reach = find_lobe_reach(surface.roughness, path_length, quick_max(reflected_distance, 0.0));
+    float most_specular = most_glossy_frames(pixel, search.shown.xy);
+    if (reflected_distance > 0.0) {
+        vec2 image = place_of_reflection(direction, (path_length + reflected_distance) / direction_length);
+        if (surface.roughness < glossy_roughness) {
+            History glossy = find_history(index, search, image);
+            history.light.specular = glossy.light.specular;
+            history.moments.specular = glossy.moments.specular;
+            history.moments.frames.y = glossy.moments.frames.y;
+        } else {
+            most_specular = most_specular_frames(length(image - search.shown.xy), reach);
+        }
     }
     vec2 changed = find_lambda(pixel);
     diffuse = limit_firefly(diffuse, history.light.diffuse, history.moments.frames.x, changed.x);
     specular = limit_firefly(specular, history.light.specular, history.moments.frames.y, changed.y);
-    vec2 frames = quick_min(history.moments.frames + 1.0, vec2(most_frames, most_specular_frames(pixel, search.shown.xy)));
+    vec2 frames = quick_min(history.moments.frames + 1.0, vec2(most_frames, most_specular));
     frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed);
     vec2 share = 1.0 / frames;
     vec2 moment_share = 1.0 / quick_min(frames, vec2(most_moment_frames));
@@ -207,9 +217,11 @@ void accumulate_pixel(uvec2 pixel, uint index)
     store_moments(index, pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),
         vec2(specular_moments.x, sqrt(specular_moments.y)), frames, reflected_distance)));
     // One ray's distance tells little: beside an edge it ends near, and without neighbours to mix with its light is a speck.
-    float likely_distance
-        = frames.y < least_frames && reflected_distance > 0.0 ? quick_max(reflected_distance, path_length) : reflected_distance;
-    store_filter_reach(index, uvec2(slope, floatBitsToUint(find_specular_fall(surface.roughness, path_length, likely_distance))));
+    if (frames.y < least_frames && reflected_distance > 0.0)
+        reach = find_lobe_reach(surface.roughness, path_length, quick_max(reflected_distance, path_length));
+    // See specular_fall. Filters must not reach farther than the lobe, or reflections blur.
+    float fall = reflected_distance > 0.0 ? 1.0 / (reach * reach) : 0.0;
+    store_filter_reach(index, uvec2(slope, floatBitsToUint(fall)));
 }
 
 VKPT_RUN_OVER_PIXELS(accumulate_pixel)

@@ -24,15 +24,17 @@ bool shows_same(uint there, PrimarySurface primary)
 
 const uint no_pixel = 0xffffffffu;
 
-// The last view's pixel whose sample of the same surface can be repeated, or no_pixel. Where pixels share rays it is one of the block.
+// The last view's pixel whose sample of the same surface can be repeated, or no_pixel: where the surface was, or where pixels share rays,
+// one of the block.
 uint find_sample(uint index, PrimarySurface primary)
 {
     vec2 place = floor(load_motion(index).xy + 0.5);
     if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
         return no_pixel;
-    BounceBlock block = BounceBlock(divide_whole(uvec2(whole_to_int(place)), frame.bounce_block) * frame.bounce_block, 0u);
+    uvec2 pixel_there = uvec2(whole_to_int(place)), first = divide_whole(pixel_there, frame.bounce_block) * frame.bounce_block;
+    BounceBlock block = BounceBlock(first, (pixel_there.x - first.x) | ((pixel_there.y - first.y) << 1u));
     uint found = no_pixel;
-    [[dont_unroll]] for (uint i = 0u; i < bounce_block_pixels(); i++) {
+    [[dont_unroll]] for (uint i = bounce_block_pixels(); i-- > 0u;) { // the nearest one comes last
         uvec2 pixel = min(pixel_of_block(block, i), frame.previous_size - 1u);
         uint there = pixel.y * frame.previous_size.x + pixel.x;
         uvec2 seed = load_previous_random_seed(there);

@@ -74,6 +74,13 @@ TEST_F(BouncePixels, SendSoManyRays)
     EXPECT_EQ(bounce_rays("quarter"), 0.25);
     const bool is_cpu = std::string_view(session->extension().info().device).find("llvmpipe") != std::string_view::npos;
     EXPECT_EQ(bounce_rays("auto"), is_cpu ? 0.25 : 0.5);
+    session->view.time += 100; // a cut: what is shared would stand out where nothing older is known
+    EXPECT_EQ(bounce_rays("quarter"), 1);
+    EXPECT_EQ(bounce_rays("quarter"), 0.25);
+    session->view.view_angles[1] += 30; // a part of the picture comes into view
+    const double turned = bounce_rays("quarter");
+    EXPECT_GT(turned, 0.3);
+    EXPECT_LT(turned, 0.8);
     session->set("flt_denoiser", "off"); // nothing would even out what neighbours have in common
     EXPECT_EQ(bounce_rays("quarter"), 1);
     session->set("flt_denoiser", "svgf");
