@@ -190,17 +190,31 @@ private:
     std::vector<Traced> sets_;
 };
 
-// What a tracer took for the rays of a set, round by round.
-using SetTimes = std::array<std::vector<double>, 3>;
+// Somebody who traces the rays of a scene, and what that took: seconds for a ray of each set, round by round.
+struct Row {
+    const char* who;
+    size_t triangles;
+    const Contender* scene; // whose rays
+    std::function<void(const Traced&)> trace;
+    std::array<std::vector<double>, 3> seconds;
 
-void show_row(const char* who, size_t triangles, const SetTimes& times, const SetTimes& first)
+    void run()
+    {
+        for (size_t set = 0; set < seconds.size(); set++) {
+            const Traced& traced = scene->sets()[set];
+            seconds[set].push_back(cpu_seconds_of([&] { trace(traced); }) / double(traced.set.rays.size()));
+        }
+    }
+};
+
+void show_row(const Row& row, const Row& first)
 {
-    std::printf("%8zu triangles  %-6s", triangles, who);
-    for (size_t set = 0; set < times.size(); set++) {
+    std::printf("%8zu triangles  %-6s", row.triangles, row.who);
+    for (size_t set = 0; set < row.seconds.size(); set++) {
         std::vector<double> ratios;
-        for (size_t round = 0; round < times[set].size(); round++)
-            ratios.push_back(times[set][round] / first[set][round]);
-        std::printf("  %6.1f x%.2f", median(times[set]) * 1e9, median(ratios));
+        for (size_t round = 0; round < row.seconds[set].size(); round++)
+            ratios.push_back(row.seconds[set][round] / first.seconds[set][round]);
+        std::printf("  %6.1f x%.2f", median(row.seconds[set]) * 1e9, median(ratios));
     }
     std::printf("\n");
 }
@@ -212,39 +226,28 @@ void report_scaling(const Options& options)
     HeadlessCompute device(HeadlessCompute::Validation::off);
     std::printf("device: %s\nns of CPU time for a primary, bounce and shadow ray, then relative to the first row\n",
         device.device_name().c_str());
-    std::vector<Contender> scenes;
-    std::vector<size_t> counts;
-#ifdef VKPT_HAVE_EMBREE
-    std::vector<std::unique_ptr<EmbreeScene>> embree;
-#endif
+    std::vector<std::unique_ptr<Contender>> scenes;
+    std::vector<Row> ours, embrees;
     for (const int size : sizes) {
         const MapScene scene = make(size);
         if (scene.triangles.size() > options.most * 5ull / 4)
             break;
-        counts.push_back(scene.triangles.size());
-        scenes.emplace_back(device, scene, options);
+        const Contender* rays = scenes.emplace_back(std::make_unique<Contender>(device, scene, options)).get();
+        ours.push_back(
+            { "ours", scene.triangles.size(), rays, [rays](const Traced& traced) { rays->run(traced); }, {} });
 #ifdef VKPT_HAVE_EMBREE
-        embree.push_back(std::make_unique<EmbreeScene>(scene.triangles));
+        const auto embree = std::make_shared<EmbreeScene>(scene.triangles);
+        embrees.push_back({ "Embree", scene.triangles.size(), rays,
+            [embree](const Traced& traced) { embree->trace(traced.set.rays, traced.set.any_hit); }, {} });
 #endif
     }
-    std::vector<SetTimes> times(scenes.size()), embree_times(scenes.size());
     for (int round = 0; round < options.rounds; round++)
-        for (size_t scene = 0; scene < scenes.size(); scene++)
-            for (size_t set = 0; set < 3; set++) {
-                const Traced& traced = scenes[scene].sets()[set];
-                const double rays = double(traced.set.rays.size());
-                times[scene][set].push_back(cpu_seconds_of([&] { scenes[scene].run(traced); }) / rays);
-#ifdef VKPT_HAVE_EMBREE
-                const auto trace = [&] { embree[scene]->trace(traced.set.rays, traced.set.any_hit); };
-                embree_times[scene][set].push_back(cpu_seconds_of(trace) / rays);
-#endif
-            }
-    for (size_t scene = 0; scene < scenes.size(); scene++)
-        show_row("ours", counts[scene], times[scene], times[0]);
-#ifdef VKPT_HAVE_EMBREE
-    for (size_t scene = 0; scene < scenes.size(); scene++)
-        show_row("Embree", counts[scene], embree_times[scene], embree_times[0]);
-#endif
+        for (std::vector<Row>* rows : { &ours, &embrees })
+            for (Row& row : *rows)
+                row.run();
+    for (const std::vector<Row>* rows : { &ours, &embrees })
+        for (const Row& row : *rows)
+            show_row(row, rows->front());
 }
 
 // CPU seconds of every thread of this process so far.

@@ -66,7 +66,7 @@ History find_history(uint index, Search search, vec2 at)
         [[unroll]] for (int x = 0; x < 2; x++)
             add_history(sum, total, search, first + ivec2(x, y), (x == 0 ? 1.0 - part.x : part.x) * (y == 0 ? 1.0 - part.y : part.y));
     if (total < 0.01 && (frame.flags & FRAME_LAYERED) != 0u && differing_layers(index) != 0u)
-        add_layer_history(sum, total, search, whole_to_int(floor(at + 0.5)));
+        add_layer_history(sum, total, search, nearest_in_last_view(at));
     if (total < 0.01)
         return none;
     float scale = 1.0 / total;
@@ -126,7 +126,7 @@ vec2 place_of_reflection(vec3 direction, float distance)
     return place_in_last_view(before, frame.pixel_offset);
 }
 
-// Over so many pixels the lobe spreads what it reflects.
+// Over so many pixels the lobe spreads what it reflects; 1 of what touches it.
 float find_lobe_reach(float roughness, float path_length, float distance)
 {
     float spread = 2.0 * ggx_alpha(roughness) * distance / (distance + path_length);
@@ -140,10 +140,12 @@ vec2 find_lambda(uvec2 pixel)
     return (frame.flags & measured) == measured ? changed_share(pixel) : vec2(0.0);
 }
 
-// Of specular light, where its history is the surface's: as many as what is reflected stays in the lobe, sliding so many pixels in each.
+// Of specular light, where its history is the surface's: as many as leave what is reflected, sliding so many pixels in each, within this share
+// of its lobe.
+const float most_lobe_share = 0.12;
 float most_specular_frames(float slide, float reach)
 {
-    return clamp(0.12 * reach / quick_max(slide, 0.01), 1.0, most_frames);
+    return clamp(most_lobe_share * reach / quick_max(slide, 0.01), 1.0, most_frames);
 }
 
 // The same where the history is that of what is reflected: less and less up to a quarter of a pixel in a frame.
@@ -184,7 +186,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
     float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
     vec3 direction = camera_direction(pixel, frame.pixel_offset);
     float direction_length = length(direction), path_length = guide_depth(guide) * direction_length;
-    float reach = find_lobe_reach(surface.roughness, path_length, quick_max(reflected_distance, 0.0));
+    float reach = find_lobe_reach(surface.roughness, path_length, reflected_distance);
     float most_specular = most_glossy_frames(pixel, search.shown.xy);
     if (reflected_distance > 0.0) {
         vec2 image = place_of_reflection(direction, (path_length + reflected_distance) / direction_length);

@@ -130,27 +130,24 @@ PrimarySurface load_block_surface(uvec2 pixel)
 }
 
 // Whether the last view showed what the pixel shows, so that the filters have older light to add to.
-bool was_seen(uvec2 pixel, PrimarySurface primary)
+bool was_seen(uvec2 pixel)
 {
-    if (primary.depth < 0.0)
+    if (!is_on_screen(pixel))
         return false;
     uint index = pixel_index(pixel), there;
-    vec3 shown = load_motion(index);
-    Search search = Search(primary.surface.normal * (1.0 / 127.0),
-        127.0 * material_key(primary.surface.roughness, primary.surface.metallic), unpack_upper_halves(load_slope(index)), shown);
-    return shows_surface(search, whole_to_int(floor(clamp(shown.xy, vec2(-2.0), vec2(frame.previous_size) + 2.0) + 0.5)), there);
+    Search search = make_search(load_guide(index), unpack_upper_halves(load_slope(index)), load_motion(index));
+    return shows_surface(search, nearest_in_last_view(search.shown.xy), there);
 }
 
-// Whether the block has no history: what its pixels share would stand out as specks then.
-bool is_new(BounceBlock block, PrimarySurface leader)
+// Whether the block has no history: what its pixels share would stand out as specks then. Beside an edge, or of a thin thing, one of two
+// opposite pixels may have one.
+bool is_new(BounceBlock block)
 {
     if ((frame.flags & FRAME_HISTORY) == 0u)
         return true;
-    bool seen = was_seen(pixel_of_block(block, 0u), leader);
-    if (!seen) { // beside an edge, or of a thin thing: the one farthest away may be
-        uvec2 other = pixel_of_block(block, bounce_block_pixels() - 1u);
-        seen = was_seen(other, load_block_surface(other));
-    }
+    bool seen = was_seen(pixel_of_block(block, 0u));
+    if (!seen)
+        seen = was_seen(pixel_of_block(block, bounce_block_pixels() - 1u));
     return !seen;
 }
 
@@ -167,8 +164,9 @@ bool are_alike(PrimarySurface a, PrimarySurface b)
 }
 
 // A bit for each pixel of the block that takes over what its leader finds, the leader included; 0: nobody does.
-uint find_alike(BounceBlock block, PrimarySurface leader)
+uint find_alike(BounceBlock block)
 {
+    PrimarySurface leader = load_block_surface(pixel_of_block(block, 0u));
     uint alike = are_alike(leader, leader) ? 1u : 0u;
     [[dont_unroll]] for (uint i = 1u; i < bounce_block_pixels(); i++)
         alike |= are_alike(leader, load_block_surface(pixel_of_block(block, i))) ? 1u << i : 0u;
@@ -182,14 +180,8 @@ void light_block(uvec2 number, uint)
 {
     BounceBlock block = open_bounce_block(number);
     uint pixels = bounce_block_pixels();
-    bool shares = false;
-    uint alike = 0u;
-    if (pixels > 1u) {
-        PrimarySurface leader = load_block_surface(pixel_of_block(block, 0u));
-        shares = !is_new(block, leader);
-        if (shares)
-            alike = find_alike(block, leader);
-    }
+    bool shares = pixels > 1u && !is_new(block);
+    uint alike = shares ? find_alike(block) : 0u;
     float scale = alike != 0u ? float(pixels) / float(bitCount(alike)) : 1.0;
     FoundLight found = FoundLight(vec3(0.0), vec3(0.0), 0.0, -1.0);
     [[dont_unroll]] for (uint i = 0u; i < pixels; i++) {

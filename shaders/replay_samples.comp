@@ -28,13 +28,12 @@ const uint no_pixel = 0xffffffffu;
 // one of the block.
 uint find_sample(uint index, PrimarySurface primary)
 {
-    vec2 place = floor(load_motion(index).xy + 0.5);
-    if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(frame.previous_size))))
+    ivec2 place = nearest_in_last_view(load_motion(index).xy);
+    if (!is_in_last_view(place))
         return no_pixel;
-    uvec2 pixel_there = uvec2(whole_to_int(place)), first = divide_whole(pixel_there, frame.bounce_block) * frame.bounce_block;
-    BounceBlock block = BounceBlock(first, (pixel_there.x - first.x) | ((pixel_there.y - first.y) << 1u));
+    BounceBlock block = bounce_block_of(uvec2(place));
     uint found = no_pixel;
-    [[dont_unroll]] for (uint i = bounce_block_pixels(); i-- > 0u;) { // the nearest one comes last
+    [[dont_unroll]] for (uint i = bounce_block_pixels(); i-- > 0u;) { // its own pixel comes last
         uvec2 pixel = min(pixel_of_block(block, i), frame.previous_size - 1u);
         uint there = pixel.y * frame.previous_size.x + pixel.x;
         uvec2 seed = load_previous_random_seed(there);

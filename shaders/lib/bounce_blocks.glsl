@@ -25,6 +25,13 @@ BounceBlock open_bounce_block(uvec2 block)
     return BounceBlock(block * frame.bounce_block, leader & (bounce_block_pixels() - 1u));
 }
 
+// The block that holds a pixel of a view of the same blocks, that pixel first.
+BounceBlock bounce_block_of(uvec2 pixel)
+{
+    uvec2 first = divide_whole(pixel, frame.bounce_block) * frame.bounce_block;
+    return BounceBlock(first, (pixel.x - first.x) | ((pixel.y - first.y) << 1u));
+}
+
 uvec2 pixel_of_block(BounceBlock block, uint i)
 {
     uint place = block.leader ^ i;

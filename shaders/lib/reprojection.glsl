@@ -73,11 +73,19 @@ Search make_search(uvec2 guide, vec2 slope, vec3 shown)
     return Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, slope, shown);
 }
 
+// The pixel of the last view that is nearest to a place there, or one beyond its edge.
+ivec2 nearest_in_last_view(vec2 place)
+{
+    return whole_to_int(floor(clamp(place, vec2(-2.0), vec2(frame.previous_size) + 2.0) + 0.5));
+}
+
+bool is_in_last_view(ivec2 place) { return all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, ivec2(frame.previous_size))); }
+
 // Whether the last view's pixel `place` shows the surface; `there`: its index, 0 outside of that view.
 bool shows_surface(Search search, ivec2 place, out uint there)
 {
     const float least_normal_cosine = 0.9, most_material_difference = 0.1; // of material_key
-    bool inside = all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, ivec2(frame.previous_size)));
+    bool inside = is_in_last_view(place);
     there = inside ? uint(place.y) * frame.previous_size.x + uint(place.x) : 0u;
     uvec2 old = load_previous_guide(there);
     vec2 pixels = (vec2(place) + frame.offset_change - search.shown.xy) / frame.previous_scale;
