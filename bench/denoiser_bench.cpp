@@ -237,6 +237,7 @@ Errors measure(
     const std::string antialiasing = plus == std::string::npos ? "off" : mode.substr(plus + 1);
     Run run(options,
         { { "flt_denoiser", mode.substr(0, plus) }, { "flt_taa", antialiasing == "taa" ? "on" : antialiasing } });
+    run.extension().time_every_pass();
     Errors errors;
     std::vector<analysis::LinearImage> last;
     for (int frame = 0; frame < options.frames; frame++) {

@@ -79,6 +79,7 @@ public:
         if (!options.filtered)
             host.cvars = { { "flt_denoiser", "off" }, { "flt_taa", "off" } };
         host_ = std::make_unique<client::Host>(host, &files_);
+        host_->extension().time_every_pass();
         scene_.register_with(*host_);
     }
 

@@ -53,6 +53,12 @@ const PassTime* pass_times(size_t* count)
     return m->graphics.timer.times().data();
 }
 
+void time_every_pass()
+{
+    if (Module* m = module())
+        m->graphics.timer.time_every_pass();
+}
+
 void fill_world_counts(ModuleInfo& info, const Module& m)
 {
     const World* world = m.scene.world();
@@ -168,8 +174,10 @@ void forget_times()
 {
     size_t count = 0;
     collected_times(&count); // what is still under way counts as before
-    if (Module* m = module())
+    if (Module* m = module()) {
         m->pass_statistics.clear();
+        m->graphics.timer.restart_turns();
+    }
 }
 
 void thaw_scene()
@@ -208,8 +216,8 @@ bool inspect_pixel(uint32_t x, uint32_t y, InspectedSurface* surface, InspectedL
 const Extension& extension_table()
 {
     static const Extension table { extension_version, sizeof(Extension), frame_size, capture_display, capture_radiance,
-        accumulated_frames, pass_times, module_info, measure_irradiance, trace_rays, thaw_scene, collected_times,
-        forget_times, read_scene, select_view, inspect_pixel };
+        accumulated_frames, pass_times, time_every_pass, module_info, measure_irradiance, trace_rays, thaw_scene,
+        collected_times, forget_times, read_scene, select_view, inspect_pixel };
     return table;
 }
 
@@ -238,7 +246,8 @@ void print_info()
         mib(info.geometry_bytes), mib(info.acceleration_bytes), mib(info.light_bytes), mib(info.image_bytes),
         mib(info.staging_bytes));
     if (info.nearest_rays + info.visibility_rays > 0)
-        engine::print("rays           {} for the nearest hit, {} for visibility", info.nearest_rays, info.visibility_rays);
+        engine::print(
+            "rays           {} for the nearest hit, {} for visibility", info.nearest_rays, info.visibility_rays);
     size_t count = 0;
     const PassTime* times = pass_times(&count);
     for (size_t i = 0; i < count; i++)

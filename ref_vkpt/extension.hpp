@@ -10,7 +10,7 @@
 
 namespace vkpt {
 
-inline constexpr uint32_t extension_version = 4;
+inline constexpr uint32_t extension_version = 5;
 
 inline constexpr uint32_t view_count = 4; // that select_view can tell apart
 
@@ -47,7 +47,7 @@ struct ModuleInfo {
 // Times of one pass, or of one of the CPU's tasks ("cpu scene"), over many frames.
 struct PassSamples {
     const char* name;
-    const float* milliseconds; // one a frame, oldest first
+    const float* milliseconds; // one a frame that was timed, oldest first
     uint64_t count;
 };
 
@@ -160,8 +160,11 @@ struct Extension {
     bool (*capture_radiance)(float* rgb);
     // How many frames the accumulation holds.
     uint32_t (*accumulated_frames)();
-    // Passes of the last finished frame, in order. The array lives until the next frame ends.
+    // Passes of the last finished frame that they were timed in, in order: the first frame and one of sixteen, with
+    // pt_times 1 of two, from time_every_pass on each. On Mesa's CPU driver timing them makes a frame 1.5 ms longer.
+    // The array lives until the next frame ends.
     const PassTime* (*pass_times)(size_t* count);
+    void (*time_every_pass)();
     ModuleInfo (*info)();
     // Irradiance / pi (that is: the radiance of a white diffuse surface) at each probe, RGB, `samples` paths each,
     // in the map of the last frame with its lightstyles. False: no map.
@@ -171,22 +174,22 @@ struct Extension {
     double (*trace_rays)(const TracedRay* rays, size_t count, const TraceRequest* request, TracedHit* hits);
     // With pt_accumulate 1: the next view's things count instead of the frozen ones, and the average starts anew.
     void (*thaw_scene)();
-    // With pt_times 1: all times since the start or the last forget_times, in order of their first appearance; "frame" is
-    // that from one frame's completion to the next one's, of frames with a 3D view. Waits for the device, so that the last
-    // frame is among them. The arrays live until the next frame begins.
+    // With pt_times 1: all times since the start or the last forget_times, in order of their first appearance; "frame"
+    // is that from one frame's completion to the next one's, of frames with a 3D view. Frames' passes and whole frames
+    // are timed by turns, passes first after forget_times. Waits for the device, so that the last frame is among them.
+    // The arrays live until the next frame begins.
     const PassSamples* (*collected_times)(size_t* count);
     void (*forget_times)();
     // What the last view was made of. Valid until the next frame or call. False: no map.
     bool (*read_scene)(SceneContents* contents);
-    // Several pictures at once, drawn in turn: each of `view_count` views has its own accumulation, history of the filters,
-    // exposure and frozen time. What is drawn, captured and inspected from here on is of view `view`; 0 at the start.
-    // Between frames. A view's memory lives until the next map is registered. False: no such view.
+    // Several pictures at once, drawn in turn: each of `view_count` views has its own accumulation, history of the
+    // filters, exposure and frozen time. What is drawn, captured and inspected from here on is of view `view`; 0 at the
+    // start. Between frames. A view's memory lives until the next map is registered. False: no such view.
     bool (*select_view)(uint32_t view);
-    // The surface in pixel (x, y) of the last frame's picture, and up to `capacity` lights of its list in list order, by the
-    // settings of that frame. Runs the light sampler's shader: milliseconds, with the sampler `full` longer. False: no 3D
-    // view of a map has been drawn, or it does not cover the pixel.
-    bool (*inspect_pixel)(
-        uint32_t x, uint32_t y, InspectedSurface* surface, InspectedLight* lights, size_t capacity);
+    // The surface in pixel (x, y) of the last frame's picture, and up to `capacity` lights of its list in list order,
+    // by the settings of that frame. Runs the light sampler's shader: milliseconds, with the sampler `full` longer.
+    // False: no 3D view of a map has been drawn, or it does not cover the pixel.
+    bool (*inspect_pixel)(uint32_t x, uint32_t y, InspectedSurface* surface, InspectedLight* lights, size_t capacity);
 };
 
 // Signature of the exported symbol "vkpt_extension". Returns nullptr if `version` is not served.

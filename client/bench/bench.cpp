@@ -23,8 +23,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int default_frames = 200;
-// In frames, where two variants take turns; and what is taken for alike by the confidence intervals.
-constexpr int longest_turn = 16;
+// In frames, where two variants take turns; and what is taken for alike by the confidence intervals. Of two frames one
+// is timed as a whole, the other one pass by pass.
+constexpr int shortest_turn = 2, longest_turn = 16;
 constexpr int counted_frames = 8; // for rays
 constexpr std::string_view cpu_task = "cpu "; // what the module calls its CPU's tasks
 
@@ -80,6 +81,8 @@ public:
         if (frames_ > left)
             throw WrongUse(
                 fmt::format("--frames {}: from frame {} on, {} has {}", frames_, first_, options.scene.scene, left));
+        if (frames_ < shortest_turn)
+            throw WrongUse(fmt::format("{} has no second frame to measure: choose another scene", options.scene.scene));
         source_->register_with(host_);
         for (const std::string& note : source_->notes())
             std::fprintf(stderr, "vkpt: %s\n", note.c_str());
@@ -115,7 +118,7 @@ public:
         return results;
     }
 
-    int turn_length() const { return std::clamp(frames_ / 20, 1, longest_turn); }
+    int turn_length() const { return std::clamp(frames_ / 20, shortest_turn, longest_turn); }
 
 private:
     void wait() const
@@ -169,6 +172,7 @@ private:
     void describe(BenchResult& result)
     {
         result.scene = options_.scene.scene;
+        result.frames = frames_;
         result.width = host_.width();
         result.height = host_.height();
         result.first_frame_seconds = first_frame_seconds_;
@@ -269,7 +273,7 @@ void add_bench_command(CLI::App& program)
         ->add_option(
             "--frames", options->frames, "Measured frames, from the scene's on (default: 200, or what the trace has)")
         ->type_name("N")
-        ->check(CLI::Range(1, 1 << 20));
+        ->check(CLI::Range(shortest_turn, 1 << 20));
     command->add_option("--warmup", options->warmup, "Frames before that do not count")
         ->type_name("N")
         ->check(CLI::Range(0, 1 << 20))

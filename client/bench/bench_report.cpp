@@ -80,7 +80,7 @@ Json to_json(const BenchResult& result)
     json["schema"] = bench_schema;
     json["scene"] = result.scene;
     json["size"] = { result.width, result.height };
-    json["frames"] = result.frame_ms.size();
+    json["frames"] = result.frames;
     json["settings"] = Json::object();
     for (const auto& [name, text] : result.settings)
         json["settings"][name] = text;
@@ -136,7 +136,7 @@ BenchResult read_bench_json(const std::filesystem::path& path)
 void print_table(const BenchResult& result)
 {
     const float median = find_median(result.frame_ms);
-    fmt::print("scene    {}, {} x {}, {} frames\n", result.scene, result.width, result.height, result.frame_ms.size());
+    fmt::print("scene    {}, {} x {}, {} frames\n", result.scene, result.width, result.height, result.frames);
     fmt::print("device   {} ({}), rays by {}\n", result.device, result.driver, result.trace_backend);
     for (const auto& [name, text] : result.settings)
         fmt::print("setting  {} {}\n", name, text);

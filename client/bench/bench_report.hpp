@@ -15,7 +15,7 @@ namespace vkpt::client {
 
 struct TimedTask {
     std::string name;
-    std::vector<float> ms; // one a frame
+    std::vector<float> ms; // one a frame that was timed
 };
 
 struct BenchResult {
@@ -23,6 +23,7 @@ struct BenchResult {
     int width = 0, height = 0;
     std::vector<std::pair<std::string, std::string>> settings; // that are not at their default
     std::string device, driver, trace_backend;
+    int frames = 0; // that were drawn; the samples are fewer, as frames and passes are timed by turns
     std::vector<float> frame_ms;
     std::vector<TimedTask> passes, cpu;
     double nearest_rays = 0, visibility_rays = 0; // a frame

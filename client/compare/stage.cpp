@@ -46,6 +46,7 @@ Stage::Stage(const StageOptions& options, const std::string& scene)
     , settings_(fmt::format("{}", fmt::join(options.module.settings, " ")))
 {
     source_->register_with(host_);
+    host_.extension().time_every_pass();
     info_ = host_.extension().info();
 }
 

@@ -201,6 +201,7 @@ void RenderThread::run(const RenderThreadOptions& options)
         host_options.on_line = [this](const std::string& line) { publish([&] { lines_.push_back(line); }); };
         Host host(host_options, options.files);
         options.source->register_with(host);
+        host.extension().time_every_pass();
         SceneFacts facts = find_facts(host, *options.source);
         publish([&] {
             facts_ = std::move(facts);

@@ -46,6 +46,7 @@ std::string make_bench_report(const PassStatistics& statistics, const ModuleInfo
 {
     std::vector<std::string> passes, cpu, settings;
     std::vector<float> frames;
+    size_t timed_by_pass = 0;
     for (const PassStatistics::Pass& pass : statistics.passes()) {
         const float median = find_quantile(pass.milliseconds, 0.5), p95 = find_quantile(pass.milliseconds, 0.95);
         if (pass.name == whole_frame)
@@ -53,10 +54,13 @@ std::string make_bench_report(const PassStatistics& statistics, const ModuleInfo
         else if (pass.name.starts_with(cpu_task))
             cpu.push_back(fmt::format(
                 R"({{"name": {}, "median_ms": {:.4f}}})", quote(pass.name.substr(cpu_task.size())), median));
-        else
+        else {
             passes.push_back(
                 fmt::format(R"({{"name": {}, "median_ms": {:.4f}, "p95_ms": {:.4f}}})", quote(pass.name), median, p95));
+            timed_by_pass = std::max(timed_by_pass, pass.milliseconds.size());
+        }
     }
+    const size_t frame_count = frames.size() + timed_by_pass;
     if (frames.empty())
         frames.push_back(0);
     for (const auto& [name, text] : facts.settings)
@@ -67,7 +71,7 @@ std::string make_bench_report(const PassStatistics& statistics, const ModuleInfo
         + info.image_bytes + info.staging_bytes;
     std::string json
         = fmt::format("{{\n  \"schema\": {},\n  \"scene\": {},\n  \"size\": [{}, {}],\n  \"frames\": {},\n", schema,
-            quote(facts.scene), facts.width, facts.height, frames.size());
+            quote(facts.scene), facts.width, facts.height, frame_count);
     json += fmt::format("  \"settings\": {{{}}},\n  \"device\": {},\n  \"driver\": {},\n  \"trace_backend\": {},\n",
         join(settings), quote(info.device), quote(info.driver), quote(info.trace_backend));
     json += fmt::format("  \"frame_ms\": {{\"median\": {:.4f}, \"p5\": {:.4f}, \"p95\": {:.4f}}},\n", median,

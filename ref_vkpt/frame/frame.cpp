@@ -67,10 +67,7 @@ void Frame::begin()
     std::memcpy(lanes.data(), readback_.mapped() + graphics_.slot() * light_level_bytes, light_level_bytes);
     light_level_ = std::accumulate(lanes.begin(), lanes.end(), 0.0f) / float(lanes.size());
     read_statistics();
-    double milliseconds = 0;
-    for (const PassTime& time : graphics_.timer.times())
-        milliseconds += time.milliseconds;
-    render_scale_.add_frame(milliseconds, scale_limits());
+    render_scale_.add_frame(graphics_.timer.frame_milliseconds(), scale_limits());
     // Room for the largest view now: once recording refers to the buffers, they cannot be replaced. For the whole
     // window, though fewer pixels may be rendered, so that a change of the render size costs nothing.
     const VkExtent2D output = graphics_.size();

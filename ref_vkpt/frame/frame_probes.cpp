@@ -32,7 +32,7 @@ void Frame::measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t
             uniforms.probe_count = uint32_t(probes.size());
             uniforms.flags = shared::FRAME_PROBES | (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0);
             bind(write_uniforms(uniforms));
-            graphics_.timer.begin_frame(commands, graphics_.slot());
+            graphics_.timer.begin_untimed(graphics_.slot());
             record_passes(uniforms, Surfaces::probes, true);
         });
     }
@@ -84,7 +84,7 @@ void Frame::trace_chunk(std::span<const TracedRay> rays, uint32_t row, const Tra
     const auto run = [&](uint32_t rounds) {
         graphics_.run_once([&](VkCommandBuffer commands) {
             commands_ = commands;
-            graphics_.timer.begin_frame(commands, graphics_.slot());
+            graphics_.timer.begin_untimed(graphics_.slot());
             bind(offset);
             for (uint32_t round = 0; round < rounds; round++)
                 record_traced_pass("probe_rays", pixel_work(view.size));

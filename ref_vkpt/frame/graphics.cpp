@@ -163,10 +163,9 @@ void Graphics::end_frame()
         return;
     Slot& slot = slots_[slot_];
     recording_ = false;
-    if (acquired_) {
+    if (acquired_)
         record_present();
-        timer.mark(slot.commands, "present");
-    }
+    timer.end_frame(slot.commands, acquired_ ? "present" : "2d");
     VKPT_CHECK(vkEndCommandBuffer(slot.commands));
     VKPT_CHECK(vkResetFences(device.handle, 1, &slot.finished));
     const VkPipelineStageFlags copies = VK_PIPELINE_STAGE_TRANSFER_BIT;

@@ -24,6 +24,7 @@ std::vector<std::string> draw_passes(const GameFolder& folder)
     Session session(folder, { { "flt_denoiser", "asvgf" }, { "flt_taa", "on" } });
     session.load_map("room");
     session.look({ -100, 0, 50 }, { 100, 0, 50 });
+    session.extension().time_every_pass();
     session.draw(3);
     session.capture();
     size_t count = 0;
