@@ -7,14 +7,11 @@
 
 layout(push_constant, scalar) uniform PushBlock { BloomPush push; };
 
-// Of a level; what is left is the coarser ones': each is half as strong as the one above it, and about four times as wide.
-const float own_share = 0.5;
-
 void grow_pixel(uvec2 pixel, uint index)
 {
     vec3 own = unpack_light3(load_element(push.target, index, uvec2(0u)));
     vec3 coarser = sample_bloom_level(push.source, push.source_size, (vec2(pixel) + 0.5) / vec2(push.target_size));
-    store_element(push.target, index, pack_light3(mix(coarser, own, own_share)));
+    store_element(push.target, index, pack_light3(mix(coarser, own, push.own_share)));
 }
 
 VKPT_RUN_OVER(push.target_size, grow_pixel)

@@ -281,8 +281,9 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
     }
     uniforms.time = scene.time;
     uniforms.flags |= (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0) | (scene.world ? 0 : shared::FRAME_NO_WORLD)
-        | (average ? shared::FRAME_JITTER : 0)
-        | (!average && scene.world && wants_bloom(uniforms) ? shared::FRAME_BLOOM : 0);
+        | (average ? shared::FRAME_JITTER : 0);
+    if (!average && scene.world)
+        begin_bloom(uniforms);
     const bool counts_rays = cvars::values().pt_count_rays != 0;
     uniforms.flags |= counts_rays ? shared::FRAME_COUNT_RAYS : 0;
     bind(write_uniforms(uniforms));

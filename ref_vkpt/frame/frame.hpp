@@ -145,7 +145,7 @@ private:
     void record_replay(const shared::FrameUniforms& uniforms);
     void record_gradient(const shared::FrameUniforms& uniforms);
     void record_spatial_filter(uint32_t groups);
-    static bool wants_bloom(const shared::FrameUniforms& uniforms);
+    static void begin_bloom(shared::FrameUniforms& uniforms);
     // A pass that is told something.
     template <class Push> void record_level(const char* name, const Push& push, uint32_t groups)
     {

@@ -3,8 +3,9 @@
 #include "ref_vkpt/frame/frame.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 namespace vkpt {
 
@@ -15,9 +16,19 @@ const glm::ivec2 spread_ways[] = { { 2, 1 }, { -1, 5 }, { 8, 6 }, { -12, 16 } };
 // Of the gradient's; odd, so that the result lies in gradient_b.
 constexpr uint32_t gradient_levels = 3;
 
-// Of the bloom's pyramid. Below the least size of the picture, bloom is left out.
-constexpr uint32_t bloom_levels = 5;
+// Of the bloom's pyramid in a picture of so many lines (or columns, where they are fewer). Larger pictures have finer
+// levels before the result's, which only hand on; smaller ones lack the finest: so light spreads over the same share of
+// all of them.
+constexpr int bloom_levels = 5;
+constexpr float bloom_lines = 360;
+// Below it bloom is left out.
 constexpr uint32_t least_bloom_size = 32;
+
+// How many finer levels there are before the result's; negative: how many are left out.
+int finer_bloom_levels(glm::uvec2 picture)
+{
+    return int(std::lround(std::log2(float(std::min(picture.x, picture.y)) / bloom_lines)));
+}
 
 // Camera rays pass through so many places of each pixel of the result, one after the other.
 constexpr uint32_t offsets_per_pixel = 8;
@@ -158,29 +169,42 @@ void Frame::record_bloom(const shared::FrameUniforms& uniforms)
         uint64_t address;
         glm::uvec2 size;
     };
-    std::array<Level, bloom_levels> levels;
-    uint64_t address = uniforms.screen.bloom.address;
+    const int finer = finer_bloom_levels(uniforms.resolved_size);
+    const size_t result = size_t(std::max(finer, 0));
+    std::vector<Level> levels(size_t(bloom_levels + finer));
     glm::uvec2 size = count_blocks(uniforms.resolved_size, glm::uvec2(shared::BLOOM_FIRST_STEP));
     for (Level& level : levels) {
-        level = { address, size };
-        address += sizeof(glm::uvec2) * size.x * size.y;
+        level.size = size;
         size = count_blocks(size, glm::uvec2(2));
     }
-    const auto record = [&](const char* name, const Level& source, const Level& target) {
-        record_level(name, shared::BloomPush { source.address, target.address, source.size, target.size },
+    uint64_t address
+        = uniforms.screen.bloom.address; // of the result, as its reader expects; the finer levels come last
+    for (size_t i = 0; i < levels.size(); i++) {
+        Level& level = levels[(result + i) % levels.size()];
+        level.address = address;
+        address += sizeof(glm::uvec2) * level.size.x * level.size.y;
+    }
+    const auto record = [&](const char* name, const Level& source, const Level& target, float own_share) {
+        record_level(name, shared::BloomPush { source.address, target.address, source.size, target.size, own_share },
             pixel_groups(target.size));
     };
-    record("bloom_shrink", { 0, uniforms.resolved_size }, levels[0]);
-    for (uint32_t level = 1; level < bloom_levels; level++)
-        record("bloom_shrink", levels[level - 1], levels[level]);
-    for (uint32_t level = bloom_levels - 1; level > 0; level--)
-        record("bloom_grow", levels[level], levels[level - 1]);
+    record("bloom_shrink", { 0, uniforms.resolved_size }, levels[0], 0);
+    for (size_t level = 1; level < levels.size(); level++)
+        record("bloom_shrink", levels[level - 1], levels[level], 0);
+    // Each level counts half as much as the next finer one, and the finest also for those that are left out.
+    for (size_t level = levels.size() - 1; level > result; level--)
+        record("bloom_grow", levels[level], levels[level - 1],
+            level - 1 == result ? 1 - std::exp2(float(std::min(finer, 0) - 1)) : 0.5f);
 }
 
-bool Frame::wants_bloom(const shared::FrameUniforms& uniforms)
+// Leaves bloom out where `uniforms` have none.
+void Frame::begin_bloom(shared::FrameUniforms& uniforms)
 {
-    return uniforms.cvars.pt_bloom > 0
-        && std::min(uniforms.resolved_size.x, uniforms.resolved_size.y) >= least_bloom_size;
+    const glm::uvec2 size = uniforms.resolved_size;
+    if (uniforms.cvars.pt_bloom <= 0 || std::min(size.x, size.y) < least_bloom_size)
+        return;
+    uniforms.flags |= shared::FRAME_BLOOM;
+    uniforms.bloom_step = shared::BLOOM_FIRST_STEP << uint32_t(std::max(finer_bloom_levels(size), 0));
 }
 
 // All but the last level. The first level's result is what the next view accumulates on.

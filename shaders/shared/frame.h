@@ -91,6 +91,7 @@ struct BloomPush {
     uint64_t target;
     uvec2 source_size;
     uvec2 target_size;
+    float own_share; // bloom_grow: of the target; what is left is the coarser levels'
 };
 
 // What one level of the denoiser's spatial filter is told (push constants).
@@ -180,6 +181,7 @@ struct FrameUniforms {
     uint64_t ray_counts; // RayCounts where FRAME_COUNT_RAYS
     uint probe_count;
     uvec2 size;          // pixels rendered
+    uint bloom_step;     // pixels of `resolved`, in either direction, for one of `bloom`, where FRAME_BLOOM
     uvec2 resolved_size; // pixels of the buffers `resolved` and `accumulated`: more where anti-aliasing upscales
     uint64_t output_words; // the picture that is shown: a word a pixel, RGBA, red in the lowest byte, sRGB-encoded
     uint output_across;  // its pixels in a row
