@@ -13,6 +13,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,8 +37,16 @@ struct Case {
 const Case base { "subset", 8 };
 const std::vector<Case> all_cases { base, { "subset", 16 }, { "subset", 32 }, { "subset", 64 },
     { "subset_onesweep", 8 }, { "subset_dynamic", 8 }, { "subset_pps", 8 }, { "subset_strides", 8 },
-    { "subset_mis", 8 }, { "subset_mis_biased", 8 }, { "subset_mis_blue", 8 }, { "ris", 8 }, { "uniform", 8 },
+    { "subset_mis", 8 }, { "subset_mis_biased", 8 }, { "subset_mis_blue", 8 }, { "light_tree", 8 }, { "ris", 8 }, { "uniform", 8 },
     { "full", 8 } };
+
+std::set<std::string> sampler_names()
+{
+    std::set<std::string> names;
+    for (const Case& c : all_cases)
+        names.insert(c.sampler);
+    return names;
+}
 
 bool is_wanted(const Options& options, const Case& c)
 {
@@ -277,7 +286,9 @@ int main(int argc, char** argv)
     program.add_option("--rounds", options.rounds)->check(CLI::Range(1, 1000));
     program.add_option("--lights", options.light_counts, "Numbers of lights in generated halls; at most 10000")
         ->check(CLI::Range(1, 10000));
-    program.add_option("--samplers", options.samplers, "Only these; ratios of cost stay those to `subset`");
+    program.add_option("--samplers", options.samplers, "Only these; ratios of cost stay those to `subset`")
+        ->delimiter(',')
+        ->check(CLI::IsMember(sampler_names()));
     program.add_flag("--only-counts", options.only_counts, "Leave the table of costs out");
     program.add_flag("--filtered", options.filtered, "With the denoiser and anti-aliasing of the defaults");
     CLI11_PARSE(program, argc, argv);

@@ -22,7 +22,8 @@ namespace vkpt {
 
 // A map's data that does not change, on the device.
 struct GpuWorld {
-    Buffer light_indices, light_multisets;
+    Buffer light_indices, light_multisets, light_trees, light_tree_roots, light_tree_places;
+    uint32_t light_tree_lights = 0; // where their order begins in light_indices
     Buffer bsp_tree;
     uint64_t version = 0; // another for every map; 0: not uploaded yet
 };

@@ -3,6 +3,7 @@
 #include "ref_vkpt/frame/frame.hpp"
 
 #include "ref_vkpt/lights/light_multisets.hpp"
+#include "ref_vkpt/lights/light_trees.hpp"
 #include "ref_vkpt/trace/wide_tree.hpp"
 
 #include <algorithm>
@@ -37,9 +38,15 @@ GpuWorld upload_world(const World& world, Uploader& uploader)
 {
     static uint64_t versions = 0;
     GpuWorld gpu;
-    const LightMultisets multisets = make_light_multisets(world.bsp, world.light_lists, world.models[0].emitters);
+    LightMultisets multisets = make_light_multisets(world.bsp, world.light_lists, world.models[0].emitters);
+    const LightTrees trees = make_light_trees(world.light_lists, world.models[0].emitters);
+    gpu.light_tree_lights = uint32_t(multisets.entries.size());
+    multisets.entries.insert(multisets.entries.end(), trees.lights.begin(), trees.lights.end());
     gpu.light_indices = uploader.make_buffer(multisets.entries, MemoryKind::lights, "light lists");
     gpu.light_multisets = uploader.make_buffer(multisets.ranges, MemoryKind::lights, "light multisets");
+    gpu.light_tree_roots = uploader.make_buffer(trees.roots, MemoryKind::lights, "light tree roots");
+    gpu.light_tree_places = uploader.make_buffer(trees.places, MemoryKind::lights, "light tree places");
+    gpu.light_trees = uploader.make_buffer(trees.nodes, MemoryKind::lights, "light trees");
     gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
     gpu.version = ++versions;
     return gpu;
@@ -135,6 +142,10 @@ void Frame::fill_scene(shared::SceneView& out, SceneSnapshot& scene, const GpuWo
     }
     out.static_light_indices = gpu_world->light_indices.address();
     out.light_multisets = gpu_world->light_multisets.address();
+    out.light_tree_roots = gpu_world->light_tree_roots.address();
+    out.light_tree_places = gpu_world->light_tree_places.address();
+    out.light_tree_lights = gpu_world->light_tree_lights;
+    out.light_trees = gpu_world->light_trees.address();
     if (scene.kept_lights.lists.empty()) {
         out.light_lists = kept.light_lists.write(slot, lights->lists());
         out.dynamic_light_indices = kept.dynamic_light_indices.write(slot, lights->dynamic_indices());

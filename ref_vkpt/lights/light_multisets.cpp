@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/lights/light_multisets.hpp"
 
-#include "ref_vkpt/lights/luminance.hpp"
+#include "ref_vkpt/lights/light_source.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
-#include <numbers>
 #include <random>
 
 namespace vkpt {
@@ -32,26 +31,8 @@ struct Receiver {
     glm::vec3 position, normal; // normal 0: in the air
 };
 
-// What a light's weight depends on.
-struct Source {
-    glm::vec3 centre, normal; // normal 0: a sphere
-    float area; // that is seen from its front
-    float power; // radiance times area
-};
-
-Source make_source(const Emitter& e)
-{
-    if (e.type == shared::EMITTER_SPHERE) {
-        const float disc = std::numbers::pi_v<float> * e.p1.x * e.p1.x;
-        return { e.p0, glm::vec3(0), disc, luminance(e.radiance) * disc };
-    }
-    const glm::vec3 across = glm::cross(e.p1 - e.p0, e.p2 - e.p0);
-    const float size = glm::length(across), area = 0.5f * size;
-    return { (e.p0 + e.p1 + e.p2) / 3.0f, size > 0 ? across / size : glm::vec3(0), area, luminance(e.radiance) * area };
-}
-
 // About the irradiance: a disc's, never closer than it is large.
-float predict_irradiance(const Source& source, const Receiver& receiver)
+float predict_irradiance(const LightSource& source, const Receiver& receiver)
 {
     const glm::vec3 to_receiver = receiver.position - source.centre;
     const float distance2 = std::max(glm::dot(to_receiver, to_receiver), 1e-6f), inverse = 1 / std::sqrt(distance2);
@@ -63,7 +44,7 @@ float predict_irradiance(const Source& source, const Receiver& receiver)
     return source.power * sent * arriving / std::max(distance2, source.area);
 }
 
-float predict_greatest_irradiance(const Source& source, const Bounds& bounds)
+float predict_greatest_irradiance(const LightSource& source, const Bounds& bounds)
 {
     const glm::vec3 to_receiver = glm::clamp(source.centre, bounds.mins, bounds.maxs) - source.centre;
     return source.power / std::max(glm::dot(to_receiver, to_receiver), 2 * source.area);
@@ -134,7 +115,7 @@ std::vector<ClusterFaces> collect_faces(const formats::Bsp& bsp, size_t cluster_
 
 // Per light, in proportion to which they are to be drawn.
 std::vector<float> measure_sizes(
-    const std::vector<Source>& sources, const std::vector<Receiver>& receivers, const Bounds& bounds)
+    const std::vector<LightSource>& sources, const std::vector<Receiver>& receivers, const Bounds& bounds)
 {
     std::vector<float> squares(sources.size(), 0), light(sources.size());
     float mean_sum = 0;
@@ -171,9 +152,9 @@ LightMultisets make_light_multisets(
     result.entries = lists.static_indices();
     for (const shared::LightList& list : lists.lists()) // for outside every cluster, that is all
         result.ranges.push_back({ list.first_static, list.static_count });
-    std::vector<Source> sources;
+    std::vector<LightSource> sources;
     for (const Emitter& emitter : static_emitters)
-        sources.push_back(make_source(emitter));
+        sources.push_back(make_light_source(emitter));
     const size_t cluster_count = lists.lists().size() - 1;
     const std::vector<ClusterFaces> faces = collect_faces(bsp, cluster_count);
     const size_t points
@@ -184,7 +165,7 @@ LightMultisets make_light_multisets(
         if (list.static_count == 0)
             continue;
         const std::span indices = std::span(lists.static_indices()).subspan(list.first_static, list.static_count);
-        std::vector<Source> listed;
+        std::vector<LightSource> listed;
         for (const uint32_t index : indices)
             listed.push_back(sources[index]);
         const Bounds bounds = lists.cluster_bounds(cluster);

@@ -7,6 +7,7 @@ add_library(vkpt_lights STATIC
     ${CMAKE_CURRENT_LIST_DIR}/face_pieces.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_lists.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_multisets.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/light_trees.cpp
     ${CMAKE_CURRENT_LIST_DIR}/ltc_table.cpp
     ${CMAKE_CURRENT_LIST_DIR}/outlines.cpp
     ${CMAKE_CURRENT_LIST_DIR}/point_lights.cpp

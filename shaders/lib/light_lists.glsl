@@ -13,10 +13,11 @@ VKPT_BUFFER(EmitterOutlineBuffer, EmitterOutline, 8);
 VKPT_BUFFER(LightListBuffer, LightList, 16);
 VKPT_BUFFER(LightIndexBuffer, uint, 4);
 VKPT_BUFFER(LightMultisetBuffer, LightMultiset, 8);
+VKPT_BUFFER(LightTreeBuffer, LightTreeNode, 8);
 VKPT_BUFFER(LightstyleBuffer, float, 4);
 VKPT_BUFFER(BspTreeBuffer, BspTreeNode, 8);
 
-// Addresses of all tables: eight bytes each in the order below, then the count.
+// Addresses of all tables: eight bytes each in the order below, then the counts.
 struct LightTables {
     EmitterBuffer emitters;
     EmitterOutlineBuffer outlines;
@@ -24,9 +25,13 @@ struct LightTables {
     LightIndexBuffer static_indices;
     LightIndexBuffer dynamic_indices;
     LightMultisetBuffer multisets;    // one per list
+    LightTreeBuffer tree_nodes;
+    LightIndexBuffer tree_roots;      // one per list: which node its tree begins with
+    LightIndexBuffer tree_places;     // where the light of a static index is among the tree's
     LightstyleBuffer lightstyles;     // one scale per lightstyle
     BspTreeBuffer tree;
     uint list_count;
+    uint tree_lights; // so many static indices behind a list's lights they are once more, in its tree's order
 };
 
 // One list, ready to be read.

@@ -30,7 +30,9 @@ LightTables light_tables()
 {
     return LightTables(EmitterBuffer(frame.scene.emitters), EmitterOutlineBuffer(frame.scene.emitter_outlines), LightListBuffer(frame.scene.light_lists),
         LightIndexBuffer(frame.scene.static_light_indices), LightIndexBuffer(frame.scene.dynamic_light_indices),
-        LightMultisetBuffer(frame.scene.light_multisets), LightstyleBuffer(frame.scene.lightstyles), BspTreeBuffer(frame.scene.bsp_tree), frame.scene.light_list_count);
+        LightMultisetBuffer(frame.scene.light_multisets), LightTreeBuffer(frame.scene.light_trees), LightIndexBuffer(frame.scene.light_tree_roots),
+        LightIndexBuffer(frame.scene.light_tree_places), LightstyleBuffer(frame.scene.lightstyles), BspTreeBuffer(frame.scene.bsp_tree),
+        frame.scene.light_list_count, frame.scene.light_tree_lights);
 }
 
 float lightstyle_scale(uint lightstyle) { return LightstyleBuffer(frame.scene.lightstyles).v[lightstyle]; }

@@ -42,6 +42,14 @@ BspTreeNode fetch_BspTreeNode(uint64_t table, uint index)
     return BspTreeNode(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), b.x, b.y);
 }
 
+LightTreeNode fetch_LightTreeNode(uint64_t table, uint index)
+{
+    uint64_t address = table + uint64_t(index * 48u);
+    vec4 a = uintBitsToFloat(load_texel(address, 0u)), b = uintBitsToFloat(load_texel(address, 1u));
+    uvec4 c = load_texel(address, 2u);
+    return LightTreeNode(a.xyz, a.w, b.xyz, b.w, uintBitsToFloat(c.x), c.y, c.z, c.w);
+}
+
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer LightIndexWords { uint v[]; };
 
 // Of the static lights.

@@ -150,6 +150,9 @@ struct SceneView {
     uint64_t static_light_indices;
     uint64_t dynamic_light_indices;
     uint64_t light_multisets; // among the static indices, one per list
+    uint64_t light_trees; // LightTreeNode
+    uint64_t light_tree_roots; // a node's number per list
+    uint64_t light_tree_places; // a uint per static index
     // The same for samples that repeat the last view's random numbers, see LightLists::repeat(). 0: nothing has changed.
     uint64_t repeated_lists;
     uint64_t repeated_light_indices;
@@ -158,6 +161,7 @@ struct SceneView {
     uint64_t lightstyles; // a float each
     uint64_t bsp_tree;
     uint light_list_count; // clusters + 1
+    uint light_tree_lights; // see LightTables
     Sky sky;
 };
 

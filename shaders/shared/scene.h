@@ -108,6 +108,21 @@ VKPT_ASSERT_SIZE(LightMultiset, 8);
 // An entry of the static indices: emitter index, and above it the binary logarithm of how often the light is there, 0 in lists.
 VKPT_CONST uint LIGHT_COPIES_SHIFT = 27u;
 
+// A list's static lights as a binary tree of their bounds, in preorder: the first child lies right behind its parent. The lights are in
+// an order of their own, in which each node's follow one another. See ref_vkpt/lights/light_trees.hpp.
+struct LightTreeNode {
+    vec3 centre; // of a sphere that holds the lights
+    float radius;
+    vec3 axis;         // of a cone that holds the directions that they face
+    float cone_cosine; // of its half angle; -1: all directions
+    float power;       // luminance times area, lightstyles at 1
+    uint second; // how many nodes behind its parent the second child lies; 0: a leaf
+    uint first_count; // lights of the first child
+    uint padding;
+};
+VKPT_ASSERT_SIZE(LightTreeNode, 48);
+VKPT_CONST uint LIGHT_TREE_LEAF = 8u; // a leaf has so many lights at most
+
 // BSP tree for finding a point's cluster. child >= 0: node; < 0: cluster -(child + 2), where -1 stands for solid (cluster -1).
 struct BspTreeNode {
     vec3 normal;

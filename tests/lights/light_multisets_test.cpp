@@ -1,40 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "glsl_libraries.hpp"
+#include "lamp_hall.hpp"
 #include "ref_vkpt/lights/light_multisets.hpp"
 #include "sampler_case.hpp"
-#include "synthetic_bsp.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <map>
-#include <random>
 
 namespace vkpt::test {
 namespace {
 
 using shared::Emitter;
 
-// One open hall of cells, each a cluster, lamps of very different strength all over its ceiling.
-class Hall : public testing::Test {
+class Hall : public LampHall, public testing::Test {
 protected:
-    static constexpr int size = 6;
-
     explicit Hall(size_t lamp_count = 120)
-        : bsp(make_cell_map(size, std::vector<bool>(size_t(size * size), true)))
+        : LampHall(lamp_count)
+        , multisets(make_light_multisets(bsp, lists, lamps))
     {
-        std::uniform_real_distribution<float> unit(0, 1);
-        for (size_t i = 0; i < lamp_count; i++) {
-            Emitter lamp {};
-            lamp.p0
-                = glm::vec3(cell_size * float(size) * unit(rng), cell_size * float(size) * unit(rng), cell_size - 4);
-            lamp.p1 = lamp.p0 + glm::vec3(0, 6, 0);
-            lamp.p2 = lamp.p0 + glm::vec3(6, 0, 0);
-            lamp.radiance = glm::vec3(std::exp(5 * unit(rng)));
-            lamps.push_back(lamp);
-        }
-        lists.build(bsp, lamps);
-        multisets = make_light_multisets(bsp, lists, lamps);
     }
 
     glsl::LightTables tables() const
@@ -48,8 +33,6 @@ protected:
         return tables;
     }
 
-    int cluster_at(glm::vec3 p) const { return bsp.find_cluster(p); }
-
     // How often each light of a cluster is in its multiset.
     std::map<uint32_t, size_t> count_copies(size_t cluster) const
     {
@@ -60,10 +43,6 @@ protected:
         return copies;
     }
 
-    std::mt19937 rng { 3 };
-    formats::Bsp bsp;
-    std::vector<Emitter> lamps;
-    LightLists lists;
     LightMultisets multisets;
 };
 
@@ -158,17 +137,12 @@ TEST_F(Hall, ShadersFindEveryEntry)
 // What it is all for: less error than with each light once, on average over the points of the floor.
 TEST_F(Hall, ErrorIsLowerThanWithEachLightOnce)
 {
-    const auto find_sampler = [](std::string_view name) {
-        return *std::ranges::find(all_samplers(), name, [](const Sampler& s) { return std::string_view(s.name); });
-    };
     const Sampler once = find_sampler("subset_dynamic"), likely = find_sampler("subset_pps");
     constexpr int points = 40, draws = 200, quadrature = 8;
     double error_once = 0, error_likely = 0;
     for (int point = 0; point < points; point++) {
         ListCase scene;
-        std::uniform_real_distribution<float> unit(0, 1);
-        scene.point.position
-            = glm::vec3(cell_size * float(size) * unit(rng), cell_size * float(size) * unit(rng), 0.1f);
+        scene.point.position = point_on_floor();
         const int cluster = cluster_at(scene.point.position);
         ASSERT_GE(cluster, 0);
         scene.emitters = lamps;

@@ -13,14 +13,6 @@
 namespace vkpt::test {
 namespace {
 
-const Sampler& find_sampler(std::string_view name)
-{
-    for (const Sampler& sampler : all_samplers())
-        if (sampler.name == name)
-            return sampler;
-    throw std::runtime_error("no such sampler");
-}
-
 // Positions of the lights that the sampler weighs, -1 where a stride gives none.
 std::vector<int> drawn_positions(uint32_t stream, size_t count, uint32_t subset_length)
 {

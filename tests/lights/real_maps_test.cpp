@@ -4,6 +4,8 @@
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "ref_vkpt/lights/light_multisets.hpp"
+#include "ref_vkpt/lights/light_trees.hpp"
+#include "sampler_case.hpp"
 #include "synthetic_bsp.hpp"
 
 #include <algorithm>
@@ -13,6 +15,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
 #include <random>
 
 namespace vkpt::test {
@@ -99,8 +102,8 @@ SightCount count_missed(
         const int cluster = bsp.find_cluster(from);
         const size_t emitter = rng() % emitters.size();
         const Emitter& e = emitters[emitter];
-        const bool is_behind = e.type != shared::EMITTER_SPHERE
-            && !(glm::dot(glm::cross(e.p1 - e.p0, e.p2 - e.p0), from - e.p0) > 0);
+        const bool is_behind
+            = e.type != shared::EMITTER_SPHERE && !(glm::dot(glm::cross(e.p1 - e.p0, e.p2 - e.p0), from - e.p0) > 0);
         if (cluster < 0 || is_behind || !is_line_clear(bsp, from, point_on_emitter(e, rng)))
             continue;
         count.seen++;
@@ -177,6 +180,95 @@ TEST(RealMaps, ListsAreMadeFast)
         EXPECT_LT(build + build_multisets, 2000); // four times the aim: the machine may be busy
         EXPECT_GE(multisets.entries.size(), 2 * lists.static_indices().size() - emitters.emitters.size());
         EXPECT_LT(update, 2);
+    }
+}
+
+// A map's lists, multisets and trees as the shaders have them.
+struct LitMap {
+    explicit LitMap(const formats::Bsp& bsp_)
+        : bsp(bsp_)
+    {
+        scene.emitters = extract_emitters(bsp, grey, {}).emitters;
+        lists.build(bsp, scene.emitters);
+        multisets = make_light_multisets(bsp, lists, scene.emitters);
+        trees = make_light_trees(lists, scene.emitters);
+        scene.static_indices = multisets.entries;
+        scene.tree_lights = uint32_t(scene.static_indices.size());
+        scene.static_indices.insert(scene.static_indices.end(), trees.lights.begin(), trees.lights.end());
+        scene.tree_places = trees.places;
+    }
+
+    // Whether a surface at `p` can be lit at all.
+    bool move_to(glm::vec3 p, glm::vec3 normal)
+    {
+        const int cluster = bsp.find_cluster(p);
+        if (cluster < 0 || lists.lists()[size_t(cluster)].static_count == 0)
+            return false;
+        scene.range = lists.lists()[size_t(cluster)];
+        scene.multiset = multisets.ranges[size_t(cluster)];
+        const auto root = trees.nodes.begin() + trees.roots[size_t(cluster)];
+        const size_t leaves = scene.range.static_count;
+        scene.tree_nodes.assign(
+            root, root + std::min<std::ptrdiff_t>(trees.nodes.end() - root, 2 * std::ptrdiff_t(leaves)));
+        scene.point.position = p;
+        scene.point.normal = scene.point.view = normal;
+        scene.point.roughness = 0.9f;
+        return true;
+    }
+
+    const formats::Bsp& bsp;
+    LightLists lists;
+    LightMultisets multisets;
+    LightTrees trees;
+    ListCase scene;
+};
+
+// Relative mean square error of one unshadowed sample at points all over the map: the median of the points, as a few
+// have lights right beside them.
+TEST(RealMaps, TreesAreAsGoodAsSubsets)
+{
+    if (find_maps().empty())
+        GTEST_SKIP() << "VKPT_TEST_MAPS names no folder with maps";
+    constexpr int points = 150, draws = 200;
+    for (const std::filesystem::path& path : find_maps()) {
+        const formats::Bsp bsp = load_map(path);
+        LitMap map(bsp);
+        const SurfacePoints surface(bsp);
+        std::mt19937 rng(5);
+        std::map<std::string, std::vector<double>> errors;
+        for (int tries = 0; tries < 10 * points && errors["full"].size() < points; tries++) {
+            const size_t at = rng() % surface.triangles.size();
+            const auto& t = surface.triangles[at];
+            if (!map.move_to(
+                    point_in_triangle(t[0], t[1], t[2], rng) + 0.1f * surface.normals[at], surface.normals[at]))
+                continue;
+            const double truth = all_samplers().front().integrate(map.scene, 1);
+            if (!(truth > 0))
+                continue;
+            for (const Sampler& sampler : all_samplers()) {
+                if (sampler.mis || sampler.is_biased())
+                    continue;
+                double sum = 0, squares = 0;
+                for (int i = 0; i < draws; i++) {
+                    const double light = sampler.sample_lights(map.scene, make_draw(rng), {});
+                    sum += light / draws;
+                    squares += light * light / draws;
+                }
+                errors[sampler.name].push_back(squares / (sum * sum) - 1);
+            }
+        }
+        std::string line;
+        std::map<std::string, double> median;
+        for (auto& [name, values] : errors) {
+            std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(values.size() / 2));
+            median[name] = values[values.size() / 2];
+            line += fmt::format(" {} {:.3f}", name, median[name]);
+        }
+        fmt::print("{}: {:.0f} lights a list,{}\n", bsp.name,
+            double(map.lists.static_indices().size()) / double(map.lists.lists().size()), line);
+        // About as good as the eight best lights of a subset; far better than any light.
+        EXPECT_LT(median["light_tree"], 1.2 * median["subset"]) << bsp.name;
+        EXPECT_LT(median["light_tree"], 0.25 * median["uniform"]) << bsp.name;
     }
 }
 

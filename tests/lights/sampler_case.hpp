@@ -20,14 +20,21 @@ struct ShadingPoint {
     float roughness = 0.5f, metallic = 0;
 };
 
-// A light list in memory, its static part once more as a multiset. Emitters that are not in it are part of the scene, too: BSDF rays may meet them.
+// A light list in memory, its static part once more as a multiset and as a tree. Emitters that are not in it are part of the scene, too: BSDF rays may meet them.
 struct ListCase {
     std::vector<shared::Emitter> emitters;
     std::vector<uint32_t> static_indices, dynamic_indices;
     std::vector<float> lightstyles = std::vector<float>(256, 1.0f);
     shared::LightList range {};
     shared::LightMultiset multiset {};
+    // See make_tree().
+    std::vector<shared::LightTreeNode> tree_nodes;
+    std::vector<uint32_t> tree_places; // by static index
+    uint32_t tree_lights = 0; // so many static indices behind the list
     ShadingPoint point;
+
+    // Whenever the static lights have changed: who descends it needs it.
+    void make_tree();
 
     bool contains(uint32_t emitter) const
     {
@@ -104,5 +111,6 @@ private:
 
 std::vector<Sampler>& all_samplers();
 bool register_sampler(const Sampler& sampler);
+const Sampler& find_sampler(std::string_view name); // throws: there is none
 
 } // namespace vkpt::test

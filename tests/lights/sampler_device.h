@@ -37,6 +37,9 @@ struct DeviceCase {
     uint64_t static_indices;
     uint64_t dynamic_indices;
     uint64_t multisets; // one
+    uint64_t tree_roots; // one
+    uint64_t tree_nodes;
+    uint64_t tree_places;
     uint64_t lightstyles;
     uint64_t ltc;
     uint64_t draws;
@@ -52,9 +55,9 @@ struct DeviceCase {
     vec3 normal;
     vec3 view;
     vec3 albedo;
-    uint padding;
+    uint tree_lights;
 };
-VKPT_ASSERT_SIZE(DeviceCase, 160);
+VKPT_ASSERT_SIZE(DeviceCase, 184);
 
 VKPT_CONST uint SAMPLER_GROUP = 64u; // lanes, an estimate each
 

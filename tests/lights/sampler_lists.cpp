@@ -68,6 +68,7 @@ void fill_list(ListCase& list, const std::vector<uint32_t>& indices)
             list.static_indices.end(), size_t(1) << exponent, *index | exponent << shared::LIGHT_COPIES_SHIFT);
     }
     list.multiset.count = uint32_t(list.static_indices.size()) - list.multiset.first;
+    list.make_tree();
 }
 
 void make_dark(shared::Emitter& e, size_t how)

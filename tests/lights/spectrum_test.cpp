@@ -15,14 +15,6 @@ constexpr int frames = 2;
 constexpr float rough = 0.8f, glossy = 0.2f;
 const uint32_t* const blue = blue_noise_words.data();
 
-const Sampler& find_sampler(std::string_view name)
-{
-    for (const Sampler& sampler : all_samplers())
-        if (sampler.name == name)
-            return sampler;
-    throw std::invalid_argument(fmt::format("there is no sampler {}", name));
-}
-
 class SpectrumOfError : public testing::Test {
 protected:
     static SpectrumScene::Error measure(

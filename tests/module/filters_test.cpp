@@ -247,7 +247,7 @@ TEST_F(FiltersAndLists, ErrorStays)
 {
     const Radiance reference = session_->accumulate(300);
     session_->set("pt_accumulate", 0);
-    for (const char* sampler : { "subset", "subset_dynamic", "subset_pps", "subset_mis_blue", "uniform" }) {
+    for (const char* sampler : { "subset", "subset_dynamic", "subset_pps", "subset_mis_blue", "light_tree", "uniform" }) {
         session_->set("pt_light_sampler", sampler);
         const auto error = [&](auto count_of_frame) {
             session_->load_map("room");
@@ -302,7 +302,7 @@ TEST_F(Filters, ANewLightIsSeenAtOnce)
     session_->set("flt_taa", "off");
     const engine::DynamicLight light { { 0, 0, 100 }, { 1, 1, 1 }, 400 };
     session_->view.dlights = &light;
-    for (const char* sampler : { "subset", "subset_dynamic", "subset_pps", "subset_mis_blue", "uniform" }) {
+    for (const char* sampler : { "subset", "subset_dynamic", "subset_pps", "subset_mis_blue", "light_tree", "uniform" }) {
         session_->set("pt_light_sampler", sampler);
         session_->load_map("room");
         session_->view.dlight_count = 0;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// An emitter as what is prepared ahead sees it: as a disc, or as a sphere that looks like one from everywhere.
+#pragma once
+
+#include "ref_vkpt/lights/luminance.hpp"
+#include "shaders/shared/scene.h"
+
+#include <numbers>
+
+namespace vkpt {
+
+struct LightSource {
+    glm::vec3 centre, normal; // unit; normal 0: a sphere
+    float area; // that is seen from its front
+    float power; // luminance, lightstyle at 1, times area
+};
+
+inline LightSource make_light_source(const shared::Emitter& e)
+{
+    if (e.type == shared::EMITTER_SPHERE) {
+        const float disc = std::numbers::pi_v<float> * e.p1.x * e.p1.x;
+        return { e.p0, glm::vec3(0), disc, luminance(e.radiance) * disc };
+    }
+    const glm::vec3 across = glm::cross(e.p1 - e.p0, e.p2 - e.p0);
+    const float size = glm::length(across), area = 0.5f * size;
+    return { (e.p0 + e.p1 + e.p2) / 3.0f, size > 0 ? across / size : glm::vec3(0), area, luminance(e.radiance) * area };
+}
+
+} // namespace vkpt

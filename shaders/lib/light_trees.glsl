@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Trees of a list's static lights (ref_vkpt/lights/light_trees.hpp): the descent, and with it the choice of a light.
+#ifndef VKPT_LIB_LIGHT_TREES
+#define VKPT_LIB_LIGHT_TREES
+
+#include "light_subsets.glsl"
+
+// Where the bounds say that no light can be sent, or arrive, they may err by rounding: then it counts as this much.
+const float least_tree_cosine = 0.01f;
+// What tells best among a node's lights is neither what it may send at most, by its bounds, nor what its centre would, but a mixture; and
+// near or inside of the sphere, some of the lights are nearer than the centre. Chosen by the error in five maps
+// (tests/lights/real_maps_test.cpp).
+const float share_of_bound = 0.3f, nearest_square = 0.4f;
+
+// The root of x >= 0, to 0.09 %.
+float quick_root(float x) { return x * quick_inversesqrt(quick_max(x, 1e-20f)); }
+
+// The cosine of an angle less another one, both in [0, pi], or 1 where that is below 0.
+float cosine_of_difference(float cosine, float less_cosine, float less_sine)
+{
+    float sine = quick_root(quick_max(1.0f - cosine * cosine, 0.0f));
+    return cosine >= less_cosine ? 1.0f : cosine * less_cosine + sine * less_sine;
+}
+
+// Of directions up to some angle off the one to the centre. `spread`: 0 they are all that one, 1 they are everywhere.
+float likely_cosine(float at_centre, float at_most, float spread)
+{
+    const float mean_of_all = 0.25f; // of the cosine, where it is above 0, over all directions
+    float likely = mix(quick_max(at_centre, 0.0f), mean_of_all, spread);
+    return mix(likely, quick_max(at_most, least_tree_cosine), share_of_bound);
+}
+
+// What the node's lights are likely to send to the surface, were nothing in between: power, cosines at the lights and at the surface,
+// over the square of the distance. A leaf's lights are weighed one by one later.
+float weigh_tree_node(LightTreeNode node, Surface s)
+{
+    vec3 to_centre = node.centre - s.position;
+    float distance2 = quick_max(dot(to_centre, to_centre), 1e-12f), inverse = quick_inversesqrt(distance2);
+    // Half the angle that the sphere takes up; inside of it a right one.
+    float sine = quick_min(node.radius * inverse, 1.0f), cosine = quick_root(quick_max(1.0f - sine * sine, 0.0f));
+    float at_surface = dot(s.normal, to_centre) * inverse, at_lights = -dot(node.axis, to_centre) * inverse;
+    // Added to the cone's: past pi its sine is below 0, and everything is possible.
+    float cone_sine = quick_root(quick_max(1.0f - node.cone_cosine * node.cone_cosine, 0.0f));
+    float open_sine = cone_sine * cosine + node.cone_cosine * sine, open_cosine = node.cone_cosine * cosine - cone_sine * sine;
+    bool is_open = open_sine <= 0.0f;
+    float arriving = likely_cosine(at_surface, cosine_of_difference(at_surface, cosine, sine), sine * sine);
+    float sent = likely_cosine(at_lights, is_open ? 1.0f : cosine_of_difference(at_lights, open_cosine, open_sine),
+        is_open ? 1.0f : 0.5f - 0.5f * open_cosine);
+    return node.power * arriving * sent / quick_max(distance2, nearest_square * node.radius * node.radius);
+}
+
+// A run of the list's static lights, in the tree's order.
+struct TreeLeaf {
+    uint first;
+    uint count;
+    float probability;
+    float rest; // of the random number
+};
+
+// Before the descent: no lights, which is what a list without static ones has.
+TreeLeaf make_tree_leaf(float xi)
+{
+    TreeLeaf leaf;
+    leaf.first = 0u;
+    leaf.count = 0u;
+    leaf.probability = 1.0f;
+    leaf.rest = xi;
+    return leaf;
+}
+
+// The leaf that `xi` leads to; with `place` >= 0, the one that holds that place of the tree's order. The list has static lights.
+TreeLeaf descend_tree(LightListView list, Surface s, float xi, int place)
+{
+    uint number = list.tables.tree_roots.v[list.index];
+    TreeLeaf leaf = make_tree_leaf(xi);
+    leaf.count = list.range.static_count;
+    uint second = 0u, first_count = 0u;
+    if (leaf.count > LIGHT_TREE_LEAF) {
+        LightTreeNode root = VKPT_FETCH(LightTreeNode, list.tables.tree_nodes, number);
+        second = root.second;
+        first_count = root.first_count;
+    }
+    while (second != 0u) {
+        LightTreeNode a = VKPT_FETCH(LightTreeNode, list.tables.tree_nodes, number + 1u);
+        LightTreeNode b = VKPT_FETCH(LightTreeNode, list.tables.tree_nodes, number + second);
+        float weight_a = weigh_tree_node(a, s), total = weight_a + weigh_tree_node(b, s);
+        float share = total > 0.0f ? weight_a / total : 0.5f;
+        bool takes_b = place >= 0 ? uint(place) >= leaf.first + first_count : leaf.rest >= share;
+        float chance = takes_b ? 1.0f - share : share;
+        leaf.probability *= chance;
+        leaf.rest = quick_clamp((takes_b ? leaf.rest - share : leaf.rest) / chance, 0.0f, max_below_one);
+        leaf.first += takes_b ? first_count : 0u;
+        leaf.count = takes_b ? leaf.count - first_count : first_count;
+        number += takes_b ? second : 1u;
+        second = takes_b ? b.second : a.second;
+        first_count = takes_b ? b.first_count : a.first_count;
+    }
+    return leaf;
+}
+
+LightListView lights_of_leaf(LightListView list, TreeLeaf leaf)
+{
+    list.range.first_static += list.tables.tree_lights + leaf.first;
+    list.range.static_count = list.counted = leaf.count;
+    list.range.dynamic_count = 0u;
+    return list;
+}
+
+// A leaf of the static lights, and a subset of the dynamic ones with one light of each stride. With probability p of the leaf, T
+// strides, and sums of weights W and V, a light of weight w is picked with probability w / (W / p + T V), whichever part it is from:
+// as in sample_subsets_of_parts, 1 / p standing for the static part's strides.
+LightSample sample_tree(LightListView list, Surface s, LightRandom random, LightOptions options)
+{
+    if (light_count(list) == 0u)
+        return no_light();
+    LightListView moving = dynamic_lights(list);
+    SubsetChoice of_dynamic = choose_subset(moving.counted, random.light, options.subset_length);
+    LightPredictor predictor = make_predictor(s, options);
+    TreeLeaf leaf = make_tree_leaf(of_dynamic.rest);
+    if (list.range.static_count > 0u)
+        leaf = descend_tree(list, predictor.s, of_dynamic.rest, -1);
+    Reservoir others = make_reservoir(0.0f);
+    if (light_count(moving) > 0u) {
+        uint state = start_fast_random(random.more);
+        others = sweep_subset(moving, predictor, of_dynamic, next_fast_random(state));
+        others.total *= float(of_dynamic.stride) * leaf.probability;
+    }
+    SubsetChoice all_of_leaf = choose_subset(leaf.count, leaf.rest, LIGHT_TREE_LEAF);
+    LightSample result = sample_subset_in_two_sweeps(lights_of_leaf(list, leaf), predictor, all_of_leaf, others, random);
+    result.probability *= leaf.probability;
+    return result;
+}
+
+// A static light is in one leaf, and a dynamic one in one subset; the other part is as `random` has it.
+float tree_probability(LightListView list, Surface s, uint emitter, LightRandom random, LightOptions options)
+{
+    int place = find_light(list, emitter);
+    if (place < 0)
+        return 0.0f;
+    LightListView moving = dynamic_lights(list);
+    SubsetChoice of_dynamic = choose_subset(moving.counted, random.light, options.subset_length);
+    LightPredictor predictor = make_predictor(s, options);
+    uint static_count = list.range.static_count;
+    bool is_static = uint(place) < static_count;
+    if (!is_static)
+        of_dynamic.offset = remainder_whole(uint(place) - static_count, of_dynamic.stride);
+    float total = float(of_dynamic.stride) * weigh_lights(moving, predictor, of_dynamic.offset, of_dynamic.stride);
+    if (static_count > 0u) {
+        int place_in_tree = is_static ? int(list.tables.tree_places.v[list.range.first_static + uint(place)]) : -1;
+        TreeLeaf leaf = descend_tree(list, predictor.s, of_dynamic.rest, place_in_tree);
+        total += weigh_lights(lights_of_leaf(list, leaf), predictor, 0u, 1u) / leaf.probability;
+    }
+    float weight = weigh_emitter(list, predictor, emitter);
+    return weight > 0.0f ? weight / total : 0.0f;
+}
+
+#endif
