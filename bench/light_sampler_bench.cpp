@@ -37,8 +37,8 @@ struct Case {
 const Case base { "subset", 8 };
 const std::vector<Case> all_cases { base, { "subset", 16 }, { "subset", 32 }, { "subset", 64 },
     { "subset_onesweep", 8 }, { "subset_dynamic", 8 }, { "subset_pps", 8 }, { "subset_strides", 8 },
-    { "subset_mis", 8 }, { "subset_mis_biased", 8 }, { "subset_mis_blue", 8 }, { "light_tree", 8 }, { "ris", 8 }, { "uniform", 8 },
-    { "full", 8 } };
+    { "subset_mis", 8 }, { "subset_mis_biased", 8 }, { "subset_mis_blue", 8 }, { "light_tree", 8 }, { "ris", 8 },
+    { "uniform", 8 }, { "full", 8 } };
 
 std::set<std::string> sampler_names()
 {
@@ -88,8 +88,8 @@ public:
         if (!options.filtered)
             host.cvars = { { "flt_denoiser", "off" }, { "flt_taa", "off" } };
         host_ = std::make_unique<client::Host>(host, &files_);
-        host_->extension().time_every_pass();
         scene_.register_with(*host_);
+        host_->extension().time_every_pass();
     }
 
     Milliseconds measure(const Case& wanted)

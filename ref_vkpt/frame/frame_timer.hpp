@@ -53,7 +53,7 @@ public:
 private:
     struct Slot {
         VkQueryPool pool = VK_NULL_HANDLE;
-        std::vector<const char*> names; // one a stretch; empty: the frame was not ended
+        std::vector<const char*> names; // one a stretch
         bool has_view = false, times_passes = false;
     };
     void read_back(uint32_t frame_slot);
