@@ -30,9 +30,9 @@ float likely_cosine(float at_centre, float at_most, float spread)
     return mix(likely, quick_max(at_most, least_tree_cosine), share_of_bound);
 }
 
-// What the node's lights are likely to send to the surface, were nothing in between: power, cosines at the lights and at the surface,
-// over the square of the distance. A leaf's lights are weighed one by one later.
-float weigh_tree_node(LightTreeNode node, Surface s)
+// What the node's lights are likely to send to the surface, were nothing in between, by the node's own bounds: power, cosines at the
+// lights and at the surface, over the square of the distance.
+float weigh_tree_bounds(LightTreeNode node, Surface s)
 {
     vec3 to_centre = node.centre - s.position;
     float distance2 = quick_max(dot(to_centre, to_centre), 1e-12f), inverse = quick_inversesqrt(distance2);
@@ -47,6 +47,21 @@ float weigh_tree_node(LightTreeNode node, Surface s)
     float sent = likely_cosine(at_lights, is_open ? 1.0f : cosine_of_difference(at_lights, open_cosine, open_sine),
         is_open ? 1.0f : 0.5f - 0.5f * open_cosine);
     return node.power * arriving * sent / quick_max(distance2, nearest_square * node.radius * node.radius);
+}
+
+LightTreeNode load_tree_node(LightListView list, uint number)
+{
+    return VKPT_FETCH(LightTreeNode, list.tables.tree_nodes, number);
+}
+
+// Where the surface is inside of the node's sphere, its children's bounds tell more than its own. A leaf's lights are weighed one by
+// one later.
+float weigh_tree_node(LightListView list, LightTreeNode node, uint number, Surface s)
+{
+    vec3 to_centre = node.centre - s.position;
+    if (node.second == 0u || dot(to_centre, to_centre) > node.radius * node.radius)
+        return weigh_tree_bounds(node, s);
+    return weigh_tree_bounds(load_tree_node(list, number + 1u), s) + weigh_tree_bounds(load_tree_node(list, number + node.second), s);
 }
 
 // A run of the list's static lights, in the tree's order.
@@ -76,14 +91,14 @@ TreeLeaf descend_tree(LightListView list, Surface s, float xi, int place)
     leaf.count = list.range.static_count;
     uint second = 0u, first_count = 0u;
     if (leaf.count > LIGHT_TREE_LEAF) {
-        LightTreeNode root = VKPT_FETCH(LightTreeNode, list.tables.tree_nodes, number);
+        LightTreeNode root = load_tree_node(list, number);
         second = root.second;
         first_count = root.first_count;
     }
     while (second != 0u) {
-        LightTreeNode a = VKPT_FETCH(LightTreeNode, list.tables.tree_nodes, number + 1u);
-        LightTreeNode b = VKPT_FETCH(LightTreeNode, list.tables.tree_nodes, number + second);
-        float weight_a = weigh_tree_node(a, s), total = weight_a + weigh_tree_node(b, s);
+        LightTreeNode a = load_tree_node(list, number + 1u), b = load_tree_node(list, number + second);
+        float weight_a = weigh_tree_node(list, a, number + 1u, s);
+        float total = weight_a + weigh_tree_node(list, b, number + second, s);
         float share = total > 0.0f ? weight_a / total : 0.5f;
         bool takes_b = place >= 0 ? uint(place) >= leaf.first + first_count : leaf.rest >= share;
         float chance = takes_b ? 1.0f - share : share;

@@ -149,7 +149,7 @@ TEST(LightTrees, ErrorIsLowerThanOfSubsetsWhereListsAreLong)
             tree_error += std::pow(tree.sample_lights(scene, draw, {}) / truth - 1, 2);
         }
     }
-    EXPECT_LT(tree_error, 0.3 * subset_error);
+    EXPECT_LT(tree_error, 0.2 * subset_error);
     RecordProperty("ratio", std::to_string(tree_error / subset_error));
 }
 
