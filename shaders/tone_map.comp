@@ -63,7 +63,7 @@ vec3 shown_colour(uvec2 pixel)
         place = sway(place);
     vec3 radiance = sample_radiance(place);
     if ((frame.flags & FRAME_BLOOM) != 0u)
-        radiance = mix(radiance, sample_bloom_level(frame.screen.bloom.address, bloom_size(), place), frame.cvars.pt_bloom);
+        radiance = mix(radiance, sample_bloom_level(frame.screen.bloom.address, frame.bloom_size, place), frame.cvars.pt_bloom);
     vec3 exposed = radiance * ExposureBuffer(frame.exposure).v.exposure;
     vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve(exposed) : quick_clamp(exposed, 0.0, 1.0);
     vec3 colour = mix(encode_srgb(display), frame.blend.rgb, frame.blend.a);

@@ -204,7 +204,8 @@ void Frame::begin_bloom(shared::FrameUniforms& uniforms)
     if (uniforms.cvars.pt_bloom <= 0 || std::min(size.x, size.y) < least_bloom_size)
         return;
     uniforms.flags |= shared::FRAME_BLOOM;
-    uniforms.bloom_step = shared::BLOOM_FIRST_STEP << uint32_t(std::max(finer_bloom_levels(size), 0));
+    const uint32_t step = shared::BLOOM_FIRST_STEP << uint32_t(std::max(finer_bloom_levels(size), 0));
+    uniforms.bloom_size = count_blocks(size, glm::uvec2(step));
 }
 
 // All but the last level. The first level's result is what the next view accumulates on.

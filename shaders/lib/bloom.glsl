@@ -22,7 +22,4 @@ vec3 sample_bloom_level(uint64_t level, uvec2 size, vec2 place)
         mix(load_bloom_level(level, size, first + ivec2(0, 1)), load_bloom_level(level, size, first + ivec2(1)), part.x), part.y);
 }
 
-// Of the level that is the result.
-uvec2 bloom_size() { return (frame.resolved_size + frame.bloom_step - 1u) / frame.bloom_step; }
-
 #endif

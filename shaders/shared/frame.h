@@ -185,7 +185,7 @@ struct FrameUniforms {
     uint64_t ray_counts; // RayCounts where FRAME_COUNT_RAYS
     uint probe_count;
     uvec2 size;          // pixels rendered
-    uint bloom_step;     // pixels of `resolved`, in either direction, for one of `bloom`, where FRAME_BLOOM
+    uvec2 bloom_size;    // pixels of the level of `bloom` that is its result, where FRAME_BLOOM
     uvec2 resolved_size; // pixels of the buffers `resolved` and `accumulated`: more where anti-aliasing upscales
     uint64_t output_words; // the picture that is shown: a word a pixel, RGBA, red in the lowest byte, sRGB-encoded
     uint output_across;  // its pixels in a row
