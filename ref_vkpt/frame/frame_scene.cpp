@@ -39,7 +39,8 @@ GpuWorld upload_world(const World& world, Uploader& uploader)
     static uint64_t versions = 0;
     GpuWorld gpu;
     LightMultisets multisets = make_light_multisets(world.bsp, world.light_lists, world.models[0].emitters);
-    const LightTrees trees = make_light_trees(world.light_lists, world.models[0].emitters);
+    const LightTrees trees
+        = make_light_trees(world.light_lists.lists(), world.light_lists.static_indices(), world.models[0].emitters);
     gpu.light_tree_lights = uint32_t(multisets.entries.size());
     multisets.entries.insert(multisets.entries.end(), trees.lights.begin(), trees.lights.end());
     gpu.light_indices = uploader.make_buffer(multisets.entries, MemoryKind::lights, "light lists");

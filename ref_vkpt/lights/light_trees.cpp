@@ -226,24 +226,15 @@ private:
 
 } // namespace
 
-LightTrees make_light_trees(const LightLists& lists, std::span<const Emitter> static_emitters)
+LightTrees make_light_trees(std::span<const shared::LightList> lists, std::span<const uint32_t> static_indices,
+    std::span<const Emitter> static_emitters)
 {
     LightTrees trees;
-    trees.lights.resize(lists.static_indices().size());
-    trees.places.resize(lists.static_indices().size());
+    trees.lights.resize(static_indices.size());
+    trees.places.resize(static_indices.size());
     TreeBuilder builder(trees, static_emitters);
-    for (const shared::LightList& list : lists.lists())
-        builder.append(
-            list.first_static, std::span(lists.static_indices()).subspan(list.first_static, list.static_count));
-    return trees;
-}
-
-LightTrees make_light_tree(std::span<const uint32_t> indices, std::span<const Emitter> emitters)
-{
-    LightTrees trees;
-    trees.lights.resize(indices.size());
-    trees.places.resize(indices.size());
-    TreeBuilder(trees, emitters).append(0, indices);
+    for (const shared::LightList& list : lists)
+        builder.append(list.first_static, static_indices.subspan(list.first_static, list.static_count));
     return trees;
 }
 

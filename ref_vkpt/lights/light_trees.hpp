@@ -5,7 +5,6 @@
 // the way to it.
 #pragma once
 
-#include "ref_vkpt/lights/light_lists.hpp"
 #include "shaders/shared/scene.h"
 
 #include <span>
@@ -15,16 +14,15 @@ namespace vkpt {
 
 struct LightTrees {
     std::vector<shared::LightTreeNode> nodes;
-    std::vector<uint32_t>
-        roots; // one per list: which of the nodes its tree begins with. A list without lights has no tree.
-    // As long as LightLists::static_indices(), each list where it is there: its emitters in the tree's order, and for
-    // each of its places the place in that order.
+    // One per list: which of the nodes its tree begins with. A list without lights has no tree.
+    std::vector<uint32_t> roots;
+    // As long as the static indices, each list where it is there: its emitters in the tree's order, and for each of its
+    // places the place in that order.
     std::vector<uint32_t> lights, places;
 };
 
-// At map load, for the static lists.
-LightTrees make_light_trees(const LightLists& lists, std::span<const shared::Emitter> static_emitters);
-// Of a single list, which is all of `indices`.
-LightTrees make_light_tree(std::span<const uint32_t> indices, std::span<const shared::Emitter> emitters);
+// At map load, for the static part of all lists (see LightLists).
+LightTrees make_light_trees(std::span<const shared::LightList> lists, std::span<const uint32_t> static_indices,
+    std::span<const shared::Emitter> static_emitters);
 
 } // namespace vkpt

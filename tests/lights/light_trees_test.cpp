@@ -17,6 +17,18 @@ namespace {
 using shared::Emitter;
 using shared::LightTreeNode;
 
+LightTrees make_trees(const LampHall& hall)
+{
+    return make_light_trees(hall.lists.lists(), hall.lists.static_indices(), hall.lamps);
+}
+
+// Of one list that is all of `indices`.
+LightTrees make_tree(std::span<const uint32_t> indices, std::span<const Emitter> emitters)
+{
+    const shared::LightList list { 0, uint32_t(indices.size()), 0, 0 };
+    return make_light_trees(std::span(&list, 1), indices, emitters);
+}
+
 // What lies in a node: its lights follow one another in the tree's order.
 struct Part {
     size_t node, first, count, depth;
@@ -81,7 +93,7 @@ void expect_sound(const LightTrees& trees, size_t list, size_t first, std::span<
 TEST(LightTrees, HoldWhatTheyBound)
 {
     const LampHall hall(700);
-    const LightTrees trees = make_light_trees(hall.lists, hall.lamps);
+    const LightTrees trees = make_trees(hall);
     ASSERT_EQ(trees.roots.size(), hall.lists.lists().size());
     for (size_t i = 0; i < trees.roots.size(); i++) {
         const shared::LightList& list = hall.lists.lists()[i];
@@ -97,12 +109,12 @@ TEST(LightTrees, HoldSpheresDarkLightsAndOnesInOnePlace)
         scene.emitters.resize(330, scene.emitters[7]);
         std::vector<uint32_t> indices(scene.emitters.size());
         std::iota(indices.begin(), indices.end(), 0u);
-        expect_sound(make_light_tree(indices, scene.emitters), 0, 0, indices, scene.emitters);
+        expect_sound(make_tree(indices, scene.emitters), 0, 0, indices, scene.emitters);
     }
-    EXPECT_TRUE(make_light_tree({}, {}).nodes.empty());
+    EXPECT_TRUE(make_tree({}, {}).nodes.empty());
     const Emitter nothing {};
     const uint32_t first = 0;
-    const LightTrees trees = make_light_tree(std::span(&first, 1), std::span(&nothing, 1));
+    const LightTrees trees = make_tree(std::span(&first, 1), std::span(&nothing, 1));
     ASSERT_EQ(trees.nodes.size(), 1u);
     EXPECT_TRUE(std::isfinite(trees.nodes[0].radius) && std::isfinite(trees.nodes[0].cone_cosine));
 }
@@ -111,7 +123,7 @@ TEST(LightTrees, LeavesAreSmall)
 {
     // Nodes are as small as what they hold is near to each other: on average over the leaves a tenth of the hall.
     const LampHall hall(3000);
-    const LightTrees trees = make_light_trees(hall.lists, hall.lamps);
+    const LightTrees trees = make_trees(hall);
     const shared::LightList& list = hall.lists.lists()[0];
     double sum = 0, leaves = 0;
     for (const Part& part : walk(trees, trees.roots[0], list.static_count))
@@ -126,7 +138,7 @@ TEST(LightTrees, LeavesAreSmall)
 TEST(LightTrees, ErrorIsLowerThanOfSubsetsWhereListsAreLong)
 {
     LampHall hall(3000);
-    const LightTrees trees = make_light_trees(hall.lists, hall.lamps);
+    const LightTrees trees = make_trees(hall);
     const Sampler &subset = find_sampler("subset_dynamic"), &tree = find_sampler("light_tree");
     constexpr int points = 30, draws = 200;
     double subset_error = 0, tree_error = 0;
@@ -138,10 +150,8 @@ TEST(LightTrees, ErrorIsLowerThanOfSubsetsWhereListsAreLong)
         scene.emitters = hall.lamps;
         scene.static_indices = hall.lists.static_indices();
         scene.range = hall.lists.lists()[size_t(cluster)];
-        scene.tree_lights = uint32_t(scene.static_indices.size());
-        scene.static_indices.insert(scene.static_indices.end(), trees.lights.begin(), trees.lights.end());
-        scene.tree_places = trees.places;
-        scene.tree_nodes.assign(trees.nodes.begin() + trees.roots[size_t(cluster)], trees.nodes.end());
+        scene.take_trees(trees);
+        scene.tree_root = trees.roots[size_t(cluster)];
         const double truth = tree.integrate(scene, 2);
         for (int i = 0; i < draws; i++) {
             const Draw draw = make_draw(hall.rng);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Light lists of maps that nobody of this project made: set VKPT_TEST_MAPS to a folder of BSP files.
+// Light lists of maps that nobody of this project made: set VKPT_TEST_MAPS to a folder of BSP files. What samplers are
+// worth is tested in our own map in any case.
 #include "glsl_libraries.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
@@ -166,7 +167,8 @@ TEST(RealMaps, ListsAreMadeFast)
         const double build_multisets
             = measure_milliseconds([&] { multisets = make_light_multisets(bsp, lists, emitters.emitters); });
         LightTrees trees;
-        const double build_trees = measure_milliseconds([&] { trees = make_light_trees(lists, emitters.emitters); });
+        const double build_trees = measure_milliseconds(
+            [&] { trees = make_light_trees(lists.lists(), lists.static_indices(), emitters.emitters); });
         const SurfacePoints surface(bsp);
         std::vector<Emitter> dynamic;
         for (int i = 0; i < 32; i++) {
@@ -196,11 +198,9 @@ struct LitMap {
         scene.emitters = extract_emitters(bsp, grey, {}).emitters;
         lists.build(bsp, scene.emitters);
         multisets = make_light_multisets(bsp, lists, scene.emitters);
-        trees = make_light_trees(lists, scene.emitters);
+        trees = make_light_trees(lists.lists(), lists.static_indices(), scene.emitters);
         scene.static_indices = multisets.entries;
-        scene.tree_lights = uint32_t(scene.static_indices.size());
-        scene.static_indices.insert(scene.static_indices.end(), trees.lights.begin(), trees.lights.end());
-        scene.tree_places = trees.places;
+        scene.take_trees(trees);
     }
 
     // Whether a surface at `p` can be lit at all.
@@ -211,10 +211,7 @@ struct LitMap {
             return false;
         scene.range = lists.lists()[size_t(cluster)];
         scene.multiset = multisets.ranges[size_t(cluster)];
-        const auto root = trees.nodes.begin() + trees.roots[size_t(cluster)];
-        const size_t leaves = scene.range.static_count;
-        scene.tree_nodes.assign(
-            root, root + std::min<std::ptrdiff_t>(trees.nodes.end() - root, 2 * std::ptrdiff_t(leaves)));
+        scene.tree_root = trees.roots[size_t(cluster)];
         scene.point.position = p;
         scene.point.normal = scene.point.view = normal;
         scene.point.roughness = 0.9f;
@@ -232,10 +229,10 @@ struct LitMap {
 // have lights right beside them.
 TEST(RealMaps, TreesAreBetterThanSubsets)
 {
-    if (find_maps().empty())
-        GTEST_SKIP() << "VKPT_TEST_MAPS names no folder with maps";
     constexpr int points = 150, draws = 200;
-    for (const std::filesystem::path& path : find_maps()) {
+    std::vector<std::filesystem::path> maps = find_maps();
+    maps.emplace_back(VKPT_OUR_MAP);
+    for (const std::filesystem::path& path : maps) {
         const formats::Bsp bsp = load_map(path);
         LitMap map(bsp);
         const SurfacePoints surface(bsp);

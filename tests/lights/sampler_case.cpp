@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "sampler_case.hpp"
 
-#include "ref_vkpt/lights/light_trees.hpp"
-
 #include <stdexcept>
 #include <string>
 
 namespace vkpt::test {
 
-void ListCase::make_tree()
+void ListCase::make_tree() { take_trees(make_light_trees(std::span(&range, 1), static_indices, emitters)); }
+
+void ListCase::take_trees(const LightTrees& trees)
 {
-    const LightTrees trees
-        = make_light_tree(std::span(static_indices).subspan(range.first_static, range.static_count), emitters);
+    tree_root = 0;
     tree_nodes = trees.nodes;
-    tree_places.assign(range.first_static, 0);
-    tree_places.insert(tree_places.end(), trees.places.begin(), trees.places.end());
-    tree_lights = uint32_t(static_indices.size()) - range.first_static;
+    tree_places = trees.places;
+    tree_lights = uint32_t(static_indices.size());
     static_indices.insert(static_indices.end(), trees.lights.begin(), trees.lights.end());
 }
 

@@ -2,6 +2,7 @@
 // The light samplers as C++: every file of shaders/light_samplers, compiled into a namespace of its own.
 #pragma once
 
+#include "ref_vkpt/lights/light_trees.hpp"
 #include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
 #include "shaders/shared/ltc.h"
@@ -27,14 +28,17 @@ struct ListCase {
     std::vector<float> lightstyles = std::vector<float>(256, 1.0f);
     shared::LightList range {};
     shared::LightMultiset multiset {};
-    // See make_tree().
+    // See make_tree() and take_trees().
     std::vector<shared::LightTreeNode> tree_nodes;
     std::vector<uint32_t> tree_places; // by static index
+    uint32_t tree_root = 0;
     uint32_t tree_lights = 0; // so many static indices behind the list
     ShadingPoint point;
 
     // Whenever the static lights have changed: who descends it needs it.
     void make_tree();
+    // Those of all lists of the static indices; whose root tree_root is, is left to the caller.
+    void take_trees(const LightTrees& trees);
 
     bool contains(uint32_t emitter) const
     {

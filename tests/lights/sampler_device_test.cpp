@@ -118,7 +118,7 @@ protected:
         c.static_indices = upload(padded(list.static_indices));
         c.dynamic_indices = upload(padded(list.dynamic_indices));
         c.multisets = upload(std::vector { list.multiset });
-        c.tree_roots = upload(std::vector { 0u });
+        c.tree_roots = upload(std::vector { list.tree_root });
         c.tree_nodes = upload(list.tree_nodes);
         c.tree_places = upload(padded(list.tree_places));
         c.tree_lights = list.tree_lights;

@@ -101,6 +101,16 @@ Radiance Session::accumulate(int frames)
     return capture();
 }
 
+std::vector<std::string> Session::timed_passes()
+{
+    size_t count = 0;
+    const PassTime* times = extension().pass_times(&count);
+    std::vector<std::string> names;
+    for (size_t i = 0; i < count; i++)
+        names.emplace_back(times[i].name);
+    return names;
+}
+
 formats::Image Session::capture_display()
 {
     const ImageSize size = extension().frame_size();

@@ -42,6 +42,8 @@ public:
     // A converged picture: `frames` frames averaged from the start.
     Radiance accumulate(int frames);
     formats::Image capture_display();
+    // Of the last frame that they were timed in, in order.
+    std::vector<std::string> timed_passes();
     // Irradiance / pi.
     std::vector<glm::vec3> probe(std::span<const IrradianceProbe> probes, uint32_t samples);
 

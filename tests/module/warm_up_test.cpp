@@ -27,12 +27,7 @@ std::vector<std::string> draw_passes(const GameFolder& folder)
     session.extension().time_every_pass();
     session.draw(3);
     session.capture();
-    size_t count = 0;
-    const PassTime* times = session.extension().pass_times(&count);
-    std::vector<std::string> passes;
-    for (size_t i = 0; i < count; i++)
-        passes.emplace_back(times[i].name);
-    return passes;
+    return session.timed_passes();
 }
 
 TEST(ShaderWarmUp, CompilesEveryPassOfTheFrameOnce)
