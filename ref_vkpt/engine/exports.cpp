@@ -346,6 +346,9 @@ void run_command(void (*function)()) { guard("a console command", function); }
 
 } // namespace vkpt
 
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wreturn-type-c-linkage" // C has no such class; C callers see the struct it stands for
+#endif
 extern "C" [[gnu::visibility("default")]] vkpt::ReturnedTable GetRefAPI(vkpt::engine::Imports imports)
 {
     return vkpt::ReturnedTable(imports);

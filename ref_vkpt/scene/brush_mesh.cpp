@@ -22,8 +22,7 @@ std::vector<uint32_t> find_texinfos(std::span<const shared::Triangle> triangles)
     for (const shared::Triangle& triangle : triangles)
         texinfos.push_back(triangle.material);
     std::ranges::sort(texinfos);
-    const auto repeated = std::ranges::unique(texinfos);
-    texinfos.erase(repeated.begin(), repeated.end());
+    texinfos.erase(std::unique(texinfos.begin(), texinfos.end()), texinfos.end());
     return texinfos;
 }
 

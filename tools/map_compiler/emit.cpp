@@ -119,7 +119,7 @@ int BspWriter::emit_leaf(const Tree& tree, const Node& node)
             faces_->collect(face, seen);
     }
     std::ranges::sort(seen);
-    seen.erase(std::ranges::unique(seen).begin(), seen.end());
+    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
     for (const int face : seen)
         if (face_numbers_[size_t(face)] >= 0)
             bsp_.leaf_faces.push_back(uint16_t(face_numbers_[size_t(face)]));

@@ -255,7 +255,7 @@ private:
             }
         }
         Winding result(winding);
-        std::ranges::rotate(result, result.begin() + long(best));
+        std::rotate(result.begin(), result.begin() + long(best), result.end());
         return result;
     }
 
