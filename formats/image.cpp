@@ -109,6 +109,7 @@ IndexedImage read_pcx(Bytes file, std::string_view name)
     image.width = header.x_max - header.x_min + 1;
     image.height = header.y_max - header.y_min + 1;
     check_image_size(reader, 4, image.width, image.height);
+    check_pixel_budget(reader, image.width, image.height);
     image.palette = read_trailing_palette(reader);
 
     ByteReader data(file.first(file.size() - pcx_palette_size - 1), name);

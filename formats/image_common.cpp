@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// PNG and JPG by stb; PFM.
+// The choice of a reader by a file's content; writing PNG (by stb) and PFM.
 #include "formats/byte_writer.hpp"
-#include "formats/image_jpg_check.hpp"
+#include "formats/image_jpg.hpp"
+#include "formats/image_png.hpp"
 #include "formats/image_size.hpp"
 #include "formats/image_tga.hpp"
-
-#include <cstdlib>
-#include <memory>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpragmas"
@@ -15,13 +13,6 @@
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wsign-compare"
 #pragma GCC diagnostic ignored "-Wshadow"
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
-#define STBI_NO_STDIO
-#define STBI_MAX_DIMENSIONS 16384
-#include <stb/stb_image.h>
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #define STBI_WRITE_NO_STDIO
@@ -30,72 +21,12 @@
 
 namespace formats {
 
-static_assert(STBI_MAX_DIMENSIONS == max_image_size);
-
-namespace {
-
-constexpr std::array<uint8_t, 8> png_signature { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
-constexpr std::array<uint8_t, 2> jpg_signature { 0xff, 0xd8 };
-
-template <size_t N> bool starts_with(Bytes file, const std::array<uint8_t, N>& signature)
-{
-    return file.size() >= N && std::memcmp(file.data(), signature.data(), N) == 0;
-}
-
-// What a PNG unpacks to, in bytes, from its IHDR chunk.
-size_t unpacked_png_size(Bytes file, std::string_view name, size_t width, size_t height)
-{
-    constexpr std::array<size_t, 7> channels { 1, 0, 3, 1, 2, 0, 4 }; // by colour type
-    ByteReader reader(file, name);
-    reader.seek(24);
-    const auto bits = reader.read<uint8_t>(), type = reader.read<uint8_t>();
-    if (type >= channels.size() || bits > 16)
-        reader.fail_at(24, "PNG: unknown pixel format");
-    return height * ((width * channels[type] * bits + 7) / 8 + 1);
-}
-
-// Refuses a picture that the file is too small to hold, before memory is taken for it.
-void check_density(Bytes file, std::string_view name, size_t width, size_t height)
-{
-    constexpr size_t deflate_limit = 1040; // bytes out of one byte in, 1032 by the format
-    constexpr size_t jpg_pixels_per_byte = 1024; // one bit for a block of 8 x 8, halved for reserve
-    const bool too_dense = starts_with(file, png_signature)
-        ? unpacked_png_size(file, name, width, height) / deflate_limit > file.size()
-        : width * height / jpg_pixels_per_byte > file.size();
-    if (too_dense)
-        throw FormatError(
-            name, 0, "too little data for a picture of " + std::to_string(width) + " x " + std::to_string(height));
-}
-
-Image read_by_stb(Bytes file, std::string_view name)
-{
-    const auto* data = reinterpret_cast<const stbi_uc*>(file.data());
-    if (file.size() > size_t(INT32_MAX))
-        throw FormatError(name, 0, "the file is larger than 2 GiB");
-    if (starts_with(file, jpg_signature))
-        check_huffman_tables(file, name);
-    int width = 0, height = 0, channels = 0;
-    const auto fail
-        = [&] { throw FormatError(name, 0, std::string("not a readable picture: ") + stbi_failure_reason()); };
-    if (!stbi_info_from_memory(data, int(file.size()), &width, &height, &channels))
-        fail();
-    check_image_size(ByteReader(file, name), 0, width, height);
-    check_density(file, name, size_t(width), size_t(height));
-    const std::unique_ptr<stbi_uc, decltype(&std::free)> pixels(
-        stbi_load_from_memory(data, int(file.size()), &width, &height, &channels, STBI_rgb_alpha), &std::free);
-    if (!pixels)
-        fail();
-    Image image { width, height, std::vector<Rgba8>(size_t(width) * size_t(height)) };
-    std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(Rgba8));
-    return image;
-}
-
-} // namespace
-
 Image read_common_image(Bytes file, std::string_view name)
 {
-    if (starts_with(file, png_signature) || starts_with(file, jpg_signature))
-        return read_by_stb(file, name);
+    if (is_png(file))
+        return read_png(file, name);
+    if (is_jpg(file))
+        return read_jpg(file, name);
     return read_tga(file, name);
 }
 

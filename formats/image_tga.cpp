@@ -53,6 +53,7 @@ public:
                 "not a picture that can be read (neither PNG nor JPG; as TGA: type " + std::to_string(header_.type)
                     + ", " + std::to_string(header_.bits) + " bits)");
         check_image_size(reader_, 12, number(header_.width), number(header_.height));
+        check_pixel_budget(reader_, number(header_.width), number(header_.height));
         reader_.take(header_.id_size);
         read_map();
     }

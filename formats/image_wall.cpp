@@ -24,6 +24,7 @@ struct WallHeader {
 void read_size(ByteReader& reader, WallInfo& info, uint32_t width, uint32_t height)
 {
     check_image_size(reader, reader.position(), width, height);
+    check_pixel_budget(reader, width, height);
     info.width = int(width);
     info.height = int(height);
 }
