@@ -49,23 +49,11 @@ void add_registrations(Json& info, const trace::TraceReader& reader)
     info["skin_registrations"] = skins;
 }
 
-void add_contents(Json& info, trace::TraceReader& reader)
-{
-    size_t entities = 0, dlights = 0, particles = 0;
-    for (size_t i = 0; i < reader.frame_count(); i++)
-        for (const trace::View& view : reader.frame(i).views) {
-            entities = std::max(entities, view.entities.size());
-            dlights = std::max(dlights, view.dlights.size());
-            particles = std::max(particles, view.particles.size());
-        }
-    info["most_at_once"] = { { "entities", entities }, { "dlights", dlights }, { "particles", particles } };
-}
-
 } // namespace
 
 Json make_trace_info(const std::filesystem::path& path)
 {
-    trace::TraceReader reader(path);
+    const trace::TraceReader reader(path);
     const size_t frames = reader.frame_count();
     Json info;
     info["schema"] = trace_info_schema;
@@ -81,7 +69,9 @@ Json make_trace_info(const std::filesystem::path& path)
     info["frames_with_2d_only"] = reader.totals().frames - std::min<uint32_t>(reader.totals().frames, uint32_t(frames));
     add_facts(info, reader.facts());
     add_registrations(info, reader);
-    add_contents(info, reader);
+    const trace::TraceReader::Most& most = reader.most();
+    info["most_at_once"]
+        = { { "entities", most.entities }, { "dlights", most.dlights }, { "particles", most.particles } };
     return info;
 }
 

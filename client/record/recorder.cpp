@@ -17,8 +17,6 @@ using trace::CallKind;
 
 namespace {
 
-// Variables of the engine's that change how the module shows a view.
-constexpr const char* watched_settings[][2] = { { "hand", "0" }, { "r_gunfov", "80" }, { "vid_gamma", "1.2" } };
 // Variables that tell how the frames came about.
 constexpr const char* fact_variables[] = { "version", "timedemo", "fixedtime", "cl_predict", "game", "record_demo" };
 
@@ -62,7 +60,7 @@ void Recorder::note_start(int width, int height)
 
 void Recorder::note_settings()
 {
-    for (const auto& [name, initial] : watched_settings) {
+    for (const auto& [name, initial] : trace::recorded_settings) {
         const std::string text = engine::get_cvar(name, initial, engine::CVAR_NONE)->text;
         const auto [known, is_new] = settings_.try_emplace(name, text);
         if (!is_new && known->second == text)

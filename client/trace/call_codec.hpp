@@ -58,7 +58,8 @@ private:
             return;
         }
         coder.text(name);
-        numbers_.emplace(name, number);
+        if constexpr (Coder::is_encoder)
+            numbers_.emplace(name, number);
         names_.push_back(name);
     }
 

@@ -89,6 +89,15 @@ struct Call {
     bool operator==(const Call&) const = default;
 };
 
+// The console variables that a trace holds: of the engine's, those that change how the module shows a view. No other is
+// taken from a file, as some make the module write files.
+struct RecordedSetting {
+    const char *name, *initial;
+};
+inline constexpr std::array<RecordedSetting, 3> recorded_settings {
+    { { "hand", "0" }, { "r_gunfov", "80" }, { "vid_gamma", "1.2" } }
+};
+
 inline constexpr size_t max_area_bytes = 32; // 256 areas, a bit each
 
 // A RefDef that owns what it points to; its pointers are not used.

@@ -12,10 +12,31 @@ namespace vkpt::trace {
 
 namespace {
 
-// No chunk of ours comes near: a frame's calls end it.
-constexpr uint32_t max_raw_bytes = 1u << 28;
+// What no recorder comes near, so that a small file cannot take a machine's memory and time. A chunk ends with the frame
+// that brings it to 1 MiB or 64 views; the largest frames are films and consoles that fill a large window.
+constexpr uint32_t max_chunk_bytes = 32u << 20; // unpacked
+constexpr uint64_t max_chunk_memory = 128ull << 20; // as calls and views
+constexpr uint64_t max_kept_memory = 64ull << 20; // of what is kept of all chunks: what lasts, and facts
+// By the size of the file; 1 MiB for smaller ones.
+constexpr uint64_t max_unpacked_ratio = 128, max_memory_ratio = 2048;
 // Deflate's best.
 constexpr uint64_t max_ratio = 1040;
+
+uint64_t memory_of(const Call& call)
+{
+    return sizeof call + call.name.size() + call.text.size() + call.data.size();
+}
+
+uint64_t memory_of(const View& view)
+{
+    return sizeof view + view.entities.size() * sizeof view.entities[0] + view.dlights.size() * sizeof view.dlights[0]
+        + view.particles.size() * sizeof view.particles[0];
+}
+
+bool is_recorded(const std::string& setting)
+{
+    return std::ranges::any_of(recorded_settings, [&](const RecordedSetting& s) { return setting == s.name; });
+}
 
 } // namespace
 
@@ -67,7 +88,8 @@ bool TraceReader::read_chunk_header(uint64_t offset, ChunkHeader& header)
     file_.read(reinterpret_cast<char*>(&header), sizeof header);
     if (!file_ || header.crc != header_crc(header))
         fail(offset, "the file is damaged here; record it anew");
-    if (header.raw_bytes > max_raw_bytes || header.raw_bytes > max_ratio * (uint64_t(header.packed_bytes) + 1))
+    if (header.raw_bytes > max_chunk_bytes || header.raw_bytes > max_ratio * (uint64_t(header.packed_bytes) + 1)
+        || header.packed_bytes > compressBound(header.raw_bytes))
         fail(offset, "a chunk of impossible size");
     return file_bytes_ - offset - sizeof header >= header.packed_bytes;
 }
@@ -88,43 +110,55 @@ std::vector<std::byte> TraceReader::read_payload(const Chunk& chunk)
     return raw;
 }
 
-// The chunk's frames; on_call(call, number of the frame in the chunk, inside) sees every call.
-template <class OnCall> std::vector<Frame> TraceReader::decode(const Chunk& chunk, OnCall on_call)
+// on_call(call, number of the frame in the chunk, inside) sees every call, on_frame(frame) every shown frame after them.
+// What all of it takes in memory.
+template <class OnCall, class OnFrame>
+uint64_t TraceReader::decode(const Chunk& chunk, OnCall on_call, OnFrame on_frame)
 {
     const std::vector<std::byte> raw = read_payload(chunk);
     Decoder decoder(raw, path_.string() + ", chunk at byte " + std::to_string(chunk.offset));
     CallCodec call_codec;
     ViewCodec view_codec;
-    std::vector<Frame> frames;
     Frame current;
-    std::vector<Call> lasting; // of the current frame: whether they stand inside a shown one is known at its end
+    std::vector<size_t> lasting; // of the current frame: whether they stand inside a shown one is known at its end
+    size_t frames = 0;
     bool is_open = false;
+    uint64_t memory = 0;
+    const auto count = [&](uint64_t bytes) {
+        memory += bytes;
+        decoder.check(memory <= max_chunk_memory, "no recorder writes a chunk that takes so much memory");
+    };
     const auto close = [&](bool is_shown) {
-        for (const Call& call : lasting)
-            on_call(call, frames.size(), is_shown);
+        for (const size_t call : lasting)
+            on_call(current.calls[call], frames, is_shown);
         lasting.clear();
-        if (is_shown)
-            frames.push_back(std::move(current));
+        if (is_shown) {
+            on_frame(std::move(current));
+            frames++;
+        }
         current = {};
     };
     while (!decoder.is_at_end()) {
         Call call;
         call_codec.code(decoder, call);
+        count(memory_of(call));
+        if (call.kind == CallKind::setting)
+            decoder.check(is_recorded(call.name), "a setting that no recorder writes; record it anew");
         if (call.kind == CallKind::begin_frame) {
             close(false);
             is_open = true;
         }
         if (call.kind == CallKind::render_view) {
-            View view;
+            View skipped;
+            View& view = is_open ? current.views.emplace_back() : skipped;
             view_codec.code(decoder, view);
-            if (is_open)
-                current.views.push_back(std::move(view));
+            count(memory_of(view));
         }
         const bool is_last = is_open && call.kind == CallKind::end_frame;
         if (is_lasting(call.kind) && is_open)
-            lasting.push_back(call);
+            lasting.push_back(current.calls.size());
         else
-            on_call(call, frames.size(), false);
+            on_call(call, frames, false);
         if (is_open)
             current.calls.push_back(std::move(call));
         if (is_last) {
@@ -133,7 +167,7 @@ template <class OnCall> std::vector<Frame> TraceReader::decode(const Chunk& chun
         }
     }
     close(false);
-    return frames;
+    return memory;
 }
 
 void TraceReader::index_chunks()
@@ -159,26 +193,50 @@ void TraceReader::index_chunks()
     }
 }
 
-void TraceReader::index_chunk(Chunk chunk)
+void TraceReader::index_chunk(const Chunk& chunk)
 {
-    const std::vector<Frame> frames = decode(chunk, [&](const Call& call, size_t frame, bool is_inside) {
-        totals_.calls++;
-        totals_.frames += call.kind == CallKind::end_frame;
-        totals_.views += call.kind == CallKind::render_view;
-        note(call, chunk.first_frame + frame, is_inside);
-    });
-    for (const Frame& frame : frames)
-        times_.push_back(frame.views.front().refdef.time);
-    if (!frames.empty())
+    const uint64_t size = std::max<uint64_t>(file_bytes_, 1 << 20);
+    unpacked_ += chunk.header.raw_bytes;
+    if (unpacked_ > max_unpacked_ratio * size)
+        fail(chunk.offset, "it unpacks to more than " + std::to_string(max_unpacked_ratio) + " times its size");
+    memory_ += decode(
+        chunk,
+        [&](const Call& call, size_t frame, bool is_inside) {
+            totals_.calls++;
+            totals_.frames += call.kind == CallKind::end_frame;
+            totals_.views += call.kind == CallKind::render_view;
+            note(call, chunk.first_frame + frame, is_inside);
+            if (kept_ > max_kept_memory)
+                fail(chunk.offset, "more registrations, settings and facts than any recorder writes");
+        },
+        [&](const Frame& frame) { index_frame(frame); });
+    if (memory_ > max_memory_ratio * size)
+        fail(chunk.offset, "it holds more calls than any recorder puts into its size");
+    if (times_.size() > chunk.first_frame)
         chunks_.push_back(chunk);
+}
+
+void TraceReader::index_frame(const Frame& frame)
+{
+    const float time = frame.views.front().refdef.time;
+    const double passed = times_.empty() ? 0 : double(time) - double(times_.back());
+    seconds_.push_back((seconds_.empty() ? 0 : seconds_.back()) + (passed > 0 ? passed : 0)); // no NaN
+    times_.push_back(time);
+    for (const View& view : frame.views) {
+        most_.entities = std::max(most_.entities, view.entities.size());
+        most_.dlights = std::max(most_.dlights, view.dlights.size());
+        most_.particles = std::max(most_.particles, view.particles.size());
+    }
 }
 
 void TraceReader::note(const Call& call, size_t frame, bool is_inside)
 {
+    const bool is_fact = call.kind == CallKind::fact || call.kind == CallKind::file || call.kind == CallKind::screen;
     if (is_lasting(call.kind))
         lasting_calls_.push_back({ frame, is_inside, call });
-    if (call.kind == CallKind::fact || call.kind == CallKind::file || call.kind == CallKind::screen)
+    if (is_fact)
         facts_.push_back(call);
+    kept_ += is_fact || is_lasting(call.kind) ? memory_of(call) : 0;
 }
 
 void TraceReader::check_totals(const Chunk& chunk)
@@ -205,20 +263,16 @@ uint32_t count_views(const std::filesystem::path& path)
     return views;
 }
 
-double TraceReader::seconds(size_t frame) const
-{
-    double sum = 0;
-    for (size_t i = 1; i <= frame; i++)
-        sum += std::max(double(times_[i]) - double(times_[i - 1]), 0.0);
-    return sum;
-}
-
 const Frame& TraceReader::frame(size_t number)
 {
     const auto after = std::ranges::upper_bound(chunks_, number, {}, &Chunk::first_frame);
     const size_t place = size_t(after - chunks_.begin()) - 1;
     if (place != decoded_chunk_) {
-        decoded_ = decode(chunks_[place], [](const Call&, size_t, bool) {});
+        decoded_chunk_ = SIZE_MAX;
+        decoded_.clear();
+        decode(
+            chunks_[place], [](const Call&, size_t, bool) {},
+            [&](Frame&& frame) { decoded_.push_back(std::move(frame)); });
         decoded_chunk_ = place;
     }
     return decoded_[number - chunks_[place].first_frame];

@@ -28,19 +28,24 @@ bool is_lasting(CallKind kind);
 
 class TraceReader {
 public:
-    // Throws FormatError for what is no trace, damaged or of a newer version; std::system_error where it cannot be
-    // read. A file that ends too early is read up to there.
+    // Throws FormatError for what is no trace, damaged, of a newer version or more than a recorder writes;
+    // std::system_error where it cannot be read. A file that ends too early is read up to there.
     explicit TraceReader(const std::filesystem::path& path);
 
     size_t frame_count() const { return times_.size(); }
     // Engine's clock of the frame's first view, in seconds.
     float time(size_t frame) const { return times_[frame]; }
     // Since the first frame. The engine's clock starts anew with a map: what that took is not known and does not count.
-    double seconds(size_t frame) const;
+    double seconds(size_t frame) const { return seconds_[frame]; }
     const Frame& frame(size_t number); // valid until the next call
 
     // All of them in order.
     const std::vector<LastingCall>& lasting_calls() const { return lasting_calls_; }
+    // In one view, of all frames.
+    struct Most {
+        size_t entities = 0, dlights = 0, particles = 0;
+    };
+    const Most& most() const { return most_; }
     // How it was recorded, and the files that were loaded.
     const std::vector<Call>& facts() const { return facts_; }
     const TraceTotals& totals() const { return totals_; }
@@ -57,9 +62,10 @@ private:
     void read_header();
     bool read_chunk_header(uint64_t offset, ChunkHeader& header);
     std::vector<std::byte> read_payload(const Chunk& chunk);
-    template <class OnCall> std::vector<Frame> decode(const Chunk& chunk, OnCall on_call);
+    template <class OnCall, class OnFrame> uint64_t decode(const Chunk& chunk, OnCall on_call, OnFrame on_frame);
     void index_chunks();
-    void index_chunk(Chunk chunk);
+    void index_chunk(const Chunk& chunk);
+    void index_frame(const Frame& frame);
     void check_totals(const Chunk& chunk);
     void note(const Call& call, size_t frame, bool is_inside);
     [[noreturn]] void fail(uint64_t offset, const std::string& reason) const;
@@ -69,9 +75,12 @@ private:
     uint64_t file_bytes_ = 0, cut_at_ = 0;
     std::vector<Chunk> chunks_;
     std::vector<float> times_;
+    std::vector<double> seconds_;
+    Most most_;
     std::vector<LastingCall> lasting_calls_;
     std::vector<Call> facts_;
     TraceTotals totals_;
+    uint64_t unpacked_ = 0, memory_ = 0, kept_ = 0; // of the chunks so far, in bytes
 
     size_t decoded_chunk_ = SIZE_MAX;
     std::vector<Frame> decoded_;

@@ -309,6 +309,57 @@ TEST(Trace, ForeignNewerAndLyingFilesAreRefused)
     EXPECT_NE(error_of(path).find("unknown kind"), std::string::npos) << error_of(path);
 }
 
+std::string pack_chunk(const std::string& raw, uint32_t wrong_bits = 0)
+{
+    std::string packed(compressBound(uLong(raw.size())), '\0');
+    uLongf size = uLong(packed.size());
+    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(raw.data()), uLong(raw.size()));
+    packed.resize(size);
+    const ChunkHeader header { tag_calls, uint32_t(size), uint32_t(raw.size()), 0, crc_of(packed) ^ wrong_bits, 0 };
+    return bytes_of(header) + packed;
+}
+
+std::string code_calls(std::initializer_list<Call> calls)
+{
+    Encoder encoder;
+    CallCodec codec;
+    for (Call call : calls)
+        codec.code(encoder, call);
+    const std::vector<std::byte> bytes = encoder.take();
+    return { reinterpret_cast<const char*>(bytes.data()), bytes.size() };
+}
+
+// zlib's own sum, which is right here, would let it pass.
+TEST(Trace, PayloadsOwnSumCounts)
+{
+    const ScratchFolder folder;
+    const std::string raw = code_calls({ make_call(CallKind::draw_fade) });
+    folder.write("a.rtrace", bytes_of(FileHeader()) + pack_chunk(raw));
+    EXPECT_EQ(error_of(folder.path() / "a.rtrace"), "(none)");
+    folder.write("a.rtrace", bytes_of(FileHeader()) + pack_chunk(raw, 0x10000));
+    EXPECT_EQ(error_of(folder.path() / "a.rtrace"),
+        (folder.path() / "a.rtrace").string() + ": at byte 16: the file is damaged here; record it anew");
+}
+
+// A variable of the module's can name files to write.
+TEST(Trace, OnlyRecordedSettingsAreTaken)
+{
+    const ScratchFolder folder;
+    const auto error_with = [&](const std::string& name) {
+        folder.write("a.rtrace",
+            bytes_of(FileHeader())
+                + pack_chunk(code_calls({ make_call(CallKind::setting, name), make_call(CallKind::draw_fade) })));
+        return error_of(folder.path() / "a.rtrace");
+    };
+    for (const RecordedSetting& setting : recorded_settings)
+        EXPECT_EQ(error_with(setting.name), "(none)");
+    for (const char* name : { "pt_bench_json", "pt_capture_dir", "Hand", "hand ", "" }) {
+        const std::string error = error_with(name);
+        EXPECT_NE(error.find("a.rtrace, chunk at byte 16: at byte "), std::string::npos) << error;
+        EXPECT_NE(error.find("a setting that no recorder writes"), std::string::npos) << error;
+    }
+}
+
 // Sums that are right over contents that no recorder writes.
 TEST(Trace, NonsenseWithARightSumIsRefused)
 {
