@@ -238,7 +238,8 @@ Md2Model read_md2(Bytes file, std::string_view name)
     // Each table is looked up as a whole first, so that no count in the header can ask for more than the file holds.
     reader.read_array<std::array<char, skin_name_size>>(header.skins, header.skin_count, "skin names");
     reader.seek(header.skin_count > 0 ? header.skins : 0);
-    for (uint32_t i = 0; i < header.skin_count; i++)
+    // The engine chooses among the first ones only; each costs a picture.
+    for (uint32_t i = 0; i < std::min<uint32_t>(header.skin_count, max_skins); i++)
         model.skins.push_back(reader.read_string(skin_name_size));
     const Sources sources = join_corners(reader, header, model);
     if (header.frames > file.size() || header.frame_count > (file.size() - header.frames) / header.frame_size)

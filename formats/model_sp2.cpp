@@ -11,6 +11,7 @@ namespace {
 constexpr std::array<char, 4> ident { 'I', 'D', 'S', '2' };
 constexpr int32_t version = 2;
 constexpr size_t picture_name_size = 64;
+constexpr uint32_t max_frames = 32; // what the engine accepts; each costs a picture
 
 struct FrameRecord {
     int32_t width, height, origin_x, origin_y;
@@ -30,6 +31,8 @@ Sp2Sprite read_sp2(Bytes file, std::string_view name)
     const auto count = reader.read<uint32_t>();
     if (count == 0 || count > reader.remaining() / sizeof(FrameRecord))
         reader.fail_at(8, std::to_string(count) + " frames are not in the file");
+    if (count > max_frames)
+        reader.fail_at(8, std::to_string(count) + " frames, more than the engine's limit of " + std::to_string(max_frames));
     Sp2Sprite sprite;
     for (uint32_t i = 0; i < count; i++) {
         Sp2Sprite::Frame frame;

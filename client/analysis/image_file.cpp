@@ -33,13 +33,17 @@ namespace {
     throw Failure(fmt::format("cannot read {}: {}", path.string(), why));
 }
 
-void check_size(const fs::path& path, int64_t width, int64_t height)
+// Before memory is taken for the pixels: a file may ask for more than it holds.
+void check_size(const fs::path& path, size_t file_bytes, int64_t width, int64_t height)
 {
     const auto is_possible = [](int64_t n) { return n >= 1 && n <= formats::max_image_size; };
     if (!is_possible(width) || !is_possible(height))
         fail(path,
             fmt::format(
                 "it says it has {} x {} pixels; 1 to {} each are read", width, height, formats::max_image_size));
+    const size_t pixels = size_t(width) * size_t(height);
+    if (pixels > formats::max_pixels_of_any_file && pixels / formats::max_pixels_per_byte > file_bytes)
+        fail(path, fmt::format("it says it has {} x {} pixels, which its {} bytes cannot hold", width, height, file_bytes));
 }
 
 std::vector<std::byte> read_bytes(const fs::path& path)
@@ -52,9 +56,8 @@ std::vector<std::byte> read_bytes(const fs::path& path)
     if (!stream)
         fail(path, errno ? std::strerror(errno) : "unknown error");
     const std::string text { std::istreambuf_iterator<char>(stream), {} };
-    std::vector<std::byte> bytes(text.size());
-    std::memcpy(bytes.data(), text.data(), text.size());
-    return bytes;
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    return { bytes, bytes + text.size() };
 }
 
 LinearImage read_png(const fs::path& path)
@@ -116,12 +119,12 @@ LinearImage read_pfm(const fs::path& path)
         fail(path, "no portable float map: it does not begin with PF or Pf");
     const auto width = header.number<int64_t>(), height = header.number<int64_t>();
     const double scale = header.number<double>();
-    check_size(path, width, height);
+    check_size(path, bytes.size(), width, height);
     const size_t channels = kind == "PF" ? 3 : 1;
-    LinearImage image = make_image(int(width), int(height));
     const size_t row = size_t(width) * channels, wanted = header.end() + row * size_t(height) * sizeof(float);
     if (bytes.size() < wanted)
         fail(path, fmt::format("{} x {} pixels need {} bytes, it has {}", width, height, wanted, bytes.size()));
+    LinearImage image = make_image(int(width), int(height));
     for (size_t y = 0; y < size_t(height); y++)
         for (size_t i = 0; i < size_t(width) * 3; i++) {
             const size_t source = (size_t(height) - 1 - y) * row + (channels == 3 ? i : i / 3); // rows go upwards
@@ -136,13 +139,13 @@ LinearImage read_pfm(const fs::path& path)
 
 LinearImage read_exr(const fs::path& path)
 {
-    read_bytes(path); // says why where it cannot be opened, which OpenEXR does not
+    const size_t file_bytes = read_bytes(path).size(); // says why where it cannot be opened, which OpenEXR does not
     try {
         Imf::InputFile file(path.c_str(), 1);
         const Imath::Box2i window = file.header().dataWindow();
         const int64_t width = int64_t(window.max.x) - window.min.x + 1,
                       height = int64_t(window.max.y) - window.min.y + 1;
-        check_size(path, width, height);
+        check_size(path, file_bytes, width, height);
         for (const char* name : { "R", "G", "B" })
             if (!file.header().channels().findChannel(name))
                 fail(path, fmt::format("it has no channel {}", name));

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/host/file_system.hpp"
 
+#include "client/host/archive_check.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/hash.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <physfs.h>
 
 namespace vkpt::client {
@@ -31,6 +34,12 @@ std::string index_key(std::string_view game_path)
     key.erase(0, std::min(key.find_first_not_of('/'), key.size()));
     return key;
 }
+
+// What a file of an archive may unpack to: any archive 64 MB, which holds the largest textures and maps; more only in
+// proportion to the archive, as a file of zeros packs to a thousandth.
+constexpr size_t max_unpacked_bytes = size_t(64) << 20, max_unpacked_ratio = 8;
+// Folders within folders, against links that lead round in circles. The engine's names have 128 bytes.
+constexpr size_t max_folder_depth = 32, max_folders = 100000;
 
 const char* last_error() { return PHYSFS_getErrorByCode(PHYSFS_getLastErrorCode()); }
 
@@ -91,7 +100,8 @@ std::vector<fs::path> find_archives(const fs::path& folder)
 
 } // namespace
 
-FileSystem::FileSystem(const fs::path& base, const std::string& game)
+FileSystem::FileSystem(const fs::path& base, const std::string& game, Warn warn)
+    : warn_(std::move(warn))
 {
     if (!PHYSFS_init(nullptr))
         throw Failure(fmt::format("cannot start PhysicsFS: {}", last_error()));
@@ -115,14 +125,58 @@ void FileSystem::mount(const fs::path& folder)
     if (!fs::is_directory(folder))
         throw Failure(fmt::format(
             "no folder {}: name the folder that holds \"baseq2\" (and the game) with --basedir DIR", folder.string()));
-    std::vector<fs::path> places = find_archives(folder);
-    places.push_back(folder);
-    for (const fs::path& place : places) {
-        if (!PHYSFS_mount(place.c_str(), nullptr, 1))
-            throw Failure(fmt::format("cannot read {}: {}", place.string(), last_error()));
-        search_path_.push_back(place.string());
+    for (const fs::path& archive : find_archives(folder))
+        mount_archive(archive);
+    mount_place(folder);
+}
+
+void FileSystem::mount_archive(const fs::path& archive)
+{
+    try {
+        if (const std::string fault = find_archive_fault(archive); !fault.empty())
+            throw Failure(fault);
+        mount_place(archive);
+    } catch (const Failure& failure) {
+        warn_(fmt::format(
+            "{} is left out: {}; get it again, or move it away from the game's files", archive.string(), failure.what()));
     }
 }
+
+void FileSystem::mount_place(const fs::path& place)
+{
+    if (!PHYSFS_mount(place.c_str(), nullptr, 1))
+        throw Failure(fmt::format("cannot read {}: {}", place.string(), last_error()));
+    search_path_.push_back(place.string());
+}
+
+namespace {
+
+// Whether the folder of a link lies within the one that it leads to.
+bool leads_back(const fs::path& link)
+{
+    std::error_code error;
+    const fs::path target = fs::canonical(link, error), home = fs::canonical(link.parent_path(), error);
+    return error || std::ranges::mismatch(target, home).in1 == target.end();
+}
+
+// PhysicsFS tells links as links, wherever they lead.
+bool is_folder(const std::string& path, const PHYSFS_Stat& stat)
+{
+    if (stat.filetype != PHYSFS_FILETYPE_SYMLINK)
+        return stat.filetype == PHYSFS_FILETYPE_DIRECTORY;
+    const char* place = PHYSFS_getRealDir(path.c_str());
+    std::error_code ignored;
+    return place && fs::is_directory(fs::path(place) / path, ignored);
+}
+
+bool is_worth_entering(const std::string& path, const PHYSFS_Stat& stat)
+{
+    const char* place = PHYSFS_getRealDir(path.c_str());
+    return size_t(std::ranges::count(path, '/')) < max_folder_depth
+        && !(stat.filetype == PHYSFS_FILETYPE_SYMLINK && place && leads_back(fs::path(place) / path));
+}
+
+} // namespace
 
 void FileSystem::index_files()
 {
@@ -131,25 +185,48 @@ void FileSystem::index_files()
         return std::ranges::find(search_path_, place ? place : "") - search_path_.begin();
     };
     std::vector<std::string> folders = { "" };
+    size_t entered = 0;
     while (!folders.empty()) {
         const std::string folder = std::move(folders.back());
         folders.pop_back();
-        char** const names = PHYSFS_enumerateFiles(folder.c_str());
-        for (char** name = names; name && *name; name++) {
-            std::string path = folder.empty() ? *name : folder + "/" + *name;
+        if (++entered > max_folders) {
+            warn_(fmt::format("only the first {} folders of {} are searched: do links lead round in circles?", max_folders,
+                base_folder_.string()));
+            return;
+        }
+        for (const std::string& name : names_in(folder)) {
+            std::string path = folder.empty() ? name : folder + "/" + name;
             PHYSFS_Stat stat;
             if (!PHYSFS_stat(path.c_str(), &stat))
                 continue;
-            if (stat.filetype == PHYSFS_FILETYPE_DIRECTORY) {
-                folders.push_back(std::move(path));
+            if (is_folder(path, stat)) {
+                if (is_worth_entering(path, stat))
+                    folders.push_back(std::move(path));
                 continue;
             }
             std::string& known = index_[lower_case(path)];
             if (known.empty() || rank(path) < rank(known))
                 known = std::move(path);
         }
-        PHYSFS_freeList(names);
     }
+}
+
+// PhysicsFS opens files behind a link to a folder, but does not list them.
+std::set<std::string> FileSystem::names_in(const std::string& folder) const
+{
+    std::set<std::string> names;
+    char** const listed = PHYSFS_enumerateFiles(folder.c_str());
+    for (char** name = listed; name && *name; name++)
+        names.insert(*name);
+    PHYSFS_freeList(listed);
+    std::error_code ignored;
+    for (const std::string& place : search_path_) {
+        const fs::path path = fs::path(place) / folder;
+        if (!folder.empty() && fs::is_symlink(path, ignored) && fs::is_directory(path, ignored) && !leads_back(path))
+            for (const fs::directory_entry& entry : fs::directory_iterator(path, ignored))
+                names.insert(entry.path().filename().string());
+    }
+    return names;
 }
 
 void FileSystem::add_file(std::string_view game_path, const fs::path& file) { added_[index_key(game_path)] = file; }
@@ -188,18 +265,39 @@ std::optional<std::vector<std::byte>> FileSystem::read_bytes(const std::string& 
         return std::vector<std::byte>(bytes, bytes + text.size());
     }
     const auto found = index_.find(key);
-    PHYSFS_File* file = found == index_.end() ? nullptr : PHYSFS_openRead(found->second.c_str());
+    return found == index_.end() ? std::nullopt : read_mounted(found->second, game_path);
+}
+
+// Piece by piece: the size that an archive tells may be a lie.
+std::optional<std::vector<std::byte>> FileSystem::read_mounted(
+    const std::string& path, std::string_view game_path) const
+{
+    const std::unique_ptr<PHYSFS_File, decltype(&PHYSFS_close)> file(PHYSFS_openRead(path.c_str()), PHYSFS_close);
     if (!file)
         return std::nullopt;
-    const PHYSFS_sint64 size = PHYSFS_fileLength(file);
-    std::vector<std::byte> bytes(size > 0 ? size_t(size) : 0);
-    const PHYSFS_sint64 got = PHYSFS_readBytes(file, bytes.data(), bytes.size());
-    PHYSFS_close(file);
-    if (got != PHYSFS_sint64(bytes.size()))
-        throw Failure(
-            fmt::format("cannot read {} in {}: {}", game_path, PHYSFS_getRealDir(found->second.c_str()), last_error()));
+    const char* place = PHYSFS_getRealDir(path.c_str());
+    const auto refuse = [&](const std::string& why) {
+        warn_(fmt::format("{} in {} is not read: {}", game_path, place ? place : "?", why));
+        return std::nullopt;
+    };
+    const PHYSFS_sint64 size = PHYSFS_fileLength(file.get());
+    std::error_code no_file;
+    const uintmax_t archive_bytes = place && !fs::is_directory(place, no_file) ? fs::file_size(place, no_file) : 0;
+    if (archive_bytes && !no_file && size > PHYSFS_sint64(std::max(max_unpacked_bytes, archive_bytes * max_unpacked_ratio)))
+        return refuse(fmt::format("it is said to have {} bytes, in an archive of {}", size, archive_bytes));
+    constexpr size_t piece_bytes = size_t(1) << 20;
+    std::vector<std::byte> bytes;
+    for (size_t done = 0; PHYSFS_sint64(done) < size;) {
+        const size_t wanted = std::min(piece_bytes, size_t(size) - done);
+        bytes.resize(done + wanted);
+        if (PHYSFS_readBytes(file.get(), bytes.data() + done, wanted) != PHYSFS_sint64(wanted))
+            return refuse(fmt::format("it ends before the {} bytes that it is said to have ({})", size, last_error()));
+        done += wanted;
+    }
     return bytes;
 }
+
+void FileSystem::warn_on_stderr(const std::string& line) { std::fprintf(stderr, "vkpt: warning: %s\n", line.c_str()); }
 
 std::vector<std::string> FileSystem::list(std::string_view folder, std::string_view ending) const
 {

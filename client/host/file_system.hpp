@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,8 +18,10 @@ namespace vkpt::client {
 class FileSystem {
 public:
     // base: the folder that holds "baseq2", empty: the first of the usual places that does. game: a folder beside
-    // baseq2, empty: none. One FileSystem at a time. Throws Failure where no such folder is.
-    FileSystem(const std::filesystem::path& base, const std::string& game);
+    // baseq2, empty: none. One FileSystem at a time. Throws Failure where no such folder is. A damaged archive is left out,
+    // and `warn` gets a line that names it.
+    using Warn = std::function<void(const std::string& line)>;
+    FileSystem(const std::filesystem::path& base, const std::string& game, Warn warn = warn_on_stderr);
     ~FileSystem();
     FileSystem(const FileSystem&) = delete;
     FileSystem& operator=(const FileSystem&) = delete;
@@ -27,6 +31,7 @@ public:
 
     // Paths do not mind case, as in archives.
     bool exists(std::string_view game_path) const;
+    // Nothing, and a line for `warn`: a file of an archive that is damaged, or unpacks to much more than the archive holds.
     std::optional<std::vector<std::byte>> read(std::string_view game_path) const;
     // Files in `folder` with this ending, sorted.
     std::vector<std::string> list(std::string_view folder, std::string_view ending) const;
@@ -39,10 +44,16 @@ public:
     const std::vector<std::string>& search_path() const { return search_path_; }
 
 private:
+    static void warn_on_stderr(const std::string& line);
     void mount(const std::filesystem::path& folder);
+    void mount_archive(const std::filesystem::path& archive);
+    void mount_place(const std::filesystem::path& place);
     void index_files();
+    std::set<std::string> names_in(const std::string& folder) const;
+    std::optional<std::vector<std::byte>> read_mounted(const std::string& path, std::string_view game_path) const;
     std::optional<std::vector<std::byte>> read_bytes(const std::string& key, std::string_view game_path) const;
 
+    Warn warn_;
     std::filesystem::path base_folder_;
     std::vector<std::string> search_path_;
     std::map<std::string, std::string, std::less<>> index_; // lower case -> as written

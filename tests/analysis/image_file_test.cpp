@@ -61,6 +61,8 @@ TEST(ImageFile, SaysWhatIsWrong)
     const std::string pfm = text_of(formats::write_pfm(2, 2, sample));
     folder.write("short.pfm", pfm.substr(0, pfm.size() - 1));
     folder.write("header.pfm", "PF 2");
+    folder.write("empty.pfm", "");
+    folder.write("blank.pfm", "PF \n ");
     folder.write("word.pfm", "PF two 2 -1\n");
     folder.write("huge.pfm", "PF 99999999999 2 -1\n");
     folder.write("text.pfm", "what is this? ");
@@ -71,7 +73,7 @@ TEST(ImageFile, SaysWhatIsWrong)
     broken[3] = std::numeric_limits<float>::quiet_NaN();
     folder.write("nan.pfm", text_of(formats::write_pfm(2, 2, broken)));
     const std::pair<const char*, const char*> cases[]
-        = { { "short.pfm", "bytes" }, { "header.pfm", "header" }, { "word.pfm", "two" }, { "huge.pfm", "99999999999" },
+        = { { "short.pfm", "bytes" }, { "header.pfm", "header" }, { "empty.pfm", "header" }, { "blank.pfm", "header" }, { "word.pfm", "two" }, { "huge.pfm", "99999999999" },
               { "text.pfm", "PF" }, { "text.png", "text.png" }, { "text.exr", "text.exr" }, { "picture.gif", ".exr" },
               { "nan.pfm", "1 of 12" }, { "nowhere.exr", "No such file" }, { "nowhere.png", "No such file" } };
     for (const auto& [name, part] : cases) {

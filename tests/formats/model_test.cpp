@@ -161,6 +161,27 @@ TEST(Sp2, RefusesBrokenFiles)
     EXPECT_THROW(read_sp2(file, "no frames.sp2"), FormatError);
 }
 
+// Each frame and each skin is a picture to load.
+TEST(Sp2, RefusesMoreFramesThanTheEngine)
+{
+    Sp2Sprite sprite;
+    sprite.frames.resize(32);
+    EXPECT_EQ(read_sp2(write_sp2(sprite), "many.sp2").frames.size(), 32u);
+    sprite.frames.resize(33);
+    EXPECT_THROW(read_sp2(write_sp2(sprite), "more.sp2"), FormatError);
+}
+
+TEST(Md2, SkinsThatNothingCanChooseAreNotRead)
+{
+    auto file = write_md2(make_md2());
+    const size_t skins = file.size();
+    const uint32_t count = 12000, offset = uint32_t(skins);
+    file.resize(skins + count * size_t(64), std::byte { 'a' });
+    std::memcpy(file.data() + 8 + offsetof(md2_disk::Header, skin_count), &count, sizeof(count));
+    std::memcpy(file.data() + 8 + offsetof(md2_disk::Header, skins), &offset, sizeof(offset));
+    EXPECT_EQ(read_md2(file, "skins.md2").skins.size(), 32u);
+}
+
 } // namespace
 
 } // namespace formats
