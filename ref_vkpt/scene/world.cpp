@@ -167,12 +167,13 @@ Bvh build_world_bvh(const MapGeometry& geometry)
     return build_bvh(triangles, BvhQuality::best);
 }
 
-// Flowing surfaces move by one picture of 64 texels in 1.6 seconds, to the left, as players know them.
+// Flowing surfaces move by 1.6 of their pictures a second, liquids by half of one, as the engine's OpenGL renderers move
+// them.
 glm::vec2 scroll_of(const BspTexinfo& texinfo, float time)
 {
     if (!(texinfo.flags & SURF_FLOWING))
         return {};
-    const float turns = time / (texinfo.flags & SURF_WARP ? 2.0f : 1.6f);
+    const float turns = time * (texinfo.flags & SURF_WARP ? 0.5f : 1.6f);
     return { -(turns - std::floor(turns)), 0 };
 }
 

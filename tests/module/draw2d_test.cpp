@@ -3,6 +3,9 @@
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <gtest/gtest.h>
 
@@ -26,22 +29,62 @@ std::vector<std::byte> make_font()
     return formats::write_pcx(image);
 }
 
+// Every texel another colour; with `holes`, those of a diagonal are transparent.
+constexpr int picture_width = 8, picture_height = 6;
+uint8_t texel_index(int x, int y) { return uint8_t(y * 24 + x * 3 + 20); }
+
+std::vector<std::byte> make_picture(bool holes)
+{
+    formats::IndexedImage image { picture_width, picture_height, {}, test_palette() };
+    for (int y = 0; y < picture_height; y++)
+        for (int x = 0; x < picture_width; x++)
+            image.pixels.push_back(holes && x == y ? transparent : texel_index(x, y));
+    return formats::write_pcx(image);
+}
+
+constexpr int tile_texels = 64; // and pixels: how often tiles are repeated
+uint8_t tile_index(int x, int y) { return uint8_t((x * 2 + y * 3) & 127); }
+
+std::vector<std::byte> make_tile()
+{
+    formats::IndexedImage image { tile_texels, tile_texels, {}, test_palette() };
+    for (int y = 0; y < tile_texels; y++)
+        for (int x = 0; x < tile_texels; x++)
+            image.pixels.push_back(tile_index(x, y));
+    return formats::write_pcx(image);
+}
+
 class Layer2d : public testing::Test {
 protected:
-    Layer2d()
+    static void SetUpTestSuite()
     {
-        folder_.add_wall("wall", 180);
-        folder_.add("pics/conchars.pcx", make_font());
+        folder_ = std::make_unique<GameFolder>();
+        folder_->add_wall("wall", 180);
+        folder_->add("pics/conchars.pcx", make_font());
+        folder_->add("pics/thing.pcx", make_picture(false));
+        folder_->add("pics/grate.pcx", make_picture(true));
+        folder_->add("pics/backtile.pcx", make_tile());
         MapBuilder map;
         map.add_room({ -128, -128, 0 }, { 128, 128, 128 }, map.add_material("wall", 0, 300));
-        folder_.add_map("room", map.finish());
-        session_ = std::make_unique<Session>(folder_);
+        folder_->add_map("room", map.finish());
+        session_ = std::make_unique<Session>(*folder_);
         session_->load_map("room");
         session_->look({ -60, 0, 60 }, { 0, 0, 0 });
     }
+    static void TearDownTestSuite()
+    {
+        session_.reset();
+        folder_.reset();
+    }
+    void SetUp() override
+    {
+        for (const auto& [name, value] : CvarList { { "r_2D_unfiltered", "1" }, { "r_videos_unfiltered", "1" },
+                 { "r_lerp_list", "" }, { "r_nolerp_list", "pics/conchars.pcx" } })
+            session_->set(name, value);
+    }
 
     // The frame with `draw` over it.
-    formats::Image show(const std::function<void(const engine::Exports8&)>& draw)
+    static formats::Image show(const std::function<void(const engine::Exports8&)>& draw)
     {
         const engine::Exports8& module = session_->module();
         module.begin_frame(0);
@@ -51,15 +94,20 @@ protected:
         return session_->capture_display();
     }
 
-    // `colour` says what must be at a pixel; nothing: what is there without 2D.
-    void expect(const formats::Image& shown, const std::function<std::optional<formats::Rgba8>(int, int)>& colour)
+    static bool is_near(formats::Rgba8 a, formats::Rgba8 b, int steps)
+    {
+        return std::abs(a.r - b.r) <= steps && std::abs(a.g - b.g) <= steps && std::abs(a.b - b.b) <= steps;
+    }
+    // `colour` says what must be at a pixel, give or take so many steps of 8 bits; nothing: what is there without 2D.
+    static void expect(const formats::Image& shown,
+        const std::function<std::optional<formats::Rgba8>(int, int)>& colour, int steps = 0)
     {
         const formats::Image plain = show([](const auto&) {});
         int wrong = 0;
         for (int y = 0; y < shown.height; y++)
             for (int x = 0; x < shown.width; x++)
                 if (const formats::Rgba8 wanted = colour(x, y).value_or(plain.at(x, y));
-                    shown.at(x, y) != wanted && wrong++ < 5) {
+                    !is_near(shown.at(x, y), wanted, steps) && wrong++ < 5) {
                     const formats::Rgba8 seen = shown.at(x, y);
                     ADD_FAILURE() << "pixel " << x << ", " << y << ": " << int(seen.r) << " " << int(seen.g) << " "
                                   << int(seen.b) << " " << int(seen.a) << " instead of " << int(wanted.r) << " "
@@ -68,8 +116,8 @@ protected:
         EXPECT_EQ(wrong, 0);
     }
 
-    GameFolder folder_;
-    std::unique_ptr<Session> session_;
+    static inline std::unique_ptr<GameFolder> folder_;
+    static inline std::unique_ptr<Session> session_;
 };
 
 bool is_inside(int x, int y, int left, int top, int width, int height)
@@ -119,6 +167,118 @@ TEST_F(Layer2d, CharactersAreExactAtEveryWholeScale)
     }
 }
 
+TEST_F(Layer2d, PicturesAreExactAtEveryScale)
+{
+    for (const float scale : { 1.0f, 2.0f, 3.5f }) {
+        SCOPED_TRACE(scale);
+        constexpr int left = 7, top = 5, clear_left = 38;
+        const formats::Image shown = show([&](const engine::Exports8& module) {
+            module.draw_pic_scaled(left, top, "thing", scale);
+            module.draw_pic_scaled(clear_left, top, "grate", scale);
+        });
+        const auto texel = [&](int pixel, int start) { return int(std::floor((float(pixel - start) + 0.5f) / scale)); };
+        expect(shown, [&](int x, int y) -> std::optional<formats::Rgba8> {
+            for (const int start : { left, clear_left }) {
+                const int column = texel(x, start), row = texel(y, top);
+                if (is_inside(column, row, 0, 0, picture_width, picture_height)
+                    && !(start == clear_left && column == row))
+                    return test_palette()[texel_index(column, row)];
+            }
+            return std::nullopt;
+        });
+    }
+}
+
+TEST_F(Layer2d, TintsMultiplyEachChannel)
+{
+    constexpr int left = 12, top = 9;
+    const float tint[3] = { 1, 0.5f, 0.25f };
+    const formats::Image shown = show(
+        [&](const engine::Exports8& module) { module.draw_pic_scaled_tinted(left, top, "thing", 2, tint); });
+    expect(
+        shown,
+        [&](int x, int y) -> std::optional<formats::Rgba8> {
+            if (!is_inside(x, y, left, top, 2 * picture_width, 2 * picture_height))
+                return std::nullopt;
+            const formats::Rgba8 own = test_palette()[texel_index((x - left) / 2, (y - top) / 2)];
+            return formats::Rgba8 { own.r, uint8_t(own.g * 0.5f), uint8_t(own.b * 0.25f), 255 };
+        },
+        1);
+}
+
+TEST_F(Layer2d, StretchedPicturesFillTheirRectangle)
+{
+    constexpr int left = 3, top = 4, width = 24, height = 30;
+    const formats::Image shown = show([&](const engine::Exports8& module) {
+        module.draw_stretch_pic(left, top, width, height, "thing");
+        module.draw_stretch_pic(40, 4, 0, 10, "thing");
+        module.draw_stretch_pic(40, 4, 10, -3, "thing");
+    });
+    expect(shown, [&](int x, int y) -> std::optional<formats::Rgba8> {
+        if (!is_inside(x, y, left, top, width, height))
+            return std::nullopt;
+        return test_palette()[texel_index((x - left) * picture_width / width, (y - top) * picture_height / height)];
+    });
+}
+
+// Fixed to the screen's corner, so that tiles drawn piece by piece fit together.
+TEST_F(Layer2d, TilesAreRepeatedFromTheScreensCorner)
+{
+    for (const char* unfiltered : { "1", "0" }) { // at their own size they are the same either way
+        session_->set("r_2D_unfiltered", unfiltered);
+        const formats::Image shown = show([&](const engine::Exports8& module) {
+            module.draw_tile_clear(0, 0, 20, 40, "backtile");
+            module.draw_tile_clear(20, 10, 40, 30, "backtile");
+        });
+        expect(
+            shown,
+            [&](int x, int y) -> std::optional<formats::Rgba8> {
+                if (!is_inside(x, y, 0, 0, 20, 40) && !is_inside(x, y, 20, 10, 40, 30))
+                    return std::nullopt;
+                return test_palette()[tile_index(x % tile_texels, y % tile_texels)];
+            },
+            1);
+    }
+}
+
+// Between the four texels around a pixel's middle; whether they are is the player's choice, by rule and by exception.
+TEST_F(Layer2d, FiltersFollowTheirSettings)
+{
+    constexpr int left = 6, top = 8, scale = 4;
+    const auto draw = [](const engine::Exports8& module) { module.draw_pic_scaled(left, top, "thing", scale); };
+    const auto expect_filtered = [&](bool filtered) {
+        expect(
+            show(draw),
+            [&](int x, int y) -> std::optional<formats::Rgba8> {
+                if (!is_inside(x, y, left, top, scale * picture_width, scale * picture_height))
+                    return std::nullopt;
+                const float u = (float(x - left) + 0.5f) / scale, v = (float(y - top) + 0.5f) / scale;
+                if (!filtered)
+                    return test_palette()[texel_index(int(u), int(v))];
+                // The texels' values are linear in their place, so that the mixture is, too; the outermost are held.
+                const float column = std::clamp(u - 0.5f, 0.0f, picture_width - 1.0f),
+                            row = std::clamp(v - 0.5f, 0.0f, picture_height - 1.0f);
+                const auto value = uint8_t(std::lround(20 + 24 * row + 3 * column));
+                return formats::Rgba8 { value, value, value, 255 };
+            },
+            filtered ? 2 : 0);
+    };
+    struct Case {
+        const char *unfiltered, *never, *always;
+        bool filtered;
+    };
+    for (const Case& c : { Case { "0", "", "", true }, { "1", "", "", false }, { "0", "pics/thing.pcx", "", false },
+             { "0", "pics/a.pcx pics/thing.pcx", "pics/thing.pcx", false }, { "1", "", "pics/thing.pcx", true },
+             { "1", "pics/thing.pcx", "pics/thing.pcx", true }, { "0", "pics/grate.pcx", "", true },
+             { "1", "", "pics/grate.pcx", false } }) {
+        SCOPED_TRACE(std::string(c.unfiltered) + ", never " + c.never + ", always " + c.always);
+        session_->set("r_2D_unfiltered", c.unfiltered);
+        session_->set("r_nolerp_list", c.never);
+        session_->set("r_lerp_list", c.always);
+        expect_filtered(c.filtered);
+    }
+}
+
 TEST_F(Layer2d, FadeDarkensEverything)
 {
     const formats::Image plain = show([](const auto&) {});
@@ -135,7 +295,6 @@ TEST_F(Layer2d, VideosShowTheirOwnPalette)
         pixels.push_back(uint8_t(i * 20));
     for (size_t i = 0; i < palette.size(); i++)
         palette[i] = uint8_t(255 - i / 3 + i % 3);
-    session_->set("r_videos_unfiltered", 1);
     const formats::Image shown = show([&](const engine::Exports8& module) {
         module.set_palette(palette.data());
         module.draw_stretch_raw(8, 4, columns * 5, rows * 5, columns, rows, pixels.data(), 8);

@@ -201,6 +201,70 @@ TEST_F(Finish, ExposureFollowsTheLightBitByBit)
     session_->light_style(lamp_style, 1);
 }
 
+// By pt_exposure_speed towards what was measured, as 1 - exp(-seconds * speed).
+TEST_F(Finish, ExposureAdaptsAtItsSpeed)
+{
+    look_at_sky();
+    session_->set("pt_seed", 1); // a sixtieth of a second a frame
+    session_->set("pt_exposure", 0);
+    const auto log2_exposure = [&] {
+        session_->draw();
+        const double radiance = double(session_->capture().pixels[0].y);
+        const double shown = shown_green(1);
+        return std::log2(std::pow((shown + 0.055) / 1.055, 2.4) / radiance);
+    };
+    for (const double speed : { 0.5, 2.0, 6.0 }) {
+        SCOPED_TRACE(speed);
+        session_->set("pt_sky_scale", 0.25);
+        session_->set("pt_exposure_speed", 100);
+        session_->draw(30);
+        const double first = log2_exposure();
+        session_->set("pt_sky_scale", 1);
+        session_->draw(30);
+        const double last = log2_exposure();
+        EXPECT_LT(last, first - 1);
+        session_->set("pt_sky_scale", 0.25);
+        session_->draw(30);
+        session_->set("pt_exposure_speed", speed);
+        session_->set("pt_sky_scale", 1);
+        constexpr int frames = 20;
+        session_->draw(frames - 2);
+        const double now = log2_exposure(); // in the last of two
+        EXPECT_NEAR((now - last) / (first - last), std::exp(-speed * frames / 60), 0.02);
+    }
+    session_->set("pt_exposure_speed", 2);
+    session_->set("pt_sky_scale", 1);
+}
+
+TEST_F(Finish, ExposureBiasIsInStops)
+{
+    look_at_sky();
+    session_->draw();
+    const double radiance = double(session_->capture().pixels[0].y);
+    session_->set("pt_exposure", 0.1 / radiance);
+    for (const double bias : { -2.0, -1.0, 0.0, 1.0, 3.0 }) {
+        session_->set("pt_exposure_bias", bias);
+        EXPECT_NEAR(shown_green(4), encode_srgb(0.1 * std::exp2(bias)), 2e-3) << bias;
+    }
+    session_->set("pt_exposure_bias", 0);
+}
+
+// Middle grey a little darker than it is, a straight middle, and a shoulder that ends at 11 times white.
+TEST_F(Finish, FilmicCurveGoesThroughItsPoints)
+{
+    look_at_sky();
+    session_->draw();
+    const double radiance = double(session_->capture().pixels[0].y);
+    session_->set("pt_tone_map", "filmic");
+    const std::pair<double, double> points[] = { { 0.01, 0.0028 }, { 0.05, 0.0249 }, { 0.18, 0.1443 }, { 0.5, 0.4030 },
+        { 1, 0.6182 }, { 4, 0.9124 }, { 11, 1 } };
+    for (const auto& [exposed, display] : points) {
+        session_->set("pt_exposure", exposed / radiance);
+        EXPECT_NEAR(shown_green(4), encode_srgb(display), 2e-3) << exposed;
+    }
+    session_->set("pt_tone_map", "none");
+}
+
 // What bloom adds to the picture's brightness in its middle rows, at these shares of the width beside the lamp.
 std::vector<double> measure_halo(const GameFolder& folder, glm::ivec2 size, std::initializer_list<double> places)
 {

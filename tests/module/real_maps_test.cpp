@@ -85,7 +85,7 @@ TEST(RealMaps, AreLitWithEveryPictureMissing)
 TEST(RealMaps, OurLevelIsLit)
 {
     if (!fs::exists(fs::path(VKPT_GAME_FOLDER) / "baseq2/maps/vkpt1.bsp"))
-        GTEST_SKIP() << "the build has made no game data";
+        FAIL() << "the build has made no game data: build the target game_data";
     Session session(fs::path(VKPT_GAME_FOLDER), { { "pt_accumulate", "1" } });
     expect_lit(session, "maps/vkpt1.bsp");
     EXPECT_FALSE(session.has_line("shown grey"));

@@ -169,7 +169,7 @@ TEST(SamplersOnOurMap, HaveOneMean)
 {
     const std::filesystem::path game = VKPT_GAME_FOLDER;
     if (!std::filesystem::exists(game / "baseq2/maps/vkpt1.bsp"))
-        GTEST_SKIP() << "the game data is not built";
+        FAIL() << "the build has made no game data: build the target game_data";
     constexpr int runs = 48, frames = 8;
     Session session(game, { { "pt_accumulate", "1" } }, { 48, 32 });
     session.load_map("vkpt1");

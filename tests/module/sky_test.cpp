@@ -61,6 +61,35 @@ TEST_F(Sky, EachSideIsWhereItBelongs)
     }
 }
 
+// Counter-clockwise around the axis that the map gives, by so many degrees a second.
+TEST_F(Sky, TurnsAsTheMapSays)
+{
+    MapBuilder map;
+    map.add_room(glm::vec3(-256), glm::vec3(256), map.add_material("sky", formats::SURF_SKY));
+    folder_.add_map("sky", map.finish());
+    Session session(folder_);
+    session.load_map("sky", "test");
+    struct Turn {
+        float degrees_per_second, axis[3], time;
+        glm::vec3 looked_along;
+        size_t side; // what is seen there
+    };
+    const Turn turns[] = { { 30, { 0, 0, 1 }, 0, { 0, 1, 0 }, 1 }, { 30, { 0, 0, 1 }, 3, { 0, 1, 0 }, 0 },
+        { 30, { 0, 0, 1 }, 3, { 1, 0, 0 }, 3 }, { 45, { 0, 0, 1 }, 6, { 0, -1, 0 }, 0 },
+        { -30, { 0, 0, 1 }, 3, { 0, -1, 0 }, 0 }, { 30, { 0, 0, 5 }, 3, { 0, 1, 0 }, 0 },
+        { 90, { 1, 0, 0 }, 1, { 0, 0, 1 }, 1 }, { 90, { 1, 0, 0 }, 1, { 1, 0, 0 }, 0 },
+        { 90, { 0, 1, 0 }, 1, { 0, 0, -1 }, 0 } };
+    for (const Turn& turn : turns) {
+        session.module().set_sky("test", turn.degrees_per_second, turn.axis);
+        session.module().end_registration();
+        session.view.time = turn.time;
+        session.look({ 0, 0, 0 }, turn.looked_along, 60);
+        session.draw();
+        const Side& side = sides[turn.side];
+        expect_colour(session.capture().mean(), side.index, EmissionScales().sky, side.ending);
+    }
+}
+
 // A floor under an open sky of one colour all around: the sky fills the hemisphere, so white reflects what is above.
 TEST_F(Sky, LightsWhatItSees)
 {

@@ -176,7 +176,7 @@ void compare_backends(Session& session, const std::string& map)
 TEST(TraceHits, OurLevel)
 {
     if (!fs::exists(fs::path(VKPT_GAME_FOLDER) / "baseq2/maps/vkpt1.bsp"))
-        GTEST_SKIP() << "the build has made no game data";
+        FAIL() << "the build has made no game data: build the target game_data";
     Session session(fs::path(VKPT_GAME_FOLDER), {}, { 8, 8 });
     compare_backends(session, "maps/vkpt1.bsp");
 }
