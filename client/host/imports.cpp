@@ -58,6 +58,8 @@ std::vector<formats::Rgba8> to_rgba(int width, int height, int bytes_per_pixel, 
 
 void HostImports::bind(Host* new_host) { host = new_host; }
 
+void HostImports::use_files(Host& reader, FileSystem* files) { reader.files_ = files; }
+
 engine::Imports HostImports::table()
 {
     engine::Imports imports {};

@@ -5,12 +5,15 @@
 
 namespace vkpt::client {
 
+class FileSystem;
 class Host;
 
 // The engine's functions on behalf of the one host.
 struct HostImports {
     static void bind(Host* host); // nullptr: unbind
     static engine::Imports table();
+    // From now on the host reads from these; nullptr: there are none.
+    static void use_files(Host& host, FileSystem* files);
 };
 
 } // namespace vkpt::client

@@ -201,12 +201,7 @@ start_xvfb() {
     ( exec_as_player env HOME="$home_dir" Xvfb -displayfd 3 -screen 0 "$1x$2x24" -nolisten tcp -noreset 3>"$number_file" ) \
         </dev/null >"$log_dir/xvfb.log" 2>&1 &
     xvfb_pid=$!
-    local tries
-    for ((tries = 0; tries < 100; tries++)); do
-        [[ -s $number_file ]] && break
-        kill -0 "$xvfb_pid" 2>/dev/null || break
-        sleep 0.05
-    done
+    while [[ ! -s $number_file ]] && kill -0 "$xvfb_pid" 2>/dev/null; do sleep 0.05; done
     [[ -s $number_file ]] || { tail -n 5 "$log_dir/xvfb.log" >&2; die "Xvfb did not start"; }
     DISPLAY=:$(<"$number_file")
     export DISPLAY SDL_VIDEODRIVER=x11

@@ -50,7 +50,6 @@ TEST(Engine, ChangesModes)
         + capture_into("odd") + "quit\n";
     // The window's size is what counts here; the 3D view may be coarse, for a CPU renders it.
     options.arguments = { "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
-    options.limit = std::chrono::seconds(240);
     const EngineRun run(options);
     run.expect_clean();
     expect_size(run, "first", options.width, options.height);
@@ -71,7 +70,6 @@ TEST(Engine, FollowsItsWindow)
     options.display_commands = { window + "windowsize 402 299", window + "windowunmap", window + "windowmap",
         window + "windowsize 97 61" };
     options.arguments = { "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
-    options.limit = std::chrono::seconds(240);
     const EngineRun run(options);
     run.expect_clean();
     expect_size(run, "first", options.width, options.height);

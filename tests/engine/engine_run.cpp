@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/engine/engine_run.hpp"
 
+#include "tests/runner/process_tree.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace vkpt::tests {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds poll_interval { 20 };
-constexpr std::chrono::seconds grace { 5 }; // between asking to end and killing
+constexpr int looks_per_measurement = 25; // of CPU time
+constexpr int grace = 1500; // looks between asking to end and killing
 
 std::string read_text(const std::filesystem::path& path)
 {
@@ -122,33 +127,58 @@ int EngineRun::start(const EngineOptions& options)
 
 void EngineRun::watch(int process, const EngineOptions& options)
 {
-    const auto started = Clock::now();
     int status = 0;
-    while (waitpid(process, &status, WNOHANG) == 0) {
-        note_marks(options);
-        if (Clock::now() - started > options.limit && !outcome.timed_out) {
-            outcome.timed_out = true;
-            kill(-process, SIGTERM);
-        }
-        if (Clock::now() - started > options.limit + grace)
-            kill(-process, SIGKILL);
+    // Only asked to end at first, so that the script ends its display as well. `grace` looks later it has to.
+    for (int look = 0, asked_at = -1; waitpid(process, &status, WNOHANG) == 0; look++) {
         std::this_thread::sleep_for(poll_interval);
+        follow_console(options);
+        if (options.while_running)
+            options.while_running(outcome.game_folder);
+        if (look % looks_per_measurement == 0)
+            outcome.took_too_long |= measure_cpu_seconds(process) > options.cpu_seconds;
+        if (!is_over && !outcome.took_too_long)
+            continue;
+        if (asked_at < 0) {
+            asked_at = look;
+            kill(-process, SIGTERM);
+        } else if (look - asked_at > grace) {
+            kill(-process, SIGKILL);
+        }
     }
     outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-void EngineRun::note_marks(const EngineOptions& options)
+void EngineRun::follow_console(const EngineOptions& options)
 {
-    const std::string console = read_text(outcome.game_folder / "qconsole.log");
-    const size_t marks = count_occurrences(console, "memory mark");
-    if (marks != outcome.marked_memory.size()) {
-        int engine = 0;
-        std::ifstream(folder / "engine.pid") >> engine;
-        outcome.marked_memory.resize(marks, read_resident_memory(engine));
+    std::ifstream log(outcome.game_folder / "qconsole.log", std::ios::binary);
+    log.seekg(console_read);
+    const std::string text { std::istreambuf_iterator<char>(log), {} };
+    console_read += std::streamoff(text.size());
+    for (const char c : text) {
+        if (c != '\n')
+            console_line += c;
+        else
+            obey(std::exchange(console_line, {}), options);
     }
-    const size_t commands = std::min(count_occurrences(console, "display mark"), options.display_commands.size());
-    while (display_marks < commands)
+}
+
+void EngineRun::obey(const std::string& line, const EngineOptions& options)
+{
+    is_over |= !options.end_at.empty() && line.find(options.end_at) != std::string::npos;
+    if (line.find("memory mark") != std::string::npos)
+        note_mark();
+    if (line.find("display mark") != std::string::npos && display_marks < options.display_commands.size())
         run_on_display(options.display_commands[display_marks++]);
+}
+
+void EngineRun::note_mark()
+{
+    int engine = 0;
+    std::ifstream(folder / "engine.pid") >> engine;
+    outcome.marked_memory.push_back(read_resident_memory(engine));
+    std::error_code error;
+    const std::filesystem::directory_iterator handles("/proc/" + std::to_string(engine) + "/fd", error);
+    outcome.marked_handles.push_back(size_t(std::distance(begin(handles), end(handles))));
 }
 
 void EngineRun::run_on_display(const std::string& command)
@@ -171,7 +201,7 @@ std::vector<std::string> EngineRun::lines_with(const std::string& text) const
 
 void EngineRun::expect_clean() const
 {
-    EXPECT_FALSE(outcome.timed_out) << last_lines(outcome.output, 30);
+    EXPECT_FALSE(outcome.took_too_long) << last_lines(outcome.output, 30);
     EXPECT_EQ(outcome.status, 0) << last_lines(outcome.output, 40);
     EXPECT_EQ(count_occurrences(outcome.console, "Loading library: ref_"),
         count_occurrences(outcome.console, "Successfully loaded ref_vkpt.so"))

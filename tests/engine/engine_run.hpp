@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One run of the real engine on our module: started through scripts/run_engine.sh, watched, and ended if it takes too
-// long.
+// much CPU time.
 #pragma once
 
-#include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <ios>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,22 +24,27 @@ struct EngineOptions {
     std::vector<std::string> environment; // NAME=VALUE
     std::vector<std::string> display_commands; // one for each `display_mark`; run by a shell on the engine's display
     int width = 320, height = 180;
-    std::chrono::seconds limit { 120 };
+    double cpu_seconds = 300; // of the engine with display and scripts; then it is ended
+    std::string end_at; // a console line with this text ends it, too, without an error
+    // Called again and again while the engine runs, with its writable game folder.
+    std::function<void(const std::filesystem::path&)> while_running;
     bool validation = true; // Vulkan's validation layers
 };
 
 struct EngineResult {
     int status = -1; // exit status; 128 + signal
-    bool timed_out = false;
+    bool took_too_long = false;
     std::string console;
     std::string output; // stdout and stderr
     std::filesystem::path game_folder; // the engine's writable one; gone with the EngineRun
-    std::vector<uint64_t> marked_memory; // resident bytes at each console line "memory mark"
+    // At each console line "memory mark":
+    std::vector<uint64_t> marked_memory; // resident bytes
+    std::vector<size_t> marked_handles; // open files
 };
 
 // Console aliases wait_5, wait_25, wait_100: each wait is a frame and at least 16 ms.
 std::string wait_aliases();
-// A line for EngineOptions::script that makes the harness note the engine's memory.
+// A line for EngineOptions::script that makes the harness note the engine's memory and open files.
 inline constexpr const char* memory_mark = "echo memory mark\nwait_25\n";
 
 // A line for EngineOptions::script: here the harness runs the next of EngineOptions::display_commands.
@@ -53,7 +60,7 @@ public:
 
     const EngineResult& result() const { return outcome; }
 
-    // Exit status 0 in time, our module loaded every time a renderer was, no message of the validation layers.
+    // Exit status 0 within its CPU time, our module loaded every time a renderer was, no message of the validation layers.
     void expect_clean() const;
     // The lines of the console that contain `text`.
     std::vector<std::string> lines_with(const std::string& text) const;
@@ -62,12 +69,18 @@ private:
     void make_folder(const EngineOptions& options);
     int start(const EngineOptions& options);
     void watch(int process, const EngineOptions& options);
-    void note_marks(const EngineOptions& options);
+    // What the console says since the last time.
+    void follow_console(const EngineOptions& options);
+    void obey(const std::string& line, const EngineOptions& options);
+    void note_mark();
     void run_on_display(const std::string& command);
 
     std::filesystem::path folder;
     EngineResult outcome;
     size_t display_marks = 0;
+    std::streamoff console_read = 0; // bytes of the console's log
+    std::string console_line; // not ended yet
+    bool is_over = false; // EngineOptions::end_at was met
 };
 
 } // namespace vkpt::tests

@@ -55,7 +55,6 @@ std::vector<PictureStatistics> play_and_measure()
     options.arguments = { "+set", "pt_capture_dir", "capture", "+set", "pt_capture_every",
         std::to_string(capture_every), "+set", "flt_denoiser", "off", "+set", "flt_taa", "off", "+set", "pt_bloom", "0",
         "+set", "timedemo", "1", "+set", "cl_predict", "0", "+set", "nextdemo", "quit", "+demomap", own_demo };
-    options.limit = std::chrono::seconds(240);
     const EngineRun run(options);
     run.expect_clean();
     std::vector<PictureStatistics> rows;

@@ -112,7 +112,6 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
     options.arguments = { "+set", "pt_capture_dir", "capture", "+set", "pt_capture_every", every, "+set", "timedemo",
         "1", "+set", "fixedtime", "100000", "+set", "cl_predict", "0", "+set", "con_notifytime", "100000", "+set",
         "nextdemo", "quit", "+demomap", "start.dm2" };
-    options.limit = std::chrono::seconds(240);
     const EngineRun engine(options);
     engine.expect_clean();
     const auto shown = list_pictures(engine.result().game_folder / "capture");

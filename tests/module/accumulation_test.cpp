@@ -11,6 +11,9 @@ namespace {
 
 class Accumulation : public testing::Test {
 protected:
+    static void SetUpTestSuite() { Session::share_starts(); }
+    static void TearDownTestSuite() { Session::end_sharing(); }
+
     Accumulation()
     {
         folder_.add_wall("wall", 180);
@@ -60,6 +63,7 @@ TEST_F(Accumulation, ASeedRepeatsBitForBit)
         session.load_map("room");
         EXPECT_TRUE(render(session, 7, 12) == first);
     }
+    Session::end_idle();
     Session session(folder_);
     prepare(session);
     EXPECT_TRUE(render(session, 7, 12) == first);

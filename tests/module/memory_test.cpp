@@ -37,6 +37,7 @@ protected:
         setenv("VKPT_FILL_MEMORY", fill, 1);
         CvarList all { { "pt_seed", "0" }, { "pt_exposure", "2" } };
         all.insert(all.end(), cvars.begin(), cvars.end());
+        Session::end_idle();
         Session session(folder_, all, { 80, 60 });
         const engine::DynamicLight light { { 20, 0, 40 }, { 1, 0.7f, 0.4f }, 300 };
         session.view.dlights = &light;

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/module/session.hpp"
 
+#include "client/host/imports.hpp"
+#include "ref_vkpt/cvars_rows.hpp"
+#include "tests/module/map_builder.hpp"
+#include "tests/module/test_cache.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -11,25 +16,53 @@
 
 namespace vkpt::tests {
 
+std::unique_ptr<Session::Running> Session::idle_;
+
+namespace {
+
+// Of the module's settings, those that it reads once, and the environment that it starts in.
+std::vector<std::string> start_settings(const CvarList& cvars, glm::ivec2 size)
+{
+    std::vector<std::string> key { fmt::format("{}x{}", size.x, size.y) };
+    for (const char* variable : { "VKPT_CACHE_DIR", "VKPT_FILL_MEMORY", "LP_NATIVE_VECTOR_WIDTH" })
+        if (const char* value = std::getenv(variable))
+            key.push_back(std::string(variable) + "=" + value);
+    for (const auto& [name, value] : cvars)
+        for (const char* read_once : { "pt_device", "pt_device_rays", "pt_table_reads", "pt_validation" })
+            if (name == read_once)
+                key.push_back(name + "=" + value);
+    return key;
+}
+
+// A map of one plain face.
+std::filesystem::path between_sessions()
+{
+    static const GameFolder folder;
+    if (const auto path = folder.path() / "baseq2/maps/between_sessions.bsp"; std::filesystem::exists(path))
+        return path;
+    MapBuilder map;
+    map.add(rectangle({ 0, 0, 0 }, { 8, 0, 0 }, { 0, 8, 0 }), map.add_material("between_sessions"));
+    folder.add_map("between_sessions", map.finish());
+    return folder.path() / "baseq2/maps/between_sessions.bsp";
+}
+
+} // namespace
+
 Session::Session(const std::filesystem::path& base_folder, const CvarList& cvars, glm::ivec2 size)
     : view {}
     , files_(base_folder, "")
 {
     // All tests share one cache of compiled shaders, apart from the user's.
     setenv("XDG_CACHE_HOME", VKPT_TEST_CACHE, 1);
-    client::HostOptions options;
-    options.module = VKPT_TESTED_MODULE;
-    options.width = size.x;
-    options.height = size.y;
-    options.cvars = { { "pt_validation", "1" }, { "pt_seed", "1" }, { "pt_exposure", "1" }, { "flt_denoiser", "off" },
+    use_shared_cache();
+    CvarList all { { "pt_validation", "1" }, { "pt_seed", "1" }, { "pt_exposure", "1" }, { "flt_denoiser", "off" },
         { "flt_taa", "off" } };
-    options.cvars.insert(options.cvars.end(), cvars.begin(), cvars.end());
-    options.on_line = [this](const std::string& line) {
-        lines_.push_back(line);
-        if (line.find("vkpt validation:") != std::string::npos)
-            ADD_FAILURE() << line;
-    };
-    host_ = std::make_unique<client::Host>(options, &files_);
+    all.insert(all.end(), cvars.begin(), cvars.end());
+    std::vector<std::string> key = start_settings(all, size);
+    if (idle_ && idle_->key == key)
+        take_over(all);
+    else
+        start(all, size, std::move(key));
     for (size_t style = 0; style < lightstyles_.size(); style++)
         light_style(style, 1);
     view.width = size.x;
@@ -38,12 +71,67 @@ Session::Session(const std::filesystem::path& base_folder, const CvarList& cvars
     look({ 0, 0, 0 }, { 1, 0, 0 });
 }
 
+void Session::start(const CvarList& cvars, glm::ivec2 size, std::vector<std::string> key)
+{
+    end_idle(); // one at a time
+    running_ = std::make_unique<Running>();
+    running_->key = std::move(key);
+    running_->session = this;
+    client::HostOptions options;
+    options.module = VKPT_TESTED_MODULE;
+    options.width = size.x;
+    options.height = size.y;
+    options.cvars = cvars;
+    options.on_line = [running = running_.get()](const std::string& line) {
+        if (running->session)
+            running->session->lines_.push_back(line);
+        if (line.find("vkpt validation:") != std::string::npos)
+            ADD_FAILURE() << line;
+    };
+    running_->host = std::make_unique<client::Host>(options, &files_);
+}
+
+void Session::take_over(const CvarList& cvars)
+{
+    running_ = std::move(idle_);
+    client::HostImports::use_files(host(), &files_);
+    // All but the window's, which the host has set.
+    constexpr std::string_view kept[] = { "r_mode", "r_customwidth", "r_customheight", "vid_fullscreen", "r_vsync" };
+    for (const CvarRow& row : cvar_rows)
+        if (std::ranges::find(kept, row.name) == std::end(kept))
+            set(row.name, std::string(row.initial));
+    for (const auto& [name, value] : cvars)
+        set(name, value);
+    // Another level: whatever the last one held goes.
+    files_.add_file("maps/between_sessions.bsp", between_sessions());
+    load_map("between_sessions");
+    extension().forget_times();
+    running_->session = this;
+}
+
 Session::Session(const GameFolder& folder, const CvarList& cvars, glm::ivec2 size)
     : Session(folder.path(), cvars, size)
 {
 }
 
-Session::~Session() = default;
+Session::~Session()
+{
+    if (!running_)
+        return;
+    if (!shares_starts_)
+        return;
+    running_->session = nullptr;
+    client::HostImports::use_files(host(), nullptr);
+    idle_ = std::move(running_);
+}
+
+void Session::end_idle() { idle_ = nullptr; }
+
+void Session::end_sharing()
+{
+    shares_starts_ = false;
+    end_idle();
+}
 
 bool Session::has_line(std::string_view part) const
 {
@@ -78,7 +166,7 @@ void Session::light_style(size_t style, float scale) { lightstyles_[style] = { {
 void Session::draw(int frames)
 {
     for (int frame = 0; frame < frames; frame++)
-        host_->draw_frame(view);
+        host().draw_frame(view);
 }
 
 Radiance Session::capture()

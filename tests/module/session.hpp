@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One run of the real module: started with validation, a map registered, frames drawn, pictures taken.
 // Any line of the validation layers fails the running test.
+// A start takes seconds, nearly all of them for shaders. So suites can share starts: a module that a session has left is
+// taken over by the next one that wants the same settings, without its map, every cvar at its default, the console empty.
 #pragma once
 
 #include "client/host/host.hpp"
@@ -21,15 +23,20 @@ public:
         const std::filesystem::path& base_folder, const CvarList& cvars = {}, glm::ivec2 size = { 64, 48 });
     explicit Session(const GameFolder& folder, const CvarList& cvars = {}, glm::ivec2 size = { 64, 48 });
     ~Session();
+    // From now on, or until end_sharing(): for SetUpTestSuite and TearDownTestSuite.
+    static void share_starts() { shares_starts_ = true; }
+    static void end_sharing();
+    // The next session's module is a new one.
+    static void end_idle();
 
-    client::Host& host() { return *host_; }
+    client::Host& host() { return *running_->host; }
     client::FileSystem& files() { return files_; }
-    const engine::Exports8& module() { return host_->module(); }
-    const Extension& extension() { return host_->extension(); }
+    const engine::Exports8& module() { return host().module(); }
+    const Extension& extension() { return host().extension(); }
     const std::vector<std::string>& lines() const { return lines_; } // the console's
     bool has_line(std::string_view part) const;
 
-    void set(const std::string& name, const std::string& value) { host_->cvars().set(name, value); }
+    void set(const std::string& name, const std::string& value) { host().cvars().set(name, value); }
     void set(const std::string& name, double value);
     // As the engine's client registers maps/NAME.bsp. Throws client::Failure where the module drops the level.
     void load_map(const std::string& name, const std::string& sky = "none");
@@ -48,9 +55,21 @@ public:
     std::vector<glm::vec3> probe(std::span<const IrradianceProbe> probes, uint32_t samples);
 
 private:
+    // A started module, and the session that has it now.
+    struct Running {
+        std::vector<std::string> key; // what cannot be changed without a new start
+        std::unique_ptr<client::Host> host;
+        Session* session = nullptr;
+    };
+    static std::unique_ptr<Running> idle_;
+    static inline bool shares_starts_ = false;
+
+    void start(const CvarList& cvars, glm::ivec2 size, std::vector<std::string> key);
+    void take_over(const CvarList& cvars);
+
     std::vector<std::string> lines_;
     client::FileSystem files_;
-    std::unique_ptr<client::Host> host_;
+    std::unique_ptr<Running> running_;
     std::array<engine::Lightstyle, engine::max_lightstyles> lightstyles_ {};
 };
 

@@ -3,6 +3,7 @@
 #include "shaders/shared/scene.h"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
+#include "tests/module/test_cache.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -328,12 +329,9 @@ TEST_F(TraceBackends, DeviceWithoutRayTracingRuns)
 
 TEST_F(TraceBackends, AreMeasuredOnceAndRemembered)
 {
-    // A cache of its own that stays, so that shaders are compiled once.
-    const std::filesystem::path cache = std::filesystem::path(VKPT_TEST_CACHE) / "measured",
-                                file = cache / "trace_backends.txt";
-    std::filesystem::create_directories(cache);
+    const OwnCache cache("measured");
+    const std::filesystem::path file = cache.path() / "trace_backends.txt";
     std::filesystem::remove(file);
-    setenv("VKPT_CACHE_DIR", cache.c_str(), 1);
     const auto read = [&] {
         std::ifstream stream(file);
         return std::string(std::istreambuf_iterator<char>(stream), {});
@@ -351,6 +349,7 @@ TEST_F(TraceBackends, AreMeasuredOnceAndRemembered)
     const std::string chosen = session_->extension().info().trace_backend;
     EXPECT_NE(read().find("\t" + chosen + "\t"), std::string::npos);
     session_ = nullptr;
+    Session::end_idle();
     start(map);
     session_->draw();
     EXPECT_EQ(session_->has_line("measured on this device"), offered > 1);
@@ -359,10 +358,10 @@ TEST_F(TraceBackends, AreMeasuredOnceAndRemembered)
     // A file that was damaged, or written by a later version, is done without.
     const std::string damaged = "nonsense\n\t\t\n" + read().substr(0, 20);
     std::ofstream(file) << damaged;
+    Session::end_idle();
     start(map);
     session_->draw();
     EXPECT_FALSE(session_->has_line("measured on this device"));
-    unsetenv("VKPT_CACHE_DIR");
 }
 
 } // namespace

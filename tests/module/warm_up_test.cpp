@@ -2,8 +2,8 @@
 // The shaders of a frame are compiled before it, in the background, and remembered as compiled.
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
+#include "tests/module/test_cache.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
@@ -37,23 +37,24 @@ TEST(ShaderWarmUp, CompilesEveryPassOfTheFrameOnce)
     MapBuilder map;
     map.add_lit_room("missing");
     folder.add_map("room", map.finish());
-    // A cache of its own that stays, so that only the list is made anew.
-    const std::filesystem::path cache = std::filesystem::path(VKPT_TEST_CACHE) / "warmed";
-    setenv("VKPT_CACHE_DIR", cache.c_str(), 1);
+    draw_passes(folder);
+    Session::end_idle();
+    // Only the list is made anew.
+    const OwnCache cache("warmed");
     std::filesystem::path list;
     for (const char* width : { "512", "default" })
-        std::filesystem::remove(cache / ("driver-" + std::string(width)) / "compiled.txt");
+        std::filesystem::remove(cache.path() / ("driver-" + std::string(width)) / "compiled.txt");
 
     const std::vector<std::string> passes = draw_passes(folder);
     for (const char* width : { "512", "default" }) {
-        const std::filesystem::path path = cache / ("driver-" + std::string(width)) / "compiled.txt";
+        const std::filesystem::path path = cache.path() / ("driver-" + std::string(width)) / "compiled.txt";
         if (std::filesystem::exists(path))
             list = path;
     }
-    if (list.empty() && Session(folder).has_line("llvmpipe") == false) {
-        unsetenv("VKPT_CACHE_DIR");
+    Session::end_idle();
+    if (list.empty() && !Session(folder).has_line("llvmpipe"))
         GTEST_SKIP() << "only Mesa's CPU driver compiles at the dispatch";
-    }
+    Session::end_idle();
     const std::string compiled = read_text(list);
     EXPECT_GT(passes.size(), 10u);
     for (const std::string& pass : passes)
@@ -63,7 +64,6 @@ TEST(ShaderWarmUp, CompilesEveryPassOfTheFrameOnce)
 
     draw_passes(folder);
     EXPECT_EQ(read_text(list), compiled) << "something was compiled twice";
-    unsetenv("VKPT_CACHE_DIR");
 }
 
 } // namespace

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Hours of play in minutes: maps, restarts, window sizes, settings, nonsense and demos in one run of the engine, in an
+// order that a seed decides. Nothing may crash or pile up, and the validation layers have to stay silent.
+//   VKPT_SOAK_MINUTES   how long (default 1); VKPT_SOAK_SEED   the order (default 1)
+#include "ref_vkpt/cvars_rows.hpp"
+#include "tests/engine/engine_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <string_view>
+
+namespace vkpt::tests {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int most_rounds = 100, maps_per_round = 5; // 500 map changes and 100 restarts
+constexpr size_t warm_up_rounds = 2, least_rounds = warm_up_rounds + 2;
+constexpr double most_growth = 0.01; // of the memory after the warm-up
+
+// Not set at random: they write files, end the run, or take another driver's measure of time.
+constexpr std::string_view left_alone[] = { "pt_validation", "pt_device", "pt_capture_dir", "pt_capture_every",
+    "pt_bench_json", "pt_table_reads", "pt_times", "r_mode", "r_customwidth", "r_customheight", "vid_fullscreen",
+    "r_lightlevel" };
+
+int read_number(const char* variable, int otherwise)
+{
+    const char* text = std::getenv(variable);
+    return text && *text ? std::atoi(text) : otherwise;
+}
+
+class Script {
+public:
+    explicit Script(unsigned seed)
+        : random_(seed)
+    {
+    }
+
+    // What one round does; it ends in a state that is the same in every round.
+    std::string write_round(std::vector<std::string>& display_commands)
+    {
+        counts_.emplace_back();
+        std::string text;
+        for (int i = 0; i < maps_per_round; i++)
+            text += "map " + std::string(own_map) + "\nwait_25\n" + write_play(display_commands);
+        for (const CvarRow& row : cvar_rows)
+            if (is_touched(row))
+                text += "set " + std::string(row.name) + " \"" + row.initial + "\"\n";
+        return text + "vid_restart\nmap " + own_map + "\nwait_25\nwait_25\n" + memory_mark;
+    }
+
+    // How often each kind of action stood in the first rounds.
+    std::map<std::string, size_t> counts(size_t rounds) const
+    {
+        std::map<std::string, size_t> sum;
+        for (size_t round = 0; round < std::min(rounds, counts_.size()); round++)
+            for (const auto& [what, count] : counts_[round])
+                sum[what] += count;
+        return sum;
+    }
+
+private:
+    size_t pick(size_t count) { return random_() % count; }
+
+    static bool is_touched(const CvarRow& row)
+    {
+        return std::ranges::find(left_alone, row.name) == std::end(left_alone);
+    }
+
+    std::string write_play(std::vector<std::string>& display_commands)
+    {
+        std::string text;
+        for (size_t action = 2 + pick(4); action > 0; action--)
+            switch (pick(8)) {
+            case 0:
+                counts_.back()["demos"]++;
+                text += "demomap " + std::string(own_demo) + "\nwait_100\n";
+                break;
+            case 1:
+                counts_.back()["window sizes"]++;
+                text += write_window_size(display_commands);
+                break;
+            case 2:
+            case 3:
+                counts_.back()["lines of nonsense"]++;
+                text += write_nonsense() + "\nwait_5\n";
+                break;
+            case 4:
+                text += "+forward\n+right\n+attack\nwait_25\n-attack\n-right\n-forward\n";
+                break;
+            default:
+                counts_.back()["settings"]++;
+                text += write_setting() + "\nwait_5\n";
+            }
+        return text;
+    }
+
+    std::string write_window_size(std::vector<std::string>& display_commands)
+    {
+        const std::string width = std::to_string(64 + pick(300)), height = std::to_string(48 + pick(200));
+        display_commands.push_back("xdotool search --class quake2 windowsize " + width + " " + height);
+        return display_mark;
+    }
+
+    // A cvar somewhere in its range, now and then outside of it.
+    std::string write_setting()
+    {
+        const CvarRow* row = nullptr;
+        do
+            row = &cvar_rows[pick(std::size(cvar_rows))];
+        while (!is_touched(*row));
+        return std::string("set ") + row->name + " \"" + write_value(*row) + "\"";
+    }
+
+    std::string write_value(const CvarRow& row)
+    {
+        if (std::string_view(row.name) == "pt_light_sampler")
+            return std::array { "subset_pps", "uniform", "light_tree", "nothing_of_the_kind" }[pick(4)];
+        if (row.type == CvarType::text) {
+            std::vector<std::string> choices { row.initial };
+            for (std::string_view rest = row.choices; !rest.empty();) {
+                const size_t end = rest.find('|');
+                choices.emplace_back(rest.substr(0, end));
+                rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+            }
+            return choices[pick(choices.size())];
+        }
+        const double low = row.owner == CvarOwner::module ? row.lowest : 0,
+                     high = row.owner == CvarOwner::module ? row.highest : 2;
+        if (pick(10) == 0)
+            return std::array { "-1", "nan", "inf", "1e300", "", "a" }[pick(6)];
+        // Most values of a wide range are near its lower end, as are those that players set.
+        const double at = std::uniform_real_distribution<>(0, 1)(random_);
+        const double value = low + (high - low) * (high - low > 100 ? std::pow(at, 8) : at);
+        return row.type == CvarType::integer ? std::to_string(std::lround(value)) : std::to_string(value);
+    }
+
+    // None that could end the engine or write a file.
+    std::string write_nonsense()
+    {
+        static constexpr const char* words[] = { "pt_info", "imagelist", "modellist", "pt_times_print", "viewpos", "give all",
+            "god", "noclip", "score", "inven", "toggleconsole;wait;toggleconsole", "menu_video;wait;forcemenuoff",
+            "zzz \"", "set", "set a", "map nothere", "pt_bounces", "pt_bounces 1 2 3", "gamemap \"*\"", "sky",
+            "kill", "use blaster", "weapnext", "cmd", "say \xff\xfe\x80", "crosshair 99", "viewsize 1e9", "fov -5",
+            "fov 1000", "fov 90;viewsize 100", "bind", "alias x y;x", "pt_trace_measure", "demomap nothere.dm2" };
+        if (const size_t word = pick(std::size(words) + 1); word < std::size(words))
+            return words[word];
+        std::string noise;
+        for (size_t i = 10 + pick(200); i > 0; i--)
+            noise += char('!' + pick(94));
+        std::erase_if(noise, [](char c) { return c == ';' || c == '$' || c == '"'; });
+        return "echo " + noise;
+    }
+
+    std::mt19937 random_;
+    std::vector<std::map<std::string, size_t>> counts_; // by round
+};
+
+std::string file_of_round(int round) { return "soak" + std::to_string(round) + ".cfg"; }
+
+} // namespace
+
+TEST(Soak, LongNothingPilesUp)
+{
+    const int seed = read_number("VKPT_SOAK_SEED", 1);
+    const std::chrono::duration<double, std::ratio<60>> minutes(read_number("VKPT_SOAK_MINUTES", 1));
+    EngineOptions options;
+    options.width = 160;
+    options.height = 90;
+    options.cpu_seconds = 1e9; // as long as it was told to
+    Script script { unsigned(seed) };
+    for (int round = 0; round < most_rounds; round++)
+        options.files[file_of_round(round)] = script.write_round(options.display_commands)
+            + (round + 1 < most_rounds ? "exec soak_end.cfg\nexec " + file_of_round(round + 1) + "\n" : "quit\n");
+    options.files["soak_end.cfg"] = "// where the time is over, this quits\n";
+    options.script = "exec " + file_of_round(0) + "\n";
+    options.arguments = { "+exec", "test.cfg" };
+    const auto start = Clock::now();
+    bool told = false;
+    options.while_running = [&](const std::filesystem::path& folder) {
+        if (told || Clock::now() - start < minutes)
+            return;
+        std::ofstream(folder / "soak_end.cfg") << "quit\n";
+        told = true;
+    };
+    const EngineRun run(options);
+    run.expect_clean();
+
+    const auto& memory = run.result().marked_memory;
+    const auto& handles = run.result().marked_handles;
+    std::printf("seed %d, %.1f minutes: %zu rounds, %zu map changes, %zu restarts of video\n", seed,
+        std::chrono::duration<double, std::ratio<60>>(Clock::now() - start).count(), memory.size(),
+        run.lines_with("server initialization").size(), run.lines_with("Successfully loaded ref_vkpt.so").size() - 1);
+    for (const auto& [what, count] : script.counts(memory.size()))
+        std::printf("%zu %s\n", count, what.c_str());
+    for (size_t i = 0; i < memory.size(); i++)
+        std::printf("after round %zu: %.1f MiB, %zu open files\n", i + 1, double(memory[i]) / (1 << 20), handles[i]);
+    ASSERT_GE(memory.size(), least_rounds) << "too few rounds to say anything: let it run longer";
+    for (size_t i = warm_up_rounds; i < handles.size(); i++)
+        EXPECT_EQ(handles[i], handles[warm_up_rounds - 1]) << "open files after round " << i + 1;
+    // The least of the last half against the least of the first: what is only held for a while does not count.
+    const auto middle = memory.begin() + std::ptrdiff_t(warm_up_rounds + (memory.size() - warm_up_rounds) / 2);
+    const double before = double(*std::min_element(memory.begin() + warm_up_rounds, middle)),
+                 after = double(*std::min_element(middle, memory.end()));
+    EXPECT_LT(after, before * (1 + most_growth));
+}
+
+} // namespace vkpt::tests
