@@ -44,7 +44,7 @@ void write_statistics(const std::vector<PictureStatistics>& rows)
             "# Frames of our demo, every "
          << capture_every
          << "th: mean, deviation and noise of luminance, fraction of black pixels.\n"
-            "# Made anew by: VKPT_UPDATE_STATISTICS=1 ./test -- -R DemoFrames\n";
+            "# Made anew by: VKPT_UPDATE_STATISTICS=1 ./test -- -R engine_test.Engine\n";
     for (const PictureStatistics& row : rows)
         file << row.mean << ' ' << row.deviation << ' ' << row.noise << ' ' << row.black << '\n';
 }
