@@ -23,8 +23,6 @@ constexpr uint32_t wall_starts_on = 4;
 constexpr uint32_t spawns_when_triggered = 1;
 constexpr uint32_t not_in_medium = 0x200;
 
-uint32_t spawn_flags(const EntityText& entity) { return uint32_t(entity.number("spawnflags", 0)); }
-
 bool is_visible(const EntityText& entity)
 {
     const std::string_view name = entity.class_name();
@@ -90,6 +88,13 @@ std::optional<glm::vec3> find_target(const EntityText& entity, const std::vector
 }
 
 } // namespace
+
+uint32_t spawn_flags(const EntityText& entity)
+{
+    // Maps may hold any number; what the type does not hold has no flags.
+    const double number = entity.number("spawnflags", 0);
+    return number > -2147483649.0 && number < 4294967296.0 ? uint32_t(int64_t(number)) : 0;
+}
 
 std::optional<BrushPlacement> place_brush_model(
     const EntityText& entity, const BspModel& model, const std::vector<EntityText>& entities)

@@ -20,32 +20,6 @@ constexpr float default_fov = 90; // degrees, horizontally on a 4:3 screen
 
 float radians(float degrees) { return degrees * std::numbers::pi_v<float> / 180; }
 
-std::vector<float> parse_numbers(std::string_view text, std::string_view whole)
-{
-    std::vector<float> numbers;
-    while (true) {
-        const std::string_view part = text.substr(0, text.find(','));
-        float number = 0;
-        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-        if (error != std::errc() || end != part.data() + part.size() || !std::isfinite(number))
-            throw WrongUse(
-                fmt::format("\"{}\": \"{}\" in the camera is not a number; write @x,y,z,pitch,yaw", whole, part));
-        numbers.push_back(number);
-        if (part.size() == text.size())
-            return numbers;
-        text.remove_prefix(part.size() + 1);
-    }
-}
-
-Camera parse_camera(std::string_view text, std::string_view whole)
-{
-    const std::vector<float> n = parse_numbers(text, whole);
-    if (n.size() != 3 && n.size() != 5)
-        throw WrongUse(
-            fmt::format("\"{}\": a camera has 3 or 5 numbers, not {}; write @x,y,z,pitch,yaw", whole, n.size()));
-    return { { n[0], n[1], n[2] }, n.size() == 5 ? n[3] : 0, n.size() == 5 ? n[4] : 0 };
-}
-
 std::optional<glm::vec3> parse_vector(std::string_view text)
 {
     formats::EntityText entity;
@@ -73,24 +47,6 @@ float distance_to_box(glm::vec3 p, glm::vec3 mins, glm::vec3 maxs)
 }
 
 } // namespace
-
-SceneName parse_scene_name(std::string_view text)
-{
-    const size_t at = text.rfind('@');
-    SceneName scene;
-    scene.map = text.substr(0, at);
-    if (!scene.map.ends_with(".bsp"))
-        throw WrongUse(fmt::format("\"{}\" is no scene: write maps/NAME.bsp or maps/NAME.bsp@x,y,z,pitch,yaw", text));
-    if (at != std::string_view::npos)
-        scene.camera = parse_camera(text.substr(at + 1), text);
-    std::error_code ignored;
-    const std::filesystem::path path(scene.map);
-    if (!scene.map.starts_with("maps/") && std::filesystem::is_regular_file(path, ignored)) {
-        scene.file = path;
-        scene.map = "maps/" + path.filename().string();
-    }
-    return scene;
-}
 
 std::optional<Camera> find_player_start(const std::vector<formats::EntityText>& entities)
 {
@@ -189,7 +145,7 @@ void Scene::set_lightstyles()
         set(style, style == 63 ? 0.0f : 1.0f);
     for (const formats::EntityText& entity : entities_) {
         const float style = entity.number("style", 0);
-        const bool starts_off = int(entity.number("spawnflags", 0)) & 1;
+        const bool starts_off = (spawn_flags(entity) & 1) != 0;
         if (entity.class_name() == "light" && starts_off && style >= 32 && style < float(lightstyles_.size()))
             set(size_t(style), 0);
     }

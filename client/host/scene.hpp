@@ -4,6 +4,7 @@
 #pragma once
 
 #include "client/host/host.hpp"
+#include "client/host/scene_name.hpp"
 #include "formats/bsp.hpp"
 #include "formats/entities.hpp"
 
@@ -15,21 +16,6 @@
 #include <vector>
 
 namespace vkpt::client {
-
-struct Camera {
-    glm::vec3 position { 0 }; // the eye
-    float pitch = 0, yaw = 0; // degrees, positive pitch looks down
-};
-
-// SCENE of the command line: "maps/NAME.bsp[@x,y,z[,pitch,yaw]]".
-struct SceneName {
-    std::string map; // "maps/NAME.bsp"
-    std::filesystem::path file; // a map outside the game's folders, empty: none
-    std::optional<Camera> camera;
-};
-
-// Throws WrongUse.
-SceneName parse_scene_name(std::string_view text);
 
 class Scene {
 public:
@@ -65,6 +51,9 @@ private:
 
 // Where the first player start looks from: info_player_start, else info_player_deathmatch. Nothing: the map has none.
 std::optional<Camera> find_player_start(const std::vector<formats::EntityText>& entities);
+
+// The entity's "spawnflags"; a number that is out of range: none.
+uint32_t spawn_flags(const formats::EntityText& entity);
 
 // How a brush model's entity stands when the level begins. Nothing: the client never sees it (triggers and the like).
 struct BrushPlacement {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A map as the module loads it: read, triangulated, its emitters, light lists, multisets and trees, the tree of its triangles;
+// then a frame's work on it: moving lights and materials.
+#include "fuzz/support/harness.hpp"
+#include "ref_vkpt/lights/light_multisets.hpp"
+#include "ref_vkpt/lights/light_trees.hpp"
+#include "ref_vkpt/lights/outlines.hpp"
+#include "ref_vkpt/scene/world.hpp"
+#include "ref_vkpt/trace/triangle_groups.hpp"
+
+namespace {
+
+using namespace vkpt;
+
+// Pictures by the texture's name, so that an input says all: missing, dark, shining all over or in parts, of any size.
+WorldPicture find_picture(const std::string& texture)
+{
+    uint32_t hash = 1;
+    for (const char c : texture)
+        hash = hash * 31 + uint8_t(c);
+    WorldPicture picture;
+    picture.width = 1 << (hash % 11);
+    picture.height = 1 << (hash / 11 % 11);
+    picture.missing = hash % 5 == 0;
+    picture.has_alpha = hash % 3 == 0;
+    if (hash % 7 == 0)
+        picture.average = glm::vec3(0);
+    if (hash % 2 == 0)
+        picture.parts = { { { 0.25f, 0.25f }, { 0.5f, 0.75f }, glm::vec3(1) },
+            { { 0.75f, 0 }, { 1, 1 }, glm::vec3(1, 0.5f, 0) } };
+    return picture;
+}
+
+void check_lights(World& world)
+{
+    const std::vector<shared::Emitter>& emitters = world.models[0].emitters;
+    const LightLists& lists = world.light_lists;
+    for (const uint32_t index : lists.static_indices())
+        fuzz::require(index < emitters.size(), "light lists hold emitters that there are");
+    const LightMultisets multisets = make_light_multisets(world.bsp, lists, emitters);
+    for (const uint32_t index : multisets.entries)
+        fuzz::require(index < emitters.size(), "multisets hold emitters that there are");
+    const LightTrees trees = make_light_trees(lists.lists(), lists.static_indices(), emitters);
+    fuzz::require(trees.lights.size() == lists.static_indices().size(), "a tree has all lights of its list");
+    std::vector<shared::EmitterOutline> outlines(emitters.size());
+    write_outlines(outlines.data(), outlines.size(), emitters, std::vector<float>(lightstyle_count, 1.0f));
+}
+
+void move_lights(World& world)
+{
+    const formats::BspModel& whole = world.bsp.models[0];
+    for (const float share : { 0.1f, 0.5f }) {
+        const glm::vec3 place = whole.mins + (whole.maxs - whole.mins) * share;
+        std::vector<shared::Emitter> moving { make_dynamic_light(place, { 1, 0.5f, 0 }, 300) };
+        moving[0].lightstyle = lightstyle_dlight;
+        world.dynamic_lights.arrange(moving);
+        world.light_lists.update(moving);
+        fuzz::use(world.light_lists.repeat());
+        fuzz::use(world.bsp.find_cluster(place));
+    }
+}
+
+void use_world(World& world)
+{
+    set_sky_radiance(world, { 0.5f, 0.6f, 0.7f });
+    check_lights(world);
+    move_lights(world);
+    fuzz::use(world.make_materials(1.5f, {}));
+    const MapGeometry& geometry = world.models[0];
+    const TriangleSource source { geometry.triangles, geometry.masks, geometry.has_holes, 0 };
+    fuzz::use(group_triangles(source, TriangleOrder::halves_best));
+    fuzz::require(world.bvh().triangle_count <= geometry.triangles.size(), "a tree has no more triangles than its map");
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
+{
+    try {
+        const auto world = load_world(fuzz::bytes_of(data, size), "maps/input.bsp", find_picture, {});
+        use_world(*world);
+    } catch (const formats::FormatError&) {
+    }
+    return 0;
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A model as the module uses it: read, made ready, posed at and between its frames, its triangles and trees written.
+#include "formats/model.hpp"
+#include "fuzz/support/harness.hpp"
+#include "fuzz/support/moving.hpp"
+
+namespace {
+
+using namespace vkpt;
+
+void pose(const std::shared_ptr<const Md2Mesh>& mesh)
+{
+    MovingGeometry geometry;
+    const Axes axes = angle_vectors({ 10, 20, 30 });
+    for (const int frame : { 0, int(mesh->frame_count()) - 1, INT32_MAX, -1 }) {
+        Md2Pose pose;
+        pose.transform = md2_transform({ 1, 2, 3 }, { 10, 20, 30 });
+        pose.frame = frame;
+        pose.backlerp = 0.25f;
+        if (frame < 0) {
+            pose.shell_distance = powerup_shell_distance;
+            pose.mirror = Mirror { { 0, 0, 0 }, axes.right };
+            pose.squeeze = Squeeze { { 0, 0, 0 }, axes.forward, 0.5f };
+        }
+        geometry.add(mesh, pose, 0, 1);
+    }
+    MovingGeometry next = geometry;
+    next.keep_previous(0, next.extent().items, geometry, 0);
+    fuzz::write_moving(next);
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
+{
+    try {
+        const formats::Md2Model model = formats::read_md2(fuzz::bytes_of(data, size), "input.md2");
+        for (const uint32_t index : model.indices)
+            fuzz::require(index < model.vertex_count(), "a model's indices are below its number of vertices");
+        pose(std::make_shared<Md2Mesh>(model));
+    } catch (const formats::FormatError&) {
+    }
+    return 0;
+}
