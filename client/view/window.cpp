@@ -5,7 +5,11 @@
 #include "client/view/draw_interface.hpp"
 #include "client/view/theme.hpp"
 
+#if __has_include(<backends/imgui_impl_sdl2.h>)
+#include <backends/imgui_impl_sdl2.h>
+#else // Dear ImGui before 1.89
 #include <backends/imgui_impl_sdl.h>
+#endif
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <imgui.h>
@@ -76,7 +80,11 @@ void Window::make_interface()
     io.IniFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     apply_theme();
+#if IMGUI_VERSION_NUM >= 18700
+    ImGui_ImplSDL2_InitForSDLRenderer(window_.get(), renderer_.get());
+#else
     ImGui_ImplSDL2_InitForSDLRenderer(window_.get());
+#endif
     font_.reset(make_font_texture(renderer_.get()));
     if (!font_)
         fail("cannot make the interface's font");

@@ -24,12 +24,17 @@ die_usage() {
 
 is_root() { [[ $(id -u) -eq 0 ]]; }
 has() { command -v "$1" >/dev/null 2>&1; }
-is_interactive() { [[ -t 0 && -t 1 && -z ${CI:-} ]]; }
+has_terminal() { [[ -t 0 && -t 1 ]]; }
 
-# ask QUESTION: true for yes. Without a terminal the answer is yes: whoever starts a script unattended wants it done.
+# Whether somebody agreed beforehand: by --yes, or by CI, which build servers set.
+answer_yes=no
+has_agreed() { [[ $answer_yes == yes || ! ${CI:-no} =~ ^(no|false|0)$ ]]; }
+
+# ask QUESTION: true for yes. Whoever merely pipes our output, or has no terminal, has not said yes.
 ask() {
     local answer
-    is_interactive || return 0
+    has_agreed && return 0
+    has_terminal || return 1
     read -r -p "$1 [Y/n] " answer || return 1
     [[ -z $answer || $answer == [yY]* ]]
 }

@@ -93,6 +93,17 @@ build_common_arguments() { # DEFAULT_SIZE
     done
 }
 
+# True where a GPU (not the CPU driver) traces rays: it keeps up with larger pictures.
+has_raytracing_gpu() {
+    [[ -e /proc/driver/nvidia/version || -e /dev/nvidia0 ]] && return 0
+    has vulkaninfo || return 1
+    vulkaninfo 2>/dev/null | awk '
+        /^GPU[0-9]+:/ { gpu = 1 }
+        /deviceType *=/ { gpu = ($0 !~ /_CPU/) }
+        gpu && /VK_KHR_ray_(query|tracing_pipeline) / { found = 1 }
+        END { exit !found }'
+}
+
 # The first start has no configuration yet: a size that the machine can keep up with.
 first_size() {
     [[ -e $home_dir/.yq2/$game_name/config.cfg ]] && return 0

@@ -3,34 +3,37 @@
 # shellcheck disable=SC2154  # root: see common.sh
 # What is missing on this machine, and its installation with apt. Nothing here touches a machine that has everything.
 
-raytracing_mesa=24.1 # the first Mesa whose CPU driver has ray queries
-apt_dir=${VKPT_APT_DIR:-/etc/apt} # another folder in the tests
-own_sources_file=$apt_dir/sources.list.d/ref-vkpt.sources
-debian_keyring=/usr/share/keyrings/debian-archive-keyring.gpg
+. "$root/scripts/lib/apt_sources.sh"
+. "$root/scripts/lib/apt_plan.sh"
 
-read_package_list() { sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$root/scripts/packages.txt"; }
+raytracing_mesa=24.1 # the first Mesa whose CPU driver has ray queries
+record_dir=${VKPT_RECORD_DIR:-/var/lib/ref_vkpt}
+record_file=$record_dir/installed # what the set-up brought, for ./play --uninstall
+
+needed_for='test' # or play: without the packages that only the tests need
+read_package_list() {
+    local last='$'
+    [[ $needed_for == test ]] || last='/for .\/test only$/'
+    sed -n "1,${last}p" "$root/scripts/packages.txt" | sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d'
+}
 
 # The listed packages that are not installed, one a line.
 find_missing_packages() {
     local -a wanted
     mapfile -t wanted < <(read_package_list)
     comm -23 <(printf '%s\n' "${wanted[@]}" | sort -u) \
-        <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null | sed -n 's/^installed //p' | sort -u)
+        <(dpkg-query --admindir="$dpkg_dir" -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null | sed -n 's/^installed //p' | sort -u)
 }
 
-installed_version() { dpkg-query -W -f '${db:Status-Status} ${Version}' "$1" 2>/dev/null | sed -n 's/^installed //p'; }
-candidate_version() { LC_ALL=C apt-cache policy "$1" 2>/dev/null | sed -n 's/^ *Candidate: //p' | grep -vxF '(none)'; }
-
-# True where a GPU (not the CPU driver) traces rays already: then the machine's Vulkan driver is none of our business.
-has_raytracing_gpu() {
-    [[ -e /proc/driver/nvidia/version || -e /dev/nvidia0 ]] && return 0
-    has vulkaninfo || return 1
-    vulkaninfo 2>/dev/null | awk '
-        /^GPU[0-9]+:/ { gpu = 1 }
-        /deviceType *=/ { gpu = ($0 !~ /_CPU/) }
-        gpu && /VK_KHR_ray_(query|tracing_pipeline) / { found = 1 }
-        END { exit !found }'
+# A machine with a GPU keeps its drivers, whatever they can do.
+has_gpu() {
+    local file
+    for file in "$dev_dir"/dri/renderD* "$dev_dir"/nvidia0 "$proc_dir"/driver/nvidia/version; do
+        [[ -e $file ]] && return 0
+    done
+    return 1
 }
+dev_dir=/dev proc_dir=/proc
 
 mesa_traces_rays() {
     local version
@@ -40,99 +43,30 @@ mesa_traces_rays() {
 
 # Written when no newer Mesa can be had, so that the question comes once.
 no_mesa_stamp=$root/build/log/no-newer-mesa
-needs_mesa() { ! mesa_traces_rays && [[ ! -e $no_mesa_stamp ]] && ! has_raytracing_gpu; }
+needs_mesa() {
+    has_gpu && return 1
+    mesa_traces_rays && return 1
+    [[ ! -e $no_mesa_stamp || -z $(installed_version mesa-vulkan-drivers) ]]
+}
 
-# --- apt's sources ------------------------------------------------------------------------------------------------
-
-# Every enabled binary source as "URI|SUITE|COMPONENTS|SIGNED-BY", from both file formats. A Signed-By that holds the key
-# itself (many lines) is given as "inline".
-list_apt_sources() {
+# A GPU whose driver has no Vulkan is its owner's business; what helps is said.
+warn_of_missing_driver() {
     local file
-    for file in "$apt_dir"/sources.list "$apt_dir"/sources.list.d/*.list; do
-        [[ -r $file ]] || continue
-        awk '
-            $1 == "deb" {
-                signed = ""; i = 2
-                if ($2 ~ /^\[/) {
-                    options = ""
-                    for (; i <= NF; i++) { options = options " " $i; if ($i ~ /\]$/) { i++; break } }
-                    gsub(/[\[\]]/, " ", options); n = split(options, option, " ")
-                    for (k = 1; k <= n; k++) if (option[k] ~ /^signed-by=/) { signed = substr(option[k], 11) }
-                }
-                uri = $i; suite = $(i + 1); components = ""
-                for (k = i + 2; k <= NF && $k !~ /^#/; k++) components = components " " $k
-                print uri "|" suite "|" components " |" signed
-            }' "$file"
+    has_gpu || return 0
+    for file in "$vulkan_dir"/etc/vulkan/icd.d/*.json "$vulkan_dir"/usr/share/vulkan/icd.d/*.json "$vulkan_dir"/usr/local/share/vulkan/icd.d/*.json; do
+        [[ -e $file ]] && return 0
     done
-    for file in "$apt_dir"/sources.list.d/*.sources; do
-        [[ -r $file ]] || continue
-        awk '
-            function flush_stanza(   u, s, i, j, nu, ns) {
-                if (types ~ /(^| )deb( |$)/ && enabled !~ /^(no|false)$/) {
-                    nu = split(uris, u, " "); ns = split(suites, s, " ")
-                    for (i = 1; i <= nu; i++) for (j = 1; j <= ns; j++) print u[i] "|" s[j] "| " components " |" signed
-                }
-                types = uris = suites = components = signed = enabled = field = ""
-            }
-            /^#/ { next }
-            /^[[:space:]]*$/ { flush_stanza(); next }
-            /^[[:space:]]/ {
-                if (field == "suites") suites = suites " " $0
-                if (field == "uris") uris = uris " " $0
-                if (field == "components") components = components " " $0
-                if (field == "signed-by") signed = "inline"
-                next
-            }
-            {
-                field = tolower($0); sub(/:.*/, "", field); value = $0; sub(/^[^:]*:[[:space:]]*/, "", value)
-                if (field == "types") types = value
-                if (field == "uris") uris = value
-                if (field == "suites") suites = value
-                if (field == "components") components = value
-                if (field == "signed-by") signed = value
-                if (field == "enabled") enabled = tolower(value)
-            }
-            END { flush_stanza() }' "$file"
-    done
+    warn "this machine has a GPU, and no Vulkan driver. The set-up leaves drivers alone. For AMD and Intel: apt install mesa-vulkan-drivers;
+for NVIDIA: apt install nvidia-driver (component non-free), or the driver that you have from NVIDIA, with its Vulkan part."
 }
-
-release_codename() { sed -n 's/^VERSION_CODENAME=//p' /etc/os-release; }
-is_debian() { grep -qx 'ID=debian' /etc/os-release; }
-
-# The machine's own Debian archive as "URI|SIGNED-BY"; apt refuses a second entry for it with another Signed-By.
-debian_archive() {
-    local found
-    found=$(list_apt_sources | awk -F'|' -v suite="$(release_codename)" '$2 == suite && $3 ~ / main / { print $1 "|" $4; exit }')
-    echo "${found:-http://deb.debian.org/debian|$debian_keyring}"
-}
-
-has_source() { # SUITE COMPONENT
-    list_apt_sources | awk -F'|' -v suite="$1" -v component=" $2 " \
-        '$2 == suite && index($3, component) { found = 1 } END { exit !found }'
-}
-
-# The stanzas that this machine lacks, on stdout. WITH_BACKPORTS: yes or no.
-missing_sources() {
-    local with_backports=$1 codename archive uri signed
-    codename=$(release_codename)
-    archive=$(debian_archive)
-    uri=${archive%%|*}
-    signed=${archive#*|}
-    emit() {
-        printf 'Types: deb\nURIs: %s\nSuites: %s\nComponents: %s\n' "$uri" "$1" "$2"
-        [[ -n $signed ]] && printf 'Signed-By: %s\n' "$signed"
-        printf '\n'
-    }
-    has_source "$codename" contrib || emit "$codename" contrib
-    [[ $with_backports == no ]] || has_source "$codename-backports" main || emit "$codename-backports" main
-}
+vulkan_dir= # another root in the tests
 
 # --- installing ---------------------------------------------------------------------------------------------------
 
 as_root() {
     if is_root; then
         "$@"
-    elif is_interactive; then
+    elif has_terminal; then
         sudo -- "$@"
     else
         sudo -n -- "$@"
@@ -142,102 +76,109 @@ as_root() {
 run_apt() {
     as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 -o Dpkg::Use-Pty=0 "$@"
 }
-update_lists() { run_step apt-update "$1" run_apt update; }
-install_packages() { # NAME TITLE ARGUMENTS...
-    local name=$1 title=$2
-    shift 2
-    run_step "$name" "$title" run_apt install -y --no-install-recommends "$@"
+update_lists() { run_step apt-update "Reading apt's package lists" run_apt update; }
+
+# may_change_system QUESTION REFUSAL OPTION: asks, unless that was answered beforehand; ends the script where it may or can not.
+may_change_system() {
+    local question=$1 refusal=$2 command="./${0##*/} $3"
+    if ! has_agreed && ! has_terminal; then
+        die "$refusal: there is no terminal to ask on. To agree beforehand: $command --yes    (or set CI=true)"
+    fi
+    ask "$question" || die "$refusal"
+    is_root && return 0
+    has sudo || die "not root, and no sudo here. As root, run: $command"
+    if has_terminal; then
+        sudo -v || die "sudo did not let us. As root, run: $command"
+    else
+        sudo -n true 2>/dev/null || die "sudo asks for a password, which needs a terminal. As root, run: $command --yes"
+    fi
 }
 
+check_own_key() {
+    [[ $1 != *'Signed-By: inline'* ]] \
+        || die "the Debian entry in /etc/apt has its key inline; add the component contrib to it by hand, then start again"
+}
+
+# Adds stanzas to our own file, which may hold some from an earlier set-up.
 write_own_sources() {
-    local text=$1
-    if [[ $text == *'Signed-By: inline'* ]]; then
-        die "the Debian entry in /etc/apt has its key inline; add the component contrib to it by hand, then start again"
-    fi
-    printf '# Written by ref_vkpt (scripts/lib/setup.sh); safe to remove after the set-up.\n%s\n' "$text" \
+    local text=$1 earlier=
+    [[ -r $own_sources_file ]] && earlier=$(<"$own_sources_file")
+    printf '%s\n\n%s\n' "${earlier:-# Written by ref_vkpt; ./play --uninstall removes it.}" "$text" \
         | as_root tee "$own_sources_file" >/dev/null || die "cannot write $own_sources_file"
 }
 
-read_new_sources() {
-    update_lists "Reading the new package lists" && return 0
-    warn "apt cannot read all of the new sources; trying without backports"
-    as_root rm -f "$own_sources_file"
-    local stanzas
-    stanzas=$(missing_sources no)
-    [[ -z $stanzas ]] || write_own_sources "$stanzas"
-    update_lists "Reading the new package lists" || die "apt cannot read $own_sources_file; it can be removed"
-}
-
-# Debian 12 with the machine's Mesa too old, unless the release's own one will do.
-needs_backports() {
-    is_debian || return 1
-    needs_mesa || return 1
-    local release_version
-    release_version=$(candidate_version mesa-vulkan-drivers)
-    [[ -n $release_version ]] && ! dpkg --compare-versions "$release_version" ge "$raytracing_mesa"
-}
-
-install_mesa() {
-    local backports
-    backports=$(release_codename)-backports
-    if needs_backports; then
-        # Backports' Mesa brings a newer libdrm, which the release's libsdl2-dev does not go with: both in one call, first.
-        install_packages apt-mesa "Installing Mesa's Vulkan drivers with ray tracing from $backports" \
-            -t "$backports" mesa-vulkan-drivers libsdl2-dev && return 0
-    elif install_packages apt-mesa "Installing Mesa's Vulkan drivers" mesa-vulkan-drivers && mesa_traces_rays; then
-        return 0
+restore_own_sources() {
+    if [[ -n $1 ]]; then
+        printf '%s\n' "$1" | as_root tee "$own_sources_file" >/dev/null
+    else
+        as_root rm -f "$own_sources_file"
     fi
-    warn "no Vulkan driver with hardware or emulated ray tracing could be installed; ref_vkpt will trace in compute shaders"
-    install_packages apt-mesa "Installing the release's own Vulkan drivers" mesa-vulkan-drivers || return 1
-    touch "$no_mesa_stamp"
 }
 
-check_can_install() {
-    has apt-get || die "this system has no apt. Install the equivalents of: $(read_package_list | tr '\n' ' ')"
-    is_root || has sudo || die "not root, and no sudo here. As root, run: ./${0##*/} --setup-only"
-    if ! is_root && ! is_interactive; then
-        sudo -n true 2>/dev/null || die "sudo asks for a password, which needs a terminal. As root, run: ./${0##*/} --setup-only"
-    fi
+# The record: lines "new NAME VERSION", and "upgrade NAME VERSION OLD". Written before apt starts, so that an
+# installation that breaks off can be taken back as well.
+write_record() {
+    as_root mkdir -p "$record_dir" || die "cannot make $record_dir"
+    cut -d' ' -f1-4 <<<"$plan_changes" | as_root tee -a "$record_file" >/dev/null || die "cannot write $record_file"
+}
+
+# Naming a package marks it as wanted for its own sake. libdrm's are not: what apt held for a mere dependency stays one.
+restore_auto_marks() {
+    local -a libraries
+    mapfile -t libraries < <(printf '%s\n' "${plan_arguments[@]%%[/=]*}" | grep -vxF -e mesa-vulkan-drivers -f <(read_package_list) \
+        | grep -vxF -f <(printf '%s\n' "$manual_before") | sort -u)
+    ((${#libraries[@]} == 0)) || as_root apt-mark auto "${libraries[@]}" >/dev/null 2>&1 || true
+}
+
+# check_plan_holds EARLIER-SOURCES: what the user agreed to is what happens: the real apt, asked now, has to say the same.
+check_plan_holds() {
+    local now
+    now=$(LC_ALL=C system_apt -s install --no-install-recommends "${plan_arguments[@]}" 2>/dev/null | read_simulation)
+    [[ $now == "$plan_changes" ]] && return 0
+    restore_own_sources "$1"
+    diff <(printf '%s\n' "$plan_changes") <(printf '%s\n' "$now") | sed -n 's/^[<>]/  &/p' | head -n 10 >&2
+    die "apt's package lists have changed meanwhile (above: before <, now >); nothing was installed. Start again."
+}
+system_apt() { apt-get "$@"; }
+
+install_plan() {
+    local manual_before sources_before=
+    [[ -r $own_sources_file ]] && sources_before=$(<"$own_sources_file")
+    manual_before=$(apt-mark showmanual 2>/dev/null)
+    [[ -z $plan_sources ]] || write_own_sources "$plan_sources"
+    update_lists || warn "apt-get update had errors ($log_dir/apt-update.log); going on with the lists that are there"
+    check_plan_holds "$sources_before"
+    write_record
+    run_step apt-install "Installing $(count_changes new) packages" run_apt install -y --no-install-recommends "${plan_arguments[@]}" \
+        || die "apt could not install the packages. ./play --uninstall takes back what it did."
+    restore_auto_marks
 }
 
 # Installs what is missing. Quick (no apt, no network) where nothing is.
 set_up_machine() {
     local -a missing
-    local stanzas line mesa=no
+    local mesa=no
     if ! has dpkg-query; then
         warn "not a Debian system: the packages are not checked (scripts/packages.txt lists them)"
         return 0
     fi
+    warn_of_missing_driver
     mapfile -t missing < <(find_missing_packages)
     needs_mesa && mesa=yes
     ((${#missing[@]} == 0)) && [[ $mesa == no ]] && return 0
 
-    say "ref_vkpt needs packages that are not installed:"
-    note "${missing[*]}$([[ $mesa == yes ]] && echo ' mesa-vulkan-drivers (with ray tracing)')"
-    check_can_install
-    ask "Install them with apt now?" || die "nothing was installed. ./${0##*/} --no-setup goes on without this check."
-    is_root || ! is_interactive || sudo -v || die "sudo did not let us"
-
-    update_lists "Reading apt's package lists" || warn "apt-get update had errors; going on with the lists that are there"
-    stanzas=
-    if is_debian; then
-        stanzas=$(missing_sources "$(needs_backports && echo yes || echo no)")
-        [[ -n $stanzas && -n $(candidate_version yamagi-quake2) ]] && ! needs_backports && stanzas=
+    [[ $mesa == no ]] || say "ref_vkpt needs Mesa's Vulkan driver for the CPU, in a version that traces rays."
+    ((${#missing[@]} == 0)) || say "ref_vkpt needs ${#missing[@]} packages that are not installed."
+    has apt-get || die "this system has no apt. Install the equivalents of: $(read_package_list | tr '\n' ' ')"
+    plan_installation "$mesa" ${missing[@]+"${missing[@]}"}
+    if [[ -n $plan_changes ]]; then
+        check_plan
+        print_plan
+        say "By hand, as root: apt-get install --no-install-recommends ${plan_arguments[*]}"
+        may_change_system "Do this now?" "nothing was installed" --setup-only
+        install_plan
     fi
-    if [[ -n $stanzas ]]; then
-        say "apt needs these sources as well ($own_sources_file):"
-        while IFS= read -r line; do note "$line"; done <<<"$stanzas"
-        ask "Add them?" || die "without them yamagi-quake2 (contrib) or Mesa (backports) cannot be installed"
-        write_own_sources "$stanzas"
-        read_new_sources
-    fi
-    if [[ $mesa == yes ]]; then
-        install_mesa || die "apt could not install Mesa's Vulkan drivers"
-    fi
-    mapfile -t missing < <(find_missing_packages)
-    if ((${#missing[@]})); then
-        install_packages apt-install "Installing ${#missing[@]} packages" "${missing[@]}" || die "apt could not install the packages"
-    fi
+    [[ $mesa == no ]] || mesa_traces_rays || touch "$no_mesa_stamp"
     mapfile -t missing < <(find_missing_packages)
     ((${#missing[@]} == 0)) || die "still missing: ${missing[*]}"
 }

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# The set-up's decisions, with every kind of apt sources that Debian machines have, and with apt played by functions.
+# What the set-up makes of every kind of apt sources that Debian machines have.
 # shellcheck disable=SC2034,SC2317  # the functions below replace those of the scripts
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/../.." && pwd)
@@ -20,6 +20,7 @@ new_machine() { # fresh sources
     mkdir -p "$VKPT_APT_DIR/sources.list.d"
 }
 release_codename() { echo bookworm; }
+is_root() { true; } # the folder is ours, so nobody else is needed
 
 new_machine
 cat >"$VKPT_APT_DIR/sources.list" <<'SOURCES'
@@ -103,55 +104,12 @@ expect_equal "a key inline is not copied" 'http://deb.debian.org/debian|inline' 
 new_machine
 expect_equal "no Debian entry at all" "http://deb.debian.org/debian|$debian_keyring" "$(debian_archive)"
 
-# --- the whole set-up against a pretended apt: what it calls, in which order
-log_dir=$folder/log
-no_mesa_stamp=$log_dir/no-newer-mesa
-calls=$folder/calls
-mkdir -p "$log_dir"
-as_root() { "$@"; }
-check_can_install() { :; }
-is_interactive() { false; }
-is_debian() { true; }
-has_raytracing_gpu() { [[ $pretend_gpu == yes ]]; }
-find_missing_packages() { grep -qx packages "$folder/installed" 2>/dev/null || printf 'cmake\nyamagi-quake2\n'; }
-installed_version() { cat "$folder/mesa" 2>/dev/null; }
-candidate_version() {
-    case $1 in
-    mesa-vulkan-drivers) echo "$pretend_mesa" ;;
-    yamagi-quake2) has_source bookworm contrib && echo 8.20 ;;
-    esac
-}
-run_apt() {
-    echo "$*" >>"$calls"
-    case "$*" in
-    *'-t bookworm-backports'*) echo 25.0.7-2 >"$folder/mesa" ;;
-    *mesa-vulkan-drivers*) echo "$pretend_mesa" >"$folder/mesa" ;;
-    *yamagi-quake2*) echo packages >"$folder/installed" ;;
-    esac
-}
-pretend_set_up() { # GPU MESA-OF-THE-RELEASE
-    new_machine
-    pretend_gpu=$1
-    pretend_mesa=$2
-    echo 'deb http://deb.debian.org/debian bookworm main' >"$VKPT_APT_DIR/sources.list"
-    rm -f "$calls" "$folder/installed" "$folder/mesa" "$no_mesa_stamp"
-    (set_up_machine) >"$folder/output" 2>&1 || { cat "$folder/output"; expect_equal "set-up ended" 0 1; }
-    cat "$calls"
-}
-expect_equal "Debian 12: backports first" 'update
-update
-install -y --no-install-recommends -t bookworm-backports mesa-vulkan-drivers libsdl2-dev
-install -y --no-install-recommends cmake yamagi-quake2' "$(pretend_set_up no 22.3.6-1)"
-: >"$calls"
-(set_up_machine) >/dev/null 2>&1
-expect_equal "a second time: no call at all" '' "$(cat "$calls")"
-expect_equal "a newer release: its own Mesa" 'update
-update
-install -y --no-install-recommends mesa-vulkan-drivers
-install -y --no-install-recommends cmake yamagi-quake2' "$(pretend_set_up no 25.0.7-2)"
-expect_equal "a GPU that traces rays keeps its driver" 'update
-update
-install -y --no-install-recommends cmake yamagi-quake2' "$(pretend_set_up yes 22.3.6-1)"
+new_machine
+echo 'deb http://deb.debian.org/debian bookworm main' >"$VKPT_APT_DIR/sources.list"
+write_own_sources "$(missing_sources no)"
+write_own_sources "$(missing_sources yes)"
+expect_equal "what is added later keeps what was there" '' "$(missing_sources yes)"
+expect_equal "no contrib where nothing of it is missing" 'Suites: bookworm-backports' "$(new_machine; missing_sources yes no | grep Suites)"
 
 ((failures == 0)) && echo "set-up: all as it should be"
 ((failures == 0))
