@@ -48,7 +48,7 @@ continue_as_owner() {
     group=$(stat -c %g "$root")
     ((owner != 0)) || return 0
     if [[ -e $build_dir && $(stat -c %u "$build_dir") -ne $owner ]]; then return 0; fi
-    mkdir -p "$log_dir" && chown "$owner:$group" "$root/build" && chown -R "$owner:$group" "$log_dir"
+    mkdir -p "$log_dir" && chown "$owner:$group" "$root/build" && chown -hR "$owner:$group" "$log_dir"
     home=$(getent passwd "$owner" | cut -d: -f6)
     [[ -n $home ]] && groups=--init-groups
     [[ -n $home && -d $home ]] || home=$root/build
@@ -134,20 +134,30 @@ link_game() {
     fi
 }
 
-# What driver and module compile goes to a folder that the player may write.
-use_cache_dir() {
-    cache_dir=$1
-    mkdir -p "$cache_dir" 2>/dev/null || return 1
-    if is_root; then
-        chown -R "$player_uid:$player_gid" "$cache_dir"
+# A folder that we made for the player carries this mark. As root only such ones change hands: a path from the environment may
+# name any folder of the system.
+own_mark=.made-by-ref_vkpt
+
+# give_folder DIR: makes DIR, or takes it if we made it, and hands it to the player. True if the player may write there.
+give_folder() {
+    local dir=$1
+    if [[ ! -e $dir && ! -L $dir ]]; then
+        mkdir -p "$dir" 2>/dev/null && : >"$dir/$own_mark" || return 1
     fi
-    as_player test -w "$cache_dir"
+    if is_root && [[ ! -L $dir && -f $dir/$own_mark && ! -L $dir/$own_mark ]]; then
+        chown -hR "$player_uid:$player_gid" "$dir"
+    fi
+    as_player test -d "$dir" -a -w "$dir"
 }
+
+# What driver and module compile goes to a folder that the player may write.
 choose_cache_dir() {
     local outside
-    use_cache_dir "$shared_cache_dir" && return 0
+    cache_dir=$shared_cache_dir
+    give_folder "$cache_dir" && return 0
     outside=$(make_outside_dir) || exit 1
-    use_cache_dir "$outside/cache" && return 0
+    cache_dir=$outside/cache
+    give_folder "$cache_dir" && return 0
     die "user $player_uid may not write to $shared_cache_dir; VKPT_CACHE_DIR=DIR names another place"
 }
 
@@ -170,12 +180,9 @@ prepare_run_dir() {
     link_game baseq2 "$engine_dir"
     [[ ${game_name:-baseq2} == baseq2 ]] || link_game "$game_name" "$engine_dir"
     home_dir=$run_dir/$1
-    mkdir -p "$home_dir/.yq2/${game_name:-baseq2}" "$home_dir/.local/share"
-    if is_root; then
-        chown -R "$player_uid:$player_gid" "$home_dir"
-    fi
+    give_folder "$home_dir" || die "$home_dir belongs to another user (an earlier run, or not ours); remove it: sudo rm -r $home_dir"
+    as_player mkdir -p "$home_dir/.yq2/${game_name:-baseq2}" "$home_dir/.local/share"
     choose_cache_dir
-    [[ -w $home_dir ]] || die "$home_dir belongs to another user (an earlier run); remove it: sudo rm -r $home_dir"
 }
 
 # use_data DIR: DIR with a baseq2 in it, as the player can read it; prints the folder to give to the engine.

@@ -244,6 +244,7 @@ film_rate() { if has_raytracing_gpu; then echo 30; else echo 10; fi; }
 film_demo() {
     local use=$1 rate mode=() trace=$home_dir/demo.rtrace setting
     local -a data=(--basedir "$data_dir" --game "$game_name") given=()
+    check_out_dir "$out_dir"
     take_set_arguments ${engine_arguments[@]+"${engine_arguments[@]}"}
     for setting in ${settings[@]+"${settings[@]}"}; do
         given+=(--set "$setting")
@@ -295,6 +296,27 @@ film_progress() {
     printf '%d of %d frames, about %d:%02d left\n' "$done" "$film_frames" $((left / 60)) $((left % 60))
 }
 
+# What ./play wrote to a folder is listed there, and no other file of it is ever removed or written over.
+pictures_list=.ref_vkpt-pictures
+list_own_pictures() { [[ -f $1/$pictures_list ]] && grep -xE 'frame[0-9]+\.png|contact_sheet\.png|demo\.mp4' "$1/$pictures_list"; }
+
+# check_out_dir OUT: ends the script where somebody else's files have the names of ours.
+check_out_dir() {
+    local out=$1 file
+    if ! mkdir -p "$out" 2>/dev/null || [[ ! -w $out ]]; then die "cannot write to $out"; fi
+    # The checkout's own out/ is ours, also where an earlier version kept no list.
+    [[ -L $root/out || ! $out -ef $root/out || -e $out/$pictures_list ]] || find "$out" -maxdepth 1 -type f -printf '%f\n' >"$out/$pictures_list"
+    for file in "$out"/frame*.png "$out/contact_sheet.png" "$out/demo.mp4"; do
+        [[ -e $file || -L $file ]] || continue
+        list_own_pictures "$out" | grep -xF "${file##*/}" >/dev/null \
+            || die "$file is there, and ./play did not write it; move it away, or name another folder: --out DIR"
+    done
+}
+clear_out_dir() {
+    local name
+    list_own_pictures "$1" | while IFS= read -r name; do rm -f "$1/$name"; done
+}
+
 # collect_pictures OUT RATE: some of the frames, the contact sheet of them, and where ffmpeg is there, a film of all.
 collect_pictures() {
     local out=$1 rate=$2 wanted=${VKPT_PICTURES:-24} i every made
@@ -305,9 +327,11 @@ collect_pictures() {
     for ((i = 0; i < ${#pictures[@]}; i += every)); do
         chosen+=("${pictures[i]}")
     done
-    mkdir -p "$out" && rm -f "$out"/frame*.png "$out/contact_sheet.png" "$out/demo.mp4"
+    clear_out_dir "$out"
+    rm -f "$out/$pictures_list"
+    printf '%s\n' "${chosen[@]##*/}" contact_sheet.png demo.mp4 >"$out/$pictures_list" || die "cannot write to $out"
     cp --no-preserve=ownership "${chosen[@]}" "$out/" || die "cannot write to $out"
-    "$build_dir/scripts/contact_sheet" "$out/contact_sheet.png" "$out"/frame*.png || die "the contact sheet could not be made"
+    "$build_dir/scripts/contact_sheet" "$out/contact_sheet.png" "${chosen[@]}" || die "the contact sheet could not be made"
     made="${#chosen[@]} pictures and contact_sheet.png"
     if ! has ffmpeg; then
         note "no ffmpeg, so no film: install it (apt install ffmpeg) and play again"
