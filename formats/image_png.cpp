@@ -44,7 +44,9 @@ public:
         png_set_read_fn(png_, this, read);
         png_set_user_limits(png_, max_image_size, max_image_size);
         png_set_crc_action(png_, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
+#ifdef PNG_IGNORE_ADLER32 // libpng may be built without (Debian 13)
         png_set_option(png_, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
+#endif
         // Texts, profiles and the like are passed over: some are compressed, and their unpacked size is the file's choice.
         png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_read_info(png_, info_);
