@@ -9,7 +9,7 @@ namespace vkpt::client {
 
 namespace fs = std::filesystem;
 
-OutputFolder::OutputFolder(const fs::path& path, std::initializer_list<const char*> names)
+OutputFolder::OutputFolder(const fs::path& path, const std::vector<std::string>& names)
     : path_(path)
 {
     std::error_code error;
@@ -18,7 +18,7 @@ OutputFolder::OutputFolder(const fs::path& path, std::initializer_list<const cha
         throw Failure(fmt::format("-o {}: cannot make this folder: {}; name one that may be written to", path.string(),
             error ? error.message() : "a file has that name"));
     try {
-        for (const char* name : names)
+        for (const std::string& name : names)
             files_.push_back(std::make_unique<OutputFile>(path / name));
     } catch (...) {
         clear();

@@ -4,8 +4,8 @@
 
 #include "client/host/output_file.hpp"
 
-#include <initializer_list>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace vkpt::client {
@@ -13,7 +13,7 @@ namespace vkpt::client {
 class OutputFolder {
 public:
     // Makes the folder where it is not there. Throws Failure.
-    OutputFolder(const std::filesystem::path& path, std::initializer_list<const char*> names);
+    OutputFolder(const std::filesystem::path& path, const std::vector<std::string>& names);
     // Removes what was not committed, and the folder if it was made for that alone.
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;

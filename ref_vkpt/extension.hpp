@@ -10,7 +10,7 @@
 
 namespace vkpt {
 
-inline constexpr uint32_t extension_version = 5;
+inline constexpr uint32_t extension_version = 6;
 
 inline constexpr uint32_t view_count = 4; // that select_view can tell apart
 
@@ -81,16 +81,22 @@ struct TraceRequest {
 struct SceneTriangle {
     float positions[3][3]; // cross(p1 - p0, p2 - p0) points to the front
     float uvs[3][2]; // picture coordinates, 1 = one picture width; v grows downwards
+    float normals[3][3]; // for shading, unit, on the front's side
     uint32_t material; // index into SceneContents::materials
-    int32_t emitter; // index into SceneContents::emitters, -1: none
+    // Index into SceneContents::emitters. -1: none. -2: shines only for those who see it, emitters of its face send its
+    // light.
+    int32_t emitter;
     uint32_t ray_mask; // MASK_* of shaders/shared/scene.h
 };
 
 struct SceneMaterial {
     const char* picture; // the file it was read from; empty: none
+    float tint[3]; // multiplies the picture's colours
     float base_colour[3]; // the picture's average, tinted
     float opacity; // 1 opaque
-    float emission[3]; // average radiance of the front, at this moment
+    float emission_tint[3]; // radiance of the front, at this moment = this * the picture's colour
+    float emission[3]; // its average
+    float uv_scroll[2]; // added to picture coordinates, at this moment
     float roughness; // GGX alpha = roughness^2
     float metallic;
     uint32_t flags; // MATERIAL_* of shaders/shared/scene.h
@@ -105,6 +111,14 @@ struct SceneEmitter {
     float reach; // no light farther than this from its place; 0: no limit
 };
 
+// Radiance along direction d: that of the pictures' cube along (dot(d, rotation[0]), dot(d, rotation[1]), dot(d,
+// rotation[2])), times `radiance`. Pictures are of the sides +x, -x, +y, -y, +z, -z.
+struct SceneSky {
+    const char* pictures[6]; // files; empty: a plain white side. All empty: `radiance` alone is the sky
+    float rotation[3][3];
+    float radiance[3];
+};
+
 struct SceneCamera {
     float eye[3], forward[3], right[3], up[3]; // right, up: scaled by the tangent of half the angle of sight
 };
@@ -117,6 +131,8 @@ struct SceneContents {
     const SceneEmitter* emitters; // dark ones, too: the place of a dynamic light that has gone is kept
     size_t emitter_count;
     SceneCamera camera;
+    SceneSky sky;
+    float time; // seconds of the game, which liquids move by
 };
 
 // The surface that a pixel of the last view shows. Quake world units, linear colours.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene_contents.hpp"
 
+#include "ref_vkpt/scene/entity_geometry.hpp"
+
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/gtc/constants.hpp>
@@ -30,11 +32,12 @@ SceneTriangle make_triangle(const shared::Triangle& from, uint32_t mask)
     SceneTriangle to {};
     for (int corner = 0; corner < 3; corner++) {
         copy_vector(to.positions[corner], from.positions[corner]);
+        copy_vector(to.normals[corner], decode_octahedral(from.normals[corner]));
         to.uvs[corner][0] = from.uvs[corner].x;
         to.uvs[corner][1] = from.uvs[corner].y;
     }
     to.material = from.material;
-    to.emitter = std::max(from.emitter, shared::EMITTER_UNLISTED);
+    to.emitter = from.emitter;
     to.ray_mask = mask;
     return to;
 }
@@ -62,12 +65,37 @@ SceneMaterial make_material(const shared::Material& from, const Texture* picture
     SceneMaterial to {};
     to.picture = picture ? picture->file.c_str() : "";
     const glm::vec3 average = picture ? picture->average : glm::vec3(1);
+    copy_vector(to.tint, from.tint);
     copy_vector(to.base_colour, glm::clamp(average * from.tint, 0.0f, 1.0f));
     to.opacity = from.opacity;
+    copy_vector(to.emission_tint, from.emission * lightstyle);
     copy_vector(to.emission, from.emission * average * lightstyle);
+    to.uv_scroll[0] = from.uv_scroll.x;
+    to.uv_scroll[1] = from.uv_scroll.y;
     to.roughness = from.roughness;
     to.metallic = from.metallic;
     to.flags = from.flags;
+    return to;
+}
+
+using Pictures = std::map<uint32_t, const Texture*>; // by slot
+
+const Texture* find_picture(const Pictures& pictures, uint32_t slot)
+{
+    const auto found = pictures.find(slot);
+    return found == pictures.end() ? nullptr : found->second;
+}
+
+SceneSky make_sky(const shared::Sky& from, const Pictures& pictures)
+{
+    SceneSky to {};
+    for (size_t side = 0; side < std::size(to.pictures); side++) {
+        const Texture* picture = from.present ? find_picture(pictures, from.textures[side]) : nullptr;
+        to.pictures[side] = picture ? picture->file.c_str() : "";
+    }
+    for (int axis = 0; axis < 3; axis++)
+        copy_vector(to.rotation[axis], from.rotation[axis]);
+    copy_vector(to.radiance, from.radiance);
     return to;
 }
 
@@ -101,17 +129,15 @@ SceneContents read_scene_contents(Module& m)
     emitters.clear();
     const SceneSnapshot& snapshot = *m.snapshot;
     add_triangles(triangles, m);
-    const std::map<uint32_t, const Texture*> pictures = m.textures.by_slot();
-    for (const shared::Material& material : snapshot.materials) {
-        const auto picture = pictures.find(material.texture);
-        materials.push_back(make_material(material, picture == pictures.end() ? nullptr : picture->second,
-            snapshot.lightstyles[material.lightstyle]));
-    }
+    const Pictures pictures = m.textures.by_slot();
+    for (const shared::Material& material : snapshot.materials)
+        materials.push_back(make_material(
+            material, find_picture(pictures, material.texture), snapshot.lightstyles[material.lightstyle]));
     visit_emitters(snapshot, [&](const shared::Emitter& emitter, float lightstyle) {
         emitters.push_back(make_emitter(emitter, lightstyle));
     });
     SceneContents contents { triangles.data(), triangles.size(), materials.data(), materials.size(), emitters.data(),
-        emitters.size(), {} };
+        emitters.size(), {}, make_sky(snapshot.sky, pictures), snapshot.time };
     const shared::Camera& camera = m.frame.last_view().camera;
     copy_vector(contents.camera.eye, camera.eye);
     copy_vector(contents.camera.forward, camera.forward);

@@ -15,9 +15,6 @@ const uint mask_camera = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK
 const uint mask_reflected = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
 // Metals smoother than this are mirrors.
 const float mirror_roughness = 0.06;
-const float water_index = 1.33;
-// Absorption of water per unit of length (a unit is about an inch); red goes first.
-const vec3 water_absorption = vec3(0.0045, 0.0016, 0.0010);
 
 // Unpolarised Fresnel reflectance of a smooth dielectric; `ratio` = index behind / index before. 1: total reflection.
 float fresnel_dielectric(float cosine, float ratio)
@@ -29,16 +26,18 @@ float fresnel_dielectric(float cosine, float ratio)
     return 0.5 * a * a * (1.0 + b * b);
 }
 
+vec2 wave_slope(vec4 wave, vec2 direction, vec2 place)
+{
+    return wave.w * cos(dot(place, wave.xy) + wave.z * frame.time) * direction;
+}
+
 // A few crossing waves; the gradient of their height turns the surface normal.
 vec3 water_normal(vec3 position, vec3 normal)
 {
     if (abs(normal.z) < 0.7)
         return normal;
-    vec2 p = position.xy;
-    float t = frame.time;
-    vec2 slope = 0.020 * cos(dot(p, vec2(0.050, 0.031)) + 1.3 * t) * vec2(0.85, 0.53)
-        + 0.016 * cos(dot(p, vec2(-0.043, 0.071)) + 1.7 * t) * vec2(-0.52, 0.85)
-        + 0.010 * cos(dot(p, vec2(0.131, -0.083)) + 2.6 * t) * vec2(0.84, -0.54);
+    vec2 slope = wave_slope(WATER_WAVE_A, WATER_SLOPE_A, position.xy) + wave_slope(WATER_WAVE_B, WATER_SLOPE_B, position.xy)
+        + wave_slope(WATER_WAVE_C, WATER_SLOPE_C, position.xy);
     return normalize(normal - vec3(slope, 0.0) * sign(normal.z));
 }
 
@@ -90,7 +89,7 @@ void pass_through(inout Path path, Surface s, vec3 direction)
 void meet_water(inout Path path, Surface s, inout Random random)
 {
     vec3 normal = water_normal(s.position, s.normal);
-    float ratio = path.in_water ? 1.0 / water_index : water_index;
+    float ratio = path.in_water ? 1.0 / WATER_INDEX : WATER_INDEX;
     float reflectance = fresnel_dielectric(clamp(dot(normal, s.view), 0.0, 1.0), ratio), weight;
     bool reflected = choose_layer(path.layers, reflectance, random, weight);
     path.throughput *= weight;
@@ -125,7 +124,7 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
 {
     RawHit raw = trace_nearest(path.ray, path.mask);
     if (path.in_water)
-        path.throughput *= exp(-water_absorption * min(raw.t, 8192.0));
+        path.throughput *= exp(-WATER_ABSORPTION * min(raw.t, 8192.0));
     if (raw.triangle == TRACE_MISS) {
         path.emitted += path.throughput * sky_radiance(path.ray.direction);
         return false;

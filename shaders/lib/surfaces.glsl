@@ -3,6 +3,7 @@
 #ifndef VKPT_LIB_SURFACES
 #define VKPT_LIB_SURFACES
 
+#include "../shared/liquid.h"
 #include "bsdf.glsl"
 #include "light_lists.glsl"
 #include "packing.glsl"
@@ -50,8 +51,7 @@ float choose_mip(Triangle triangle, vec2 size, float cone_width, float cosine)
 // Liquids wobble: the picture is displaced along each axis by a sine of the other.
 vec2 warp_uv(vec2 uv)
 {
-    const float amplitude = 0.0625, cycles = 6.2831853 * 2.0, speed = 1.0;
-    return uv + amplitude * sin(uv.yx * cycles * 0.5 + frame.time * speed);
+    return uv + WARP_AMPLITUDE * sin(uv.yx * WARP_FREQUENCY + frame.time * WARP_SPEED);
 }
 
 // How pictures are read, at the level of detail that the ray's footprint asks for.
