@@ -137,6 +137,7 @@ private:
 
 struct Bsp {
     std::string name; // for messages
+    size_t file_size = 0; // bytes that it was read from; 0: made in memory
     std::string entity_text;
     std::vector<BspPlane> planes;
     std::vector<glm::vec3> vertices;
@@ -174,7 +175,9 @@ struct Bsp {
     ClusterSet pvs(int cluster) const;
 };
 
-// Throws FormatError naming lump, offset and reason. Two things are mended instead: a face whose light samples are not in the
+// Throws FormatError naming lump, offset and reason. A small map must not cost much to use: lumps that overlap, surface edges,
+// leaf faces and faces that several records share, faces of more than 64 edges and endless animations are refused, though they
+// could be read. Two things are mended instead: a face whose light samples are not in the
 // file gets light_offset -1, and a texinfo chain that never returns to its start is cut where it enters the ring.
 Bsp read_bsp(Bytes file, std::string_view name);
 // The inverse, for the map compiler and the tests. `visibility` and `lighting` are written as they stand.

@@ -12,6 +12,11 @@ namespace {
 
 // Deep enough for any map that was ever compiled, shallow enough to walk the tree by recursion.
 constexpr int max_tree_depth = 4096;
+// Compilers cut faces at 20 to 64 corners; pictures take turns by the dozen at most.
+constexpr size_t max_face_edges = 64;
+constexpr size_t max_animation_frames = 256;
+// Of the faces that leaves show, each counted in every leaf: some 60,000 in large maps.
+constexpr size_t max_leaf_face_edges = size_t(1) << 20;
 
 bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -56,6 +61,18 @@ private:
             fail(lump, size_t(&record - records.data()), sizeof(T),
                 std::string(what) + " " + std::to_string(first) + " + " + std::to_string(count) + " of "
                     + std::to_string(size));
+    }
+
+    // Runs that do not overlap: together they are no longer than what they are runs of. Adds `count` to `total`.
+    template <class T>
+    void check_total(Lump lump, const std::vector<T>& records, const T& record, size_t& total, size_t count,
+        size_t size, const char* what) const
+    {
+        total += count;
+        if (total > size)
+            fail(lump, size_t(&record - records.data()), sizeof(T),
+                std::string("with it there are ") + std::to_string(total) + " " + what + ", more than the "
+                    + std::to_string(size) + " that may be: the same are used again and again");
     }
 
     template <class T>
@@ -105,6 +122,7 @@ private:
                 fail(Texinfos, i, sizeof(TexinfoRecord), "next frame " + std::to_string(t.next) + " does not exist");
         }
         cut_animation_chains();
+        check_animation_lengths();
     }
 
     // A chain must end or come back to where it started, so that a walk "until the end or the start" always stops.
@@ -131,8 +149,22 @@ private:
         }
     }
 
+    // After the cut: a chain ends, or comes back to its start.
+    void check_animation_lengths() const
+    {
+        for (size_t start = 0; start < bsp_.texinfos.size(); start++) {
+            size_t frames = 1;
+            for (int32_t at = bsp_.texinfos[start].next; at >= 0 && at != int32_t(start);
+                 at = bsp_.texinfos[size_t(at)].next)
+                if (++frames > max_animation_frames)
+                    fail(Texinfos, start, sizeof(TexinfoRecord),
+                        "an animation of more than " + std::to_string(max_animation_frames) + " frames");
+        }
+    }
+
     void check_faces() const
     {
+        size_t edges = 0;
         for (const BspFace& face : bsp_.faces) {
             check_index(Faces, bsp_.faces, face, face.plane, bsp_.planes.size(), "plane");
             check_index(Faces, bsp_.faces, face, face.texinfo, bsp_.texinfos.size(), "texinfo");
@@ -140,6 +172,12 @@ private:
                 Faces, bsp_.faces, face, face.first_edge, face.edge_count, bsp_.surface_edges.size(), "surface edges");
             if (face.edge_count < 3)
                 fail(Faces, size_t(&face - bsp_.faces.data()), sizeof(BspFace), "fewer than three edges");
+            if (face.edge_count > max_face_edges)
+                fail(Faces, size_t(&face - bsp_.faces.data()), sizeof(BspFace),
+                    std::to_string(face.edge_count) + " edges, more than the " + std::to_string(max_face_edges)
+                        + " that a face may have");
+            check_total(
+                Faces, bsp_.faces, face, edges, face.edge_count, bsp_.surface_edges.size(), "surface edges of faces");
         }
     }
 
@@ -153,16 +191,30 @@ private:
         // indices.
         const size_t clusters
             = bsp_.visibility.empty() ? size_t(INT16_MAX) + 1 : size_t(std::max(bsp_.cluster_count, 0));
+        size_t faces = 0, brushes = 0, edges = 0;
         for (const BspLeaf& leaf : bsp_.leaves) {
             check_run(Leaves, bsp_.leaves, leaf, leaf.first_leaf_face, leaf.leaf_face_count, bsp_.leaf_faces.size(),
                 "leaf faces");
             check_run(Leaves, bsp_.leaves, leaf, leaf.first_leaf_brush, leaf.leaf_brush_count, bsp_.leaf_brushes.size(),
                 "leaf brushes");
+            check_total(Leaves, bsp_.leaves, leaf, faces, leaf.leaf_face_count, bsp_.leaf_faces.size(), "leaf faces");
+            check_total(
+                Leaves, bsp_.leaves, leaf, brushes, leaf.leaf_brush_count, bsp_.leaf_brushes.size(), "leaf brushes");
+            check_total(
+                Leaves, bsp_.leaves, leaf, edges, count_edges(leaf), max_leaf_face_edges, "edges of leaves' faces");
             if (leaf.cluster != -1)
                 check_index(Leaves, bsp_.leaves, leaf, leaf.cluster, clusters, "cluster");
             if (leaf.area != -1)
                 check_index(Leaves, bsp_.leaves, leaf, leaf.area, std::max<size_t>(bsp_.areas.size(), 1), "area");
         }
+    }
+
+    size_t count_edges(const BspLeaf& leaf) const
+    {
+        size_t edges = 0;
+        for (size_t i = 0; i < leaf.leaf_face_count; i++)
+            edges += bsp_.faces[bsp_.leaf_faces[leaf.first_leaf_face + i]].edge_count;
+        return edges;
     }
 
     void check_nodes() const
@@ -216,8 +268,11 @@ private:
 
     void check_models() const
     {
+        size_t faces = 0;
         for (const BspModel& model : bsp_.models) {
             check_run(Models, bsp_.models, model, model.first_face, model.face_count, bsp_.faces.size(), "faces");
+            check_total(
+                Models, bsp_.models, model, faces, size_t(model.face_count), bsp_.faces.size(), "faces of models");
             check_child(Models, bsp_.models, model, model.head_node);
             if (!is_finite(model.mins) || !is_finite(model.maxs) || !is_finite(model.origin))
                 fail(Models, size_t(&model - bsp_.models.data()), sizeof(BspModel), "bounds or origin are not finite");

@@ -16,12 +16,17 @@ Directory read_directory(ByteReader& reader)
     if (const auto found = reader.read<int32_t>(); found != version)
         reader.fail_at(4, "BSP version " + std::to_string(found) + "; Quake II's maps have version 38");
     const auto directory = reader.read<Directory>();
+    size_t total = 0;
     for (size_t lump = 0; lump < LumpCount; lump++) {
         const auto [offset, size] = directory[lump];
         if (size > 0 && (offset > reader.size() || size > reader.size() - offset))
             reader.fail_at(header_size - sizeof(Directory) + lump * sizeof(LumpEntry),
                 std::string("lump ") + lump_names[lump] + " reaches past the end of the file");
+        total += size;
     }
+    if (total > reader.size())
+        reader.fail_at(header_size - sizeof(Directory),
+            "its lumps hold " + std::to_string(total) + " bytes, more than the file: they overlap");
     return directory;
 }
 
@@ -60,6 +65,7 @@ Bsp read_bsp(Bytes file, std::string_view name)
     const Directory directory = read_directory(reader);
     Bsp bsp;
     bsp.name = name;
+    bsp.file_size = file.size();
     const auto entity_text = read_lump<char>(reader, directory, Entities);
     bsp.entity_text = text_until_zero(entity_text.data(), entity_text.size());
     bsp.planes = read_lump<BspPlane>(reader, directory, Planes);

@@ -14,6 +14,7 @@ using formats::Bsp;
 // A shape this near to a plane counts as on both of its sides, units. Map compilers round corners to about as much.
 constexpr float plane_tolerance = 0.05f;
 constexpr size_t max_corners = 24;
+constexpr uint64_t steps_of_polygon = 16; // what a polygon takes at a node, measured in balls
 
 struct Polygon {
     std::array<glm::vec3, max_corners> corners;
@@ -54,7 +55,8 @@ Polygon clip(const Polygon& polygon, const std::array<float, max_corners>& heigh
     return kept;
 }
 
-template <class VisitLeaf> void walk_polygon(const Bsp& bsp, const Polygon& polygon, VisitLeaf visit)
+// Returns how many nodes and leaves it has visited.
+template <class VisitLeaf> uint64_t walk_polygon(const Bsp& bsp, const Polygon& polygon, VisitLeaf visit)
 {
     struct Pending {
         int32_t child;
@@ -62,9 +64,11 @@ template <class VisitLeaf> void walk_polygon(const Bsp& bsp, const Polygon& poly
     };
     std::vector<Pending> pending { { find_world_root(bsp), polygon } };
     std::array<float, max_corners> heights;
+    uint64_t visited = 0;
     while (!pending.empty()) {
         const Pending here = pending.back();
         pending.pop_back();
+        visited++;
         if (here.child < 0) {
             visit(bsp.leaves[size_t(-1 - here.child)]);
             continue;
@@ -78,18 +82,21 @@ template <class VisitLeaf> void walk_polygon(const Bsp& bsp, const Polygon& poly
         if (below)
             pending.push_back({ node.children[1], both ? clip(here.polygon, heights, -1) : here.polygon });
     }
+    return visited;
 }
 
-// `visit` returns false to stop.
-template <class VisitLeaf> void walk_ball(const Bsp& bsp, glm::vec3 centre, float radius, VisitLeaf visit)
+// `visit` returns false to stop. Returns how many nodes and leaves it has visited.
+template <class VisitLeaf> uint64_t walk_ball(const Bsp& bsp, glm::vec3 centre, float radius, VisitLeaf visit)
 {
     std::vector<int32_t> pending { find_world_root(bsp) };
+    uint64_t visited = 0;
     while (!pending.empty()) {
         const int32_t child = pending.back();
         pending.pop_back();
+        visited++;
         if (child < 0) {
             if (!visit(bsp.leaves[size_t(-1 - child)]))
-                return;
+                break;
             continue;
         }
         const formats::BspNode& node = bsp.nodes[size_t(child)];
@@ -100,6 +107,7 @@ template <class VisitLeaf> void walk_ball(const Bsp& bsp, glm::vec3 centre, floa
         if (height < radius)
             pending.push_back(node.children[1]);
     }
+    return visited;
 }
 
 Polygon lift_triangle(const shared::Emitter& emitter, float lift)
@@ -123,7 +131,7 @@ int32_t find_world_root(const Bsp& bsp)
     return bsp.nodes.empty() && root >= 0 ? -1 : root;
 }
 
-std::vector<int> find_touched_clusters(const Bsp& bsp, const shared::Emitter& emitter, float lift)
+std::vector<int> find_touched_clusters(const Bsp& bsp, const shared::Emitter& emitter, float lift, uint64_t& steps)
 {
     std::vector<int> clusters;
     const auto collect = [&](const formats::BspLeaf& leaf) {
@@ -132,18 +140,18 @@ std::vector<int> find_touched_clusters(const Bsp& bsp, const shared::Emitter& em
         return true;
     };
     if (emitter.type == shared::EMITTER_SPHERE)
-        walk_ball(bsp, emitter.p0, std::max(emitter.p1.x, plane_tolerance), collect);
+        steps += walk_ball(bsp, emitter.p0, std::max(emitter.p1.x, plane_tolerance), collect);
     else
-        walk_polygon(bsp, lift_triangle(emitter, lift), collect);
+        steps += steps_of_polygon * walk_polygon(bsp, lift_triangle(emitter, lift), collect);
     std::sort(clusters.begin(), clusters.end());
     clusters.erase(std::unique(clusters.begin(), clusters.end()), clusters.end());
     return clusters;
 }
 
-bool touches_solid(const Bsp& bsp, glm::vec3 centre, float radius)
+bool touches_solid(const Bsp& bsp, glm::vec3 centre, float radius, uint64_t& steps)
 {
     bool solid = false;
-    walk_ball(bsp, centre, radius, [&](const formats::BspLeaf& leaf) {
+    steps += walk_ball(bsp, centre, radius, [&](const formats::BspLeaf& leaf) {
         solid = leaf.contents & formats::CONTENTS_SOLID;
         return !solid;
     });

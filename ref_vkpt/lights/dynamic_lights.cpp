@@ -25,36 +25,87 @@ Kind kind_of(const Emitter& e)
     return { e.type, e.lightstyle, bits(e.area), bits(e.radiance.x), bits(e.radiance.y), bits(e.radiance.z) };
 }
 
-// Last frame's slots of one kind that nobody has claimed yet, ascending, and this frame's emitters still without one.
-struct Candidates {
-    std::vector<uint32_t> slots;
-    std::vector<size_t> emitters;
-    size_t next = 0; // where the search for what stands still begins: lights mostly come in the order of the last frame
-};
-
 constexpr uint32_t none = UINT32_MAX;
 
-// The candidate where `emitter` is, and claims it.
-uint32_t claim_same_place(Candidates& candidates, const Emitter& emitter, const std::vector<Emitter>& last)
-{
-    const auto is_here = [&](uint32_t slot) { return last[slot].p0 == emitter.p0; };
-    std::vector<uint32_t>& free = candidates.slots;
-    const auto start = free.begin() + ptrdiff_t(std::min(candidates.next, free.size()));
-    auto found = std::find_if(start, free.end(), is_here);
-    if (found == free.end()) {
-        found = std::find_if(free.begin(), start, is_here);
-        if (found == start)
-            return none;
+// Last frame's slots of one kind, ascending, that this frame's emitters claim.
+class Candidates {
+public:
+    void add(uint32_t slot)
+    {
+        slots_.push_back(slot);
+        is_free_.push_back(true);
     }
-    const uint32_t slot = *found;
-    candidates.next = size_t(found - free.begin());
-    free.erase(found);
-    return slot;
+
+    // The slot where `emitter` is. The search begins behind the last one found: lights mostly come in the order of the
+    // last frame.
+    uint32_t claim_same_place(const Emitter& emitter, const std::vector<Emitter>& last)
+    {
+        if (next_ < slots_.size() && is_free_[next_] && last[slots_[next_]].p0 == emitter.p0)
+            return claim(next_, last);
+        if (emitter.p0 != emitter.p0) // NaN
+            return none;
+        if (!is_indexed_)
+            index(last);
+        const auto place = places_.find(key_of(emitter.p0));
+        if (place == places_.end() || place->second.empty())
+            return none;
+        const auto behind = place->second.lower_bound(next_);
+        return claim(behind != place->second.end() ? *behind : *place->second.begin(), last);
+    }
+
+    std::vector<uint32_t> free_slots() const
+    {
+        std::vector<uint32_t> free;
+        for (size_t i = 0; i < slots_.size(); i++)
+            if (is_free_[i])
+                free.push_back(slots_[i]);
+        return free;
+    }
+
+    std::vector<size_t> emitters; // this frame's, still without a slot
+
+private:
+    using Key = std::array<float, 3>;
+    static Key key_of(glm::vec3 p) { return { p.x, p.y, p.z }; }
+
+    void index(const std::vector<Emitter>& last)
+    {
+        is_indexed_ = true;
+        for (size_t i = 0; i < slots_.size(); i++)
+            if (const glm::vec3 p = last[slots_[i]].p0; is_free_[i] && p == p)
+                places_[key_of(p)].insert(i);
+    }
+
+    uint32_t claim(size_t i, const std::vector<Emitter>& last)
+    {
+        if (is_indexed_)
+            places_[key_of(last[slots_[i]].p0)].erase(i);
+        is_free_[i] = false;
+        next_ = i + 1;
+        return slots_[i];
+    }
+
+    std::vector<uint32_t> slots_;
+    std::vector<bool> is_free_;
+    size_t next_ = 0;
+    bool is_indexed_ = false;
+    std::map<Key, std::set<size_t>> places_; // of the free ones, by where they are; made when it is needed
+};
+
+constexpr float farthest_move2 = DynamicLights::farthest_move * DynamicLights::farthest_move;
+// Of all kinds in one frame; their number grows with the square of the lights of one kind. Sorting so many takes some
+// 20 ms.
+constexpr size_t most_pairs = 1 << 18;
+
+float move2(const Emitter& emitter, const Emitter& last)
+{
+    const glm::vec3 move = emitter.p0 - last.p0;
+    return glm::dot(move, move);
 }
 
 // What has moved: the closest pairs first.
-void claim_nearest(const Candidates& candidates, const std::vector<Emitter>& emitters, const std::vector<Emitter>& last,
-    std::vector<uint32_t>& slots)
+void claim_nearest(const std::vector<size_t>& moved, const std::vector<uint32_t>& free,
+    const std::vector<Emitter>& emitters, const std::vector<Emitter>& last, std::vector<uint32_t>& slots)
 {
     struct Pair {
         float distance2;
@@ -62,18 +113,24 @@ void claim_nearest(const Candidates& candidates, const std::vector<Emitter>& emi
         uint32_t slot;
     };
     std::vector<Pair> pairs;
-    for (const size_t i : candidates.emitters)
-        for (const uint32_t slot : candidates.slots) {
-            const glm::vec3 move = emitters[i].p0 - last[slot].p0;
-            const float distance2 = glm::dot(move, move);
-            if (distance2 <= DynamicLights::farthest_move * DynamicLights::farthest_move)
+    for (const size_t i : moved)
+        for (const uint32_t slot : free)
+            if (const float distance2 = move2(emitters[i], last[slot]); distance2 <= farthest_move2)
                 pairs.push_back({ distance2, i, slot });
-        }
     std::ranges::stable_sort(pairs, {}, &Pair::distance2);
     std::set<uint32_t> claimed;
     for (const Pair& pair : pairs)
         if (slots[pair.emitter] == none && claimed.insert(pair.slot).second)
             slots[pair.emitter] = pair.slot;
+}
+
+// What has moved, where it is too much to compare: the lights of what moves as one come in the same order every frame.
+void claim_in_order(const std::vector<size_t>& moved, const std::vector<uint32_t>& free,
+    const std::vector<Emitter>& emitters, const std::vector<Emitter>& last, std::vector<uint32_t>& slots)
+{
+    for (size_t i = 0; i < std::min(moved.size(), free.size()); i++)
+        if (move2(emitters[moved[i]], last[free[i]]) <= farthest_move2)
+            slots[moved[i]] = free[i];
 }
 
 } // namespace
@@ -83,17 +140,22 @@ std::vector<uint32_t> DynamicLights::arrange(std::vector<Emitter>& emitters)
     std::map<Kind, Candidates> kinds;
     for (uint32_t slot = 0; slot < last_.size(); slot++)
         if (used_[slot])
-            kinds[kind_of(last_[slot])].slots.push_back(slot);
+            kinds[kind_of(last_[slot])].add(slot);
 
     std::vector<uint32_t> slots(emitters.size(), none);
     for (size_t i = 0; i < emitters.size(); i++) {
         Candidates& candidates = kinds[kind_of(emitters[i])];
-        slots[i] = claim_same_place(candidates, emitters[i], last_);
+        slots[i] = candidates.claim_same_place(emitters[i], last_);
         if (slots[i] == none)
             candidates.emitters.push_back(i);
     }
-    for (const auto& [kind, candidates] : kinds)
-        claim_nearest(candidates, emitters, last_, slots);
+    size_t pairs = 0;
+    for (const auto& [kind, candidates] : kinds) {
+        const std::vector<uint32_t> free = candidates.free_slots();
+        pairs += candidates.emitters.size() * free.size();
+        const auto claim = pairs <= most_pairs ? claim_nearest : claim_in_order;
+        claim(candidates.emitters, free, emitters, last_, slots);
+    }
     std::vector<bool> used(last_.size(), false);
     for (const uint32_t slot : slots)
         if (slot != none)

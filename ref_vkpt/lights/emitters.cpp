@@ -93,10 +93,11 @@ struct Piece {
 std::vector<Piece> collect_faces(const Bsp& bsp, const AverageColour& colour, const EmissionScales& scales)
 {
     std::vector<Piece> pieces;
+    WorkLimit work = limit_of_pieces(bsp);
     const formats::BspModel& world = bsp.models[0];
     for (int32_t i = 0; i < world.face_count; i++) {
         const size_t face = size_t(world.first_face + i);
-        std::vector<shared::Emitter> emitters = emitters_of_face(bsp, face, colour, scales);
+        std::vector<shared::Emitter> emitters = emitters_of_face(bsp, face, colour, scales, work);
         if (!emitters.empty())
             pieces.push_back({ find_leaf_before(bsp, face), int64_t(face), std::move(emitters) });
     }
@@ -125,7 +126,8 @@ void report_unused(const Bsp& bsp, const AverageColour& colour, std::vector<std:
 
 } // namespace
 
-std::vector<FaceTriangle> triangles_of_face(const Bsp& bsp, size_t face, const PictureColour& picture)
+std::vector<FaceTriangle> triangles_of_face(
+    const Bsp& bsp, size_t face, const PictureColour& picture, WorkLimit& work)
 {
     const glm::vec3 normal = bsp.face_normal(face);
     std::vector<FaceTriangle> triangles;
@@ -134,7 +136,7 @@ std::vector<FaceTriangle> triangles_of_face(const Bsp& bsp, size_t face, const P
             triangles.push_back({ { outline[a], outline[b], outline[c] }, part });
     };
     if (classify(bsp.texinfos[bsp.faces[face].texinfo]) == Emission::face)
-        for (const FacePiece& piece : cut_face(bsp, face, picture.parts, picture.size))
+        for (const FacePiece& piece : cut_face(bsp, face, picture.parts, picture.size, work))
             append(piece.outline, piece.part);
     if (triangles.empty())
         append(face_outline(bsp, face), FaceTriangle::whole);
@@ -161,8 +163,8 @@ float scale_of_parts(
 
 } // namespace
 
-std::vector<shared::Emitter> emitters_of_face(
-    const Bsp& bsp, size_t face, const AverageColour& colour, const EmissionScales& scales)
+std::vector<shared::Emitter> emitters_of_face(const Bsp& bsp, size_t face, const AverageColour& colour,
+    const EmissionScales& scales, WorkLimit& work)
 {
     const BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
     const Emission emission = classify(texinfo);
@@ -172,7 +174,7 @@ std::vector<shared::Emitter> emitters_of_face(
     const glm::vec3 radiance = average_radiance(texinfo, picture, scales);
     if (!(max_component(radiance) > 0) && emission != Emission::sky)
         return {};
-    const std::vector<FaceTriangle> triangles = triangles_of_face(bsp, face, picture);
+    const std::vector<FaceTriangle> triangles = triangles_of_face(bsp, face, picture, work);
     const float scale = scale_of_parts(triangles, picture.parts, radiance);
     std::vector<shared::Emitter> emitters;
     for (const FaceTriangle& triangle : triangles) {
@@ -221,10 +223,11 @@ std::vector<shared::Emitter> emitters_of_brush_model(
     const Bsp& bsp, size_t model, const AverageColour& colour, const EmissionScales& scales)
 {
     std::vector<shared::Emitter> emitters;
+    WorkLimit work = limit_of_pieces(bsp);
     const formats::BspModel& source = bsp.models[model];
     for (int32_t i = 0; i < source.face_count; i++) {
         const std::vector<shared::Emitter> of_face
-            = emitters_of_face(bsp, size_t(source.first_face + i), colour, scales);
+            = emitters_of_face(bsp, size_t(source.first_face + i), colour, scales, work);
         emitters.insert(emitters.end(), of_face.begin(), of_face.end());
     }
     return emitters;

@@ -76,22 +76,24 @@ std::vector<glm::vec3> face_outline(const formats::Bsp& bsp, size_t face);
 std::vector<std::array<uint32_t, 3>> triangulate(const std::vector<glm::vec3>& outline, glm::vec3 normal);
 
 // Every face's triangles, used for geometry and emitters alike. Where the face emits and its picture has bright parts,
-// those emit all of the face's light, in their colours.
+// those emit all of the face's light, in their colours. `work`: see cut_face.
 struct FaceTriangle {
     static constexpr int whole = -2; // the face is in one piece
     std::array<glm::vec3, 3> corners;
     int part; // whose light: an index of the picture's parts, FacePiece::dark or `whole`
 };
-std::vector<FaceTriangle> triangles_of_face(const formats::Bsp& bsp, size_t face, const PictureColour& picture);
+std::vector<FaceTriangle> triangles_of_face(
+    const formats::Bsp& bsp, size_t face, const PictureColour& picture, WorkLimit& work);
 
 // Emitters of the world model (faces of models[0], and entities). Brush models: emitters_of_brush_model, model space.
+// Throws formats::FormatError where that takes far more work than a map of its size may.
 StaticEmitters extract_emitters(const formats::Bsp& bsp, const AverageColour& colour, const EmissionScales& scales);
 std::vector<shared::Emitter> emitters_of_brush_model(
     const formats::Bsp& bsp, size_t model, const AverageColour& colour, const EmissionScales& scales);
 
 // The shining triangles of one face as emitters, in the order of triangles_of_face; empty: the face emits nothing.
-std::vector<shared::Emitter> emitters_of_face(
-    const formats::Bsp& bsp, size_t face, const AverageColour& colour, const EmissionScales& scales);
+std::vector<shared::Emitter> emitters_of_face(const formats::Bsp& bsp, size_t face, const AverageColour& colour,
+    const EmissionScales& scales, WorkLimit& work);
 
 // The engine's dynamic light: it adds colour * (intensity - distance), in lightmap units, to what is nearer than
 // `intensity`. The sphere's inverse-square light, faded to nothing there, equals that at half the distance. Negative

@@ -17,7 +17,11 @@ namespace {
 
 using Outline = std::vector<glm::vec3>;
 
-constexpr float greatest_tile_count = 64; // of a face; with more of them a lamp is a dot
+constexpr int64_t greatest_tile_count = 64; // of a face; with more of them a lamp is a dot
+// Per megabyte of the map: corners looked at, the time of which grows with the square of a face's pieces.
+constexpr uint64_t most_steps = 200'000'000;
+constexpr uint64_t steps_of_cut = 16; // what cutting takes for a corner
+constexpr float farthest_tile = 1 << 20; // from the origin; beyond, a float no longer tells where in a tile it is
 constexpr float cut_tolerance = 0.02f; // texels: corners so near to a cut lie on it
 constexpr float least_area = 0.01f; // units^2; smaller pieces are none
 
@@ -88,17 +92,31 @@ std::optional<std::vector<Box>> find_boxes(const formats::Bsp& bsp, const format
         maxs = glm::max(maxs, at);
     }
     const glm::vec2 first = glm::floor((mins + 0.5f) / size), end = glm::ceil((maxs - 0.5f) / size);
-    const glm::vec2 count = end - first;
-    if (!(count.x * count.y <= greatest_tile_count)) // NaN and infinity, too
+    const auto is_countable = [](float tile) { return std::abs(tile) < farthest_tile; };
+    if (!is_countable(first.x) || !is_countable(first.y) || !is_countable(end.x) || !is_countable(end.y))
+        return std::nullopt;
+    const int64_t first_x = int64_t(first.x), end_x = int64_t(end.x), first_y = int64_t(first.y),
+                  end_y = int64_t(end.y);
+    if (end_x <= first_x || end_y <= first_y)
+        return std::vector<Box>();
+    if ((end_x - first_x) * (end_y - first_y) > greatest_tile_count)
         return std::nullopt;
     std::vector<Box> boxes;
-    for (float y = first.y; y < end.y; y++)
-        for (float x = first.x; x < end.x; x++)
+    for (int64_t y = first_y; y < end_y; y++)
+        for (int64_t x = first_x; x < end_x; x++)
             for (size_t i = 0; i < parts.size(); i++) {
                 const glm::vec2 tile(x, y);
                 boxes.push_back({ (tile + parts[i].mins) * size, (tile + parts[i].maxs) * size, int(i) });
             }
     return boxes;
+}
+
+size_t count_corners(const std::vector<Outline>& outlines)
+{
+    size_t count = 0;
+    for (const Outline& outline : outlines)
+        count += outline.size();
+    return count;
 }
 
 // Makes corners that are meant to be one the same, and gives each edge the corners that others have on it, so that rays
@@ -151,8 +169,13 @@ float measure_area(const std::vector<glm::vec3>& outline)
     return 0.5f * glm::length(doubled);
 }
 
-std::vector<FacePiece> cut_face(
-    const formats::Bsp& bsp, size_t face, const std::vector<BrightPart>& parts, glm::ivec2 size)
+WorkLimit limit_of_pieces(const formats::Bsp& bsp)
+{
+    return { bsp, most_steps, "steps to cut the lamps out of its faces' pictures" };
+}
+
+std::vector<FacePiece> cut_face(const formats::Bsp& bsp, size_t face, const std::vector<BrightPart>& parts,
+    glm::ivec2 size, WorkLimit& work)
 {
     const formats::BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
     // What moves over the face, or changes, shines as a whole.
@@ -166,6 +189,7 @@ std::vector<FacePiece> cut_face(
     std::vector<Outline> dark { outline };
     for (const Box& box : *boxes) {
         std::vector<Outline> rest;
+        work.spend(count_corners(dark) * steps_of_cut, "face", face);
         for (Outline& piece : dark)
             cut_out(bsp, texinfo, std::move(piece), box, rest, pieces);
         dark = std::move(rest);
@@ -174,6 +198,10 @@ std::vector<FacePiece> cut_face(
         return {};
     for (Outline& piece : dark)
         pieces.push_back({ std::move(piece), FacePiece::dark });
+    size_t corners = 0;
+    for (const FacePiece& piece : pieces)
+        corners += piece.outline.size();
+    work.spend(corners * (corners + outline.size()), "face", face);
     weld(pieces, outline);
     return pieces;
 }

@@ -3,6 +3,7 @@
 
 #include "ref_vkpt/lights/cluster_finder.hpp"
 #include "ref_vkpt/lights/dynamic_lights.hpp"
+#include "ref_vkpt/lights/work_limit.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -10,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <iterator>
+#include <utility>
 
 namespace vkpt {
 
@@ -23,6 +25,9 @@ using shared::Emitter;
 // wall (faces that the map compiler left a little inside).
 constexpr float lifts[] = { 0.125f, 1, 4 };
 constexpr float bounds_tolerance = 2; // leaf bounds are rounded to integers, units
+// Per megabyte of the map, of which large ones need a tenth.
+constexpr uint64_t most_entries = 2'000'000, most_steps = 200'000'000;
+constexpr size_t bytes_per_step = 16; // when sets are merged
 
 template <class Visit> void for_each_cluster(const ClusterSet& set, Visit visit)
 {
@@ -30,6 +35,36 @@ template <class Visit> void for_each_cluster(const ClusterSet& set, Visit visit)
     for (size_t byte = 0; byte < bytes.size(); byte++)
         for (unsigned bits = bytes[byte]; bits != 0; bits &= bits - 1)
             visit(byte * 8 + size_t(std::countr_zero(bits)));
+}
+
+// Of eight sets from 8 * `row` on, the bits of the clusters 8 * `column` .. + 8: a byte each.
+uint64_t gather_square(const std::vector<ClusterSet>& sets, size_t row, size_t column)
+{
+    uint64_t square = 0;
+    const size_t end = std::min(row * 8 + 8, sets.size());
+    for (size_t i = row * 8; i < end; i++)
+        square |= uint64_t(sets[i].bytes()[column]) << (i % 8 * 8);
+    return square;
+}
+
+void spread_square(std::vector<ClusterSet>& sets, size_t row, size_t column, uint64_t square)
+{
+    const size_t end = std::min(row * 8 + 8, sets.size());
+    for (size_t i = row * 8; i < end; i++)
+        sets[i].bytes()[column] = uint8_t(square >> (i % 8 * 8));
+}
+
+// Exchanges quarters, then quarters of those, then bits (Warren, "Hacker's Delight", 7-3).
+uint64_t transpose_square(uint64_t x)
+{
+    const auto exchange = [&](uint64_t mask, int distance) {
+        const uint64_t differing = (x ^ x >> distance) & mask;
+        x ^= differing ^ differing << distance;
+    };
+    exchange(0x00aa00aa00aa00aaull, 7);
+    exchange(0x0000cccc0000ccccull, 14);
+    exchange(0x00000000f0f0f0f0ull, 28);
+    return x;
 }
 
 int encode_leaf(const Bsp& bsp, int32_t child)
@@ -108,8 +143,17 @@ void LightLists::build_visibility(const Bsp& bsp)
     visible_from_.clear();
     for (size_t cluster = 0; cluster < cluster_count_; cluster++)
         visible_from_.push_back(bsp.pvs(int(cluster)));
-    for (size_t cluster = 0; cluster < cluster_count_; cluster++)
-        for_each_cluster(bsp.pvs(int(cluster)), [&](size_t seen) { visible_from_[seen].insert(int(cluster)); });
+    // In squares of eight clusters by eight, each with the one that faces it across the diagonal.
+    const size_t squares = (cluster_count_ + 7) / 8;
+    for (size_t row = 0; row < squares; row++)
+        for (size_t column = 0; column <= row; column++) {
+            const uint64_t here = gather_square(visible_from_, row, column),
+                           there = gather_square(visible_from_, column, row);
+            if ((here | there) == 0)
+                continue;
+            spread_square(visible_from_, row, column, here | transpose_square(there));
+            spread_square(visible_from_, column, row, there | transpose_square(here));
+        }
 }
 
 void LightLists::build_cluster_bounds(const Bsp& bsp)
@@ -128,17 +172,27 @@ void LightLists::build_cluster_bounds(const Bsp& bsp)
 
 void LightLists::build_static_lists(std::span<const shared::Emitter> emitters)
 {
+    WorkLimit entries(*bsp_, most_entries, "entries in its light lists"),
+        work(*bsp_, most_steps, "steps to find what its lights may light");
     std::vector<std::vector<uint32_t>> members(cluster_count_);
     ClusterSet receivers;
     for (uint32_t i = 0; i < emitters.size(); i++) {
-        if (!find_receivers(emitters[i], receivers)) {
+        uint64_t steps = 0, count = 0;
+        const bool found = find_receivers(emitters[i], receivers, steps);
+        work.spend(std::exchange(steps, 0), "emitter", i);
+        if (!found) {
             unlisted_static_count_ += cluster_count_ > 0;
             continue;
         }
         for_each_cluster(receivers, [&](size_t cluster) {
-            if (reaches(emitters[i], cluster))
-                members[cluster].push_back(i);
+            steps++;
+            if (!reaches(emitters[i], cluster))
+                return;
+            members[cluster].push_back(i);
+            count++;
         });
+        work.spend(steps, "emitter", i);
+        entries.spend(count, "emitter", i);
     }
 
     lists_.assign(cluster_count_ + 1, shared::LightList {});
@@ -154,13 +208,14 @@ void LightLists::build_static_lists(std::span<const shared::Emitter> emitters)
         static_indices_.push_back(i);
 }
 
-bool LightLists::find_receivers(const shared::Emitter& emitter, ClusterSet& receivers) const
+bool LightLists::find_receivers(const shared::Emitter& emitter, ClusterSet& receivers, uint64_t& steps) const
 {
     receivers = ClusterSet(cluster_count_);
     for (const float lift : lifts) {
-        const std::vector<int> touched = find_touched_clusters(*bsp_, emitter, lift);
+        const std::vector<int> touched = find_touched_clusters(*bsp_, emitter, lift, steps);
         for (const int cluster : touched)
             receivers.merge(visible_from_[size_t(cluster)]);
+        steps += (touched.size() + 1) * (receivers.bytes().size() / bytes_per_step + 1);
         if (!touched.empty())
             return true;
     }
@@ -185,8 +240,9 @@ void LightLists::place(Placed& placed, const Emitter& emitter) const
     if (is_dark(emitter))
         return;
     ClusterSet receivers;
+    uint64_t steps = 0;
     // What moves may be inside a wall for a moment, or be an effect at a wall: then it may be seen from anywhere.
-    if (!find_receivers(emitter, receivers))
+    if (!find_receivers(emitter, receivers, steps))
         for (size_t cluster = 0; cluster < cluster_count_; cluster++)
             receivers.insert(int(cluster));
     for_each_cluster(receivers, [&](size_t cluster) {

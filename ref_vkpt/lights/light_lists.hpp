@@ -17,7 +17,8 @@ struct Bounds {
 class LightLists {
 public:
     // At map load. An emitter lists in every cluster that the PVS lets see any cluster which it touches, unless all of it
-    // is behind the emitter. The map must live as long as update() is called.
+    // is behind the emitter. The map must live as long as update() is called. Throws formats::FormatError where the lists
+    // would be far longer than a map of its size may make them.
     void build(const formats::Bsp& bsp, std::span<const shared::Emitter> static_emitters);
     // Each frame: dynamic emitters get indices static_count + i. Emitters with a reach list only where it extends to,
     // dark ones (radiance 0) nowhere. Where in the map an emitter can be seen is looked up again only if it has moved;
@@ -57,8 +58,9 @@ private:
     void build_visibility(const formats::Bsp& bsp);
     void build_cluster_bounds(const formats::Bsp& bsp);
     void build_static_lists(std::span<const shared::Emitter> emitters);
-    // The clusters from which `emitter` can be seen. False: it touches no cluster; then the set is empty.
-    bool find_receivers(const shared::Emitter& emitter, formats::ClusterSet& receivers) const;
+    // The clusters from which `emitter` can be seen. False: it touches no cluster; then the set is empty. `steps` grows by
+    // what that took.
+    bool find_receivers(const shared::Emitter& emitter, formats::ClusterSet& receivers, uint64_t& steps) const;
     // One dynamic emitter as of the last update, and the clusters that list it, ascending.
     struct Placed {
         shared::Emitter emitter {};

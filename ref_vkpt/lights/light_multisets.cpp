@@ -103,14 +103,25 @@ private:
     std::vector<float> areas_; // running sums
 };
 
-std::vector<ClusterFaces> collect_faces(const formats::Bsp& bsp, size_t cluster_count)
+// The leaves of each cluster, in their order.
+std::vector<std::vector<uint32_t>> collect_leaves(const formats::Bsp& bsp, size_t cluster_count)
 {
-    std::vector<ClusterFaces> clusters(cluster_count);
-    for (const formats::BspLeaf& leaf : bsp.leaves)
-        if (leaf.cluster >= 0 && size_t(leaf.cluster) < cluster_count)
-            for (size_t i = 0; i < leaf.leaf_face_count; i++)
-                clusters[size_t(leaf.cluster)].add(bsp, bsp.leaf_faces[leaf.first_leaf_face + i]);
+    std::vector<std::vector<uint32_t>> clusters(cluster_count);
+    for (uint32_t i = 0; i < bsp.leaves.size(); i++)
+        if (const int cluster = bsp.leaves[i].cluster; cluster >= 0 && size_t(cluster) < cluster_count)
+            clusters[size_t(cluster)].push_back(i);
     return clusters;
+}
+
+ClusterFaces collect_faces(const formats::Bsp& bsp, const std::vector<uint32_t>& leaves)
+{
+    ClusterFaces faces;
+    for (const uint32_t index : leaves) {
+        const formats::BspLeaf& leaf = bsp.leaves[index];
+        for (size_t i = 0; i < leaf.leaf_face_count; i++)
+            faces.add(bsp, bsp.leaf_faces[leaf.first_leaf_face + i]);
+    }
+    return faces;
 }
 
 // Per light, in proportion to which they are to be drawn.
@@ -156,7 +167,7 @@ LightMultisets make_light_multisets(
     for (const Emitter& emitter : static_emitters)
         sources.push_back(make_light_source(emitter));
     const size_t cluster_count = lists.lists().size() - 1;
-    const std::vector<ClusterFaces> faces = collect_faces(bsp, cluster_count);
+    const std::vector<std::vector<uint32_t>> leaves = collect_leaves(bsp, cluster_count);
     const size_t points
         = std::clamp(most_predictions / std::max<size_t>(lists.static_indices().size(), 1), fewest_points, most_points);
     std::mt19937 rng;
@@ -169,7 +180,8 @@ LightMultisets make_light_multisets(
         for (const uint32_t index : indices)
             listed.push_back(sources[index]);
         const Bounds bounds = lists.cluster_bounds(cluster);
-        const std::vector<float> sizes = measure_sizes(listed, faces[cluster].draw(bounds, points, rng), bounds);
+        const ClusterFaces faces = collect_faces(bsp, leaves[cluster]); // one cluster's at a time: they are large
+        const std::vector<float> sizes = measure_sizes(listed, faces.draw(bounds, points, rng), bounds);
         float total = 0;
         for (const float size : sizes)
             total += size;

@@ -4,6 +4,7 @@
 #include "formats/entities.hpp"
 #include "ref_vkpt/lights/cluster_finder.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
+#include "ref_vkpt/lights/work_limit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,20 +23,21 @@ using formats::EntityText;
 
 constexpr float default_light_value = 300;
 constexpr float least_radius = 0.5f;
-constexpr float farthest_rescue = 16; // how far a light inside a wall may be moved to come out of it, units
+constexpr int farthest_rescue = 16; // how far a light inside a wall may be moved to come out of it, units
 constexpr int lightstyle_count = 256;
+constexpr uint64_t most_steps = 100'000'000; // nodes visited for all lights, per megabyte of the map
 
 // The nearest free place around a light whose origin lies in a wall.
-std::optional<glm::vec3> find_free_place(const Bsp& bsp, glm::vec3 origin)
+std::optional<glm::vec3> find_free_place(const Bsp& bsp, glm::vec3 origin, uint64_t& steps)
 {
     if (!(bsp.leaves[bsp.find_leaf(origin, find_world_root(bsp))].contents & formats::CONTENTS_SOLID))
         return origin;
-    for (float step = 1; step <= farthest_rescue; step *= 2)
+    for (int step = 1; step <= farthest_rescue; step *= 2)
         for (int z = -1; z <= 1; z++)
             for (int y = -1; y <= 1; y++)
                 for (int x = -1; x <= 1; x++) {
-                    const glm::vec3 place = origin + step * glm::vec3(x, y, z);
-                    if (!touches_solid(bsp, place, least_radius))
+                    const glm::vec3 place = origin + float(step) * glm::vec3(x, y, z);
+                    if (!touches_solid(bsp, place, least_radius, steps))
                         return place;
                 }
     return std::nullopt;
@@ -43,10 +45,10 @@ std::optional<glm::vec3> find_free_place(const Bsp& bsp, glm::vec3 origin)
 
 // The largest radius, halving from `wanted`, at which the sphere stays clear of walls: buried parts would be lost
 // light.
-float fit_radius(const Bsp& bsp, glm::vec3 centre, float wanted)
+float fit_radius(const Bsp& bsp, glm::vec3 centre, float wanted, uint64_t& steps)
 {
     float radius = wanted;
-    while (radius > least_radius && touches_solid(bsp, centre, radius))
+    while (radius > least_radius && touches_solid(bsp, centre, radius, steps))
         radius *= 0.5f;
     return std::max(radius, least_radius);
 }
@@ -76,10 +78,9 @@ uint32_t read_lightstyle(const EntityText& entity)
     return style >= 0 && style < lightstyle_count ? uint32_t(style) : 0;
 }
 
-shared::Emitter make_sphere(const Bsp& bsp, const EntityText& entity, glm::vec3 centre, const EmissionScales& scales)
+shared::Emitter make_sphere(const EntityText& entity, glm::vec3 centre, float radius, const EmissionScales& scales)
 {
     constexpr float pi = std::numbers::pi_v<float>;
-    const float radius = fit_radius(bsp, centre, scales.point_light_radius);
     const float value = read_value(entity);
     const float intensity = scales.point * value * value * value;
     shared::Emitter emitter {};
@@ -111,10 +112,12 @@ std::vector<shared::Emitter> extract_point_lights(
     const Bsp& bsp, const EmissionScales& scales, std::vector<std::string>& messages)
 {
     std::vector<shared::Emitter> lights;
-    size_t spotlights = 0;
+    size_t spotlights = 0, number = 0;
+    WorkLimit work(bsp, most_steps, "steps to find its point lights' places");
     for (const EntityText& entity : read_entities(bsp, messages)) {
         if (entity.class_name() != "light")
             continue;
+        number++;
         const std::optional<glm::vec3> origin = entity.vector("origin");
         if (!origin || !std::isfinite(glm::dot(*origin, *origin))) {
             messages.push_back(fmt::format("{}: a light entity has no usable origin and is left out", bsp.name));
@@ -127,7 +130,10 @@ std::vector<shared::Emitter> extract_point_lights(
                     describe(*origin), value));
             continue;
         }
-        const std::optional<glm::vec3> place = find_free_place(bsp, *origin);
+        uint64_t steps = 0;
+        const std::optional<glm::vec3> place = find_free_place(bsp, *origin, steps);
+        const float radius = place ? fit_radius(bsp, *place, scales.point_light_radius, steps) : 0;
+        work.spend(steps, "light entity", number);
         if (!place) {
             messages.push_back(
                 fmt::format("{}: the light at {} is inside a wall and is left out: move it into the room", bsp.name,
@@ -136,7 +142,7 @@ std::vector<shared::Emitter> extract_point_lights(
         }
         if (!entity.get("target").empty() || !entity.get("_cone").empty())
             spotlights++;
-        lights.push_back(make_sphere(bsp, entity, *place, scales));
+        lights.push_back(make_sphere(entity, *place, radius, scales));
     }
     if (spotlights > 0)
         messages.push_back(fmt::format("{}: {} spotlights shine in all directions", bsp.name, spotlights));

@@ -18,6 +18,7 @@ namespace {
 using namespace formats;
 
 constexpr int several_clusters = -2;
+constexpr uint64_t most_triangles = 300'000; // per megabyte of the map; faces of many corners make 220,000
 
 // The PVS cluster of each face that lies in one alone; else several_clusters.
 std::vector<int> find_face_clusters(const Bsp& bsp)
@@ -48,30 +49,36 @@ uint32_t triangle_mask(const BspTexinfo& texinfo)
     return texinfo.flags & SURF_ALPHATEST ? shared::MASK_ALPHA_TEST : shared::MASK_OPAQUE;
 }
 
-// The texinfos of an animation, starting with `first`; one alone: no animation. read_bsp cut chains that never come
-// back.
-std::vector<uint32_t> animation_chain(const Bsp& bsp, uint32_t first)
+// Calls `visit` with the texinfos of an animation, starting with `first`, which may be the only one. read_bsp cut chains
+// that never come back, and refuses long ones.
+template <class Visit> void for_each_frame(const Bsp& bsp, uint32_t first, Visit visit)
 {
-    std::vector<uint32_t> chain { first };
-    for (int next = bsp.texinfos[first].next;
-         next >= 0 && uint32_t(next) != first && chain.size() < bsp.texinfos.size();
-         next = bsp.texinfos[size_t(next)].next)
-        chain.push_back(uint32_t(next));
-    return chain;
+    uint32_t frame = first;
+    while (true) {
+        visit(frame);
+        const int next = bsp.texinfos[frame].next;
+        if (next < 0 || uint32_t(next) == first)
+            return;
+        frame = uint32_t(next);
+    }
 }
 
 // One frame of an animation with holes makes all of them count: structures on the device are built before it is known
 // which frame is shown.
 bool has_holes(const Bsp& bsp, uint32_t texinfo)
 {
-    return std::ranges::any_of(animation_chain(bsp, texinfo),
-        [&](uint32_t frame) { return (bsp.texinfos[frame].flags & SURF_ALPHATEST) != 0; });
+    bool holes = false;
+    for_each_frame(
+        bsp, texinfo, [&](uint32_t frame) { holes |= (bsp.texinfos[frame].flags & SURF_ALPHATEST) != 0; });
+    return holes;
 }
 
 struct FaceContext {
     const Bsp& bsp;
     const std::vector<WorldPicture>& pictures;
     const std::vector<int>& face_clusters;
+    WorkLimit& pieces;
+    WorkLimit& triangles;
     bool is_world;
 };
 
@@ -91,7 +98,10 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
     const BspTexinfo& texinfo = bsp.texinfos[texinfo_index];
     const WorldPicture& picture = context.pictures[texinfo_index];
     const uint32_t normal = encode_octahedral(bsp.face_normal(face));
-    for (const FaceTriangle& part : triangles_of_face(bsp, face, colour_of(picture))) {
+    const uint8_t holes = has_holes(bsp, texinfo_index) ? 1 : 0;
+    const std::vector<FaceTriangle> parts = triangles_of_face(bsp, face, colour_of(picture), context.pieces);
+    context.triangles.spend(parts.size(), "face", face);
+    for (const FaceTriangle& part : parts) {
         shared::Triangle triangle {};
         for (int i = 0; i < 3; i++) {
             triangle.positions[i] = part.corners[size_t(i)];
@@ -106,8 +116,8 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
         triangle.cluster = context.is_world ? std::max(context.face_clusters[face], -1) : -1;
         geometry.triangles.push_back(triangle);
         geometry.masks.push_back(triangle_mask(texinfo));
-        geometry.has_holes.push_back(has_holes(bsp, texinfo_index) ? 1 : 0);
-        geometry.has_alpha_test |= geometry.has_holes.back() != 0;
+        geometry.has_holes.push_back(holes);
+        geometry.has_alpha_test |= holes != 0;
     }
 }
 
@@ -133,7 +143,7 @@ MapGeometry make_brush_geometry(
     for (size_t face = size_t(model.first_face); face < size_t(model.first_face + model.face_count); face++) {
         if (!is_drawn(context.bsp.texinfos[context.bsp.faces[face].texinfo]))
             continue;
-        std::vector<shared::Emitter> emitters = emitters_of_face(context.bsp, face, colour, scales);
+        std::vector<shared::Emitter> emitters = emitters_of_face(context.bsp, face, colour, scales, context.pieces);
         append_face(geometry, context, face, emitters.empty() ? -1 : int(geometry.emitters.size()));
         geometry.emitters.insert(geometry.emitters.end(), emitters.begin(), emitters.end());
     }
@@ -213,8 +223,11 @@ uint32_t World::animation_frame(uint32_t texinfo, int frame) const
     const uint32_t count = uint32_t(bsp.texinfos.size());
     if (bsp.texinfos[texinfo].next < 0)
         return count + texinfo;
-    const std::vector<uint32_t> chain = animation_chain(bsp, texinfo);
-    return count + chain[size_t(std::max(frame, 0)) % chain.size()];
+    uint32_t length = 0;
+    for_each_frame(bsp, texinfo, [&](uint32_t) { length++; });
+    for (uint32_t step = uint32_t(std::max(frame, 0)) % length; step > 0; step--)
+        texinfo = uint32_t(bsp.texinfos[texinfo].next);
+    return count + texinfo;
 }
 
 std::unique_ptr<World> load_world(
@@ -245,12 +258,14 @@ std::unique_ptr<World> load_world(
     world.lit_sky_luminance = find_lit_sky_luminance(world.bsp, emitters);
 
     const std::vector<int> face_clusters = find_face_clusters(world.bsp);
-    world.models.push_back(
-        make_world_geometry({ world.bsp, world.pictures, face_clusters, true }, std::move(emitters)));
+    WorkLimit pieces = limit_of_pieces(world.bsp), triangles(world.bsp, most_triangles, "triangles");
+    world.models.push_back(make_world_geometry(
+        { world.bsp, world.pictures, face_clusters, pieces, triangles, true }, std::move(emitters)));
     world.brush_meshes.emplace_back();
     for (size_t i = 1; i < world.bsp.models.size(); i++) {
         const MapGeometry& geometry = world.models.emplace_back(
-            make_brush_geometry({ world.bsp, world.pictures, face_clusters, false }, i, colour, scales));
+            make_brush_geometry(
+            { world.bsp, world.pictures, face_clusters, pieces, triangles, false }, i, colour, scales));
         world.brush_meshes.push_back(make_brush_mesh(geometry.triangles, geometry.masks));
     }
     world.bvh_future

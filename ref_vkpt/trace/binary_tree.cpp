@@ -19,6 +19,9 @@ int widest_axis(glm::vec3 extent)
 // Cost of visiting a node relative to testing one triangle.
 constexpr float visit_cost = 0.3f;
 constexpr int bin_count = 32;
+// Trees of maps are some 40 deep. Below this, halves of equal count: boxes that shrink geometrically are split off one by
+// one otherwise, which is quadratic.
+constexpr uint32_t max_depth_by_area = 128;
 
 struct Split {
     float cost = std::numeric_limits<float>::max(); // sum of half area x count over both sides
@@ -35,7 +38,7 @@ public:
     {
     }
 
-    uint32_t build(uint32_t first, uint32_t count)
+    uint32_t build(uint32_t first, uint32_t count, uint32_t depth)
     {
         Box box, centres;
         for (uint32_t i = first; i < first + count; i++) {
@@ -45,14 +48,14 @@ public:
         }
         uint32_t id = uint32_t(tree_.nodes.size());
         tree_.nodes.push_back({ box, first, count });
-        Split split = count > 1 ? find_split(first, count, centres) : Split {};
+        Split split = count > 1 && depth < max_depth_by_area ? find_split(first, count, centres) : Split {};
         float area = std::max(box.half_area(), 1e-12f);
         bool splitting_pays = split.axis >= 0 && visit_cost + split.cost / area < float(count);
         if (count <= max_leaf_ && !splitting_pays)
             return id;
         uint32_t left_count = split.axis >= 0 ? partition(first, count, centres, split) : count / 2;
-        uint32_t left = build(first, left_count);
-        uint32_t right = build(first + left_count, count - left_count);
+        uint32_t left = build(first, left_count, depth + 1);
+        uint32_t right = build(first + left_count, count - left_count, depth + 1);
         tree_.nodes[id].left = left;
         tree_.nodes[id].right = right;
         return id;
@@ -241,7 +244,7 @@ BinaryTree build_by_area(std::span<const Box> boxes, uint32_t max_leaf)
     tree.order.resize(boxes.size());
     std::iota(tree.order.begin(), tree.order.end(), 0u);
     tree.nodes.reserve(boxes.size() * 2);
-    AreaBuilder(boxes, max_leaf, tree).build(0, uint32_t(boxes.size()));
+    AreaBuilder(boxes, max_leaf, tree).build(0, uint32_t(boxes.size()), 0);
     return tree;
 }
 

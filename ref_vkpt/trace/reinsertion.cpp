@@ -16,6 +16,9 @@ constexpr float share_of_nodes = 0.7f;
 constexpr size_t most_per_pass = 50'000; // a bound to the time for huge scenes
 // Gains below this share of the parent's area are not worth a move.
 constexpr float least_gain = 1e-4f;
+// Nodes looked at, for each of the tree: maps need 50 to 100, slowly growing with their size. Where boxes lie in one
+// another nothing prunes the search for a place, so that time would grow with the square of their number.
+constexpr uint64_t most_visits_per_node = 500, fewest_visits = 1'000'000, most_visits = 100'000'000;
 constexpr uint32_t stays = 0; // the root: nothing is put beside it
 
 class Reinsertion {
@@ -24,6 +27,7 @@ public:
         : tree_(tree)
         , parents_(tree.nodes.size())
         , areas_(tree.nodes.size())
+        , visits_left_(std::clamp(tree.nodes.size() * most_visits_per_node, fewest_visits, most_visits))
     {
         for (uint32_t node = 0; node < tree.nodes.size(); node++) {
             const BinaryNode& n = tree.nodes[node];
@@ -45,8 +49,8 @@ public:
         });
         candidates.erase(end, candidates.end());
         for (const uint32_t node : candidates)
-            if (node != 0 && parents_[node] != 0)
-                if (const uint32_t place = find_place(node); place != stays)
+            if (node != 0 && parents_[node] != 0 && visits_left_ > 0)
+                if (const uint32_t place = find_place(node); place != stays && visits_left_ > 0)
                     move(node, place);
     }
 
@@ -56,7 +60,31 @@ public:
         BinaryTree result;
         result.nodes.reserve(tree_.nodes.size());
         result.order.reserve(tree_.order.size());
-        copy_to(result, 0);
+        struct Pending {
+            uint32_t node, parent; // the parent in the result
+            bool is_right;
+        };
+        std::vector<Pending> pending { { 0, 0, false } }; // no recursion: the tree may have become deep
+        while (!pending.empty()) {
+            const auto [node, parent, is_right] = pending.back();
+            pending.pop_back();
+            const BinaryNode& from = tree_.nodes[node];
+            const uint32_t id = uint32_t(result.nodes.size()), first = uint32_t(result.order.size());
+            result.nodes.push_back({ from.box, first, 0 });
+            if (id != 0)
+                (is_right ? result.nodes[parent].right : result.nodes[parent].left) = id;
+            if (from.is_leaf()) {
+                const auto boxes = tree_.order.begin() + from.first;
+                result.order.insert(result.order.end(), boxes, boxes + from.count);
+                result.nodes[id].count = from.count;
+            } else {
+                pending.push_back({ from.right, id, true });
+                pending.push_back({ from.left, id, false });
+            }
+        }
+        for (size_t id = result.nodes.size(); id-- > 0;) // children stand behind their parents
+            if (BinaryNode& node = result.nodes[id]; !node.is_leaf())
+                node.count = result.nodes[node.left].count + result.nodes[node.right].count;
         return result;
     }
 
@@ -80,7 +108,7 @@ private:
         Box without = tree_.nodes[old_sibling].box; // what is below `pivot` but for the node
         for (uint32_t pivot = parent;; pivot = parents_[pivot]) {
             search(subtree, gain, box, areas_[node], old_sibling, best);
-            if (pivot == 0)
+            if (pivot == 0 || visits_left_ == 0)
                 return best.place;
             if (pivot != parent) { // the parent itself vanishes
                 without.add(tree_.nodes[subtree].box);
@@ -101,6 +129,7 @@ private:
         while (!stack_.empty()) {
             const Visit visit = stack_.back();
             stack_.pop_back();
+            count_visit();
             if (visit.gain - area <= best.gain) // a parent is at least as large as the node
                 continue;
             const BinaryNode& place = tree_.nodes[visit.node];
@@ -138,10 +167,13 @@ private:
         parents_[by] = parent;
     }
 
+    void count_visit() { visits_left_ -= visits_left_ > 0; }
+
     // From `node` up to the root.
     void fit_boxes(uint32_t node)
     {
         for (;; node = parents_[node]) {
+            count_visit();
             BinaryNode& n = tree_.nodes[node];
             n.box = tree_.nodes[n.left].box;
             n.box.add(tree_.nodes[n.right].box);
@@ -149,23 +181,6 @@ private:
             if (node == 0)
                 return;
         }
-    }
-
-    uint32_t copy_to(BinaryTree& result, uint32_t node) const
-    {
-        const BinaryNode& from = tree_.nodes[node];
-        const uint32_t id = uint32_t(result.nodes.size()), first = uint32_t(result.order.size());
-        result.nodes.push_back({ from.box, first, 0 });
-        if (from.is_leaf()) {
-            const auto boxes = tree_.order.begin() + from.first;
-            result.order.insert(result.order.end(), boxes, boxes + from.count);
-        } else {
-            const uint32_t left = copy_to(result, from.left), right = copy_to(result, from.right);
-            result.nodes[id].left = left;
-            result.nodes[id].right = right;
-        }
-        result.nodes[id].count = uint32_t(result.order.size()) - first;
-        return id;
     }
 
     struct Visit {
@@ -176,6 +191,7 @@ private:
     std::vector<uint32_t> parents_;
     std::vector<float> areas_; // half ones
     std::vector<Visit> stack_;
+    uint64_t visits_left_;
 };
 
 } // namespace

@@ -35,7 +35,8 @@ struct Panel {
     }
     std::vector<FacePiece> cut(const std::vector<BrightPart>& parts = middle, int size = 64) const
     {
-        return cut_face(bsp, face, parts, glm::ivec2(size));
+        WorkLimit work = limit_of_pieces(bsp);
+        return cut_face(bsp, face, parts, glm::ivec2(size), work);
     }
 };
 
@@ -122,10 +123,11 @@ TEST(FacePieces, SendWhatTheWholeFaceWould)
     const Panel panel(square(100), vec2(3, 9));
     PictureColour whole(vec3(0.4f, 0.2f, 0.1f)), parted = whole;
     parted.parts = middle;
+    WorkLimit work = limit_of_pieces(panel.bsp);
     const auto power = [&](const PictureColour& picture) {
         float sum = 0;
         for (const shared::Emitter& e :
-            emitters_of_face(panel.bsp, panel.face, [&](const std::string&) { return picture; }, {})) {
+            emitters_of_face(panel.bsp, panel.face, [&](const std::string&) { return picture; }, {}, work)) {
             EXPECT_GT(e.area, 0);
             sum += e.area * glm::dot(e.radiance, vec3(0.2126f, 0.7152f, 0.0722f));
         }
@@ -133,8 +135,8 @@ TEST(FacePieces, SendWhatTheWholeFaceWould)
     };
     EXPECT_GT(power(whole), 0);
     EXPECT_NEAR(power(parted), power(whole), 1e-4f * power(whole));
-    const auto emitters = emitters_of_face(panel.bsp, panel.face, [&](const std::string&) { return parted; }, {});
-    const auto triangles = triangles_of_face(panel.bsp, panel.face, parted);
+    const auto emitters = emitters_of_face(panel.bsp, panel.face, [&](const std::string&) { return parted; }, {}, work);
+    const auto triangles = triangles_of_face(panel.bsp, panel.face, parted, work);
     size_t next = 0;
     for (const FaceTriangle& t : triangles)
         if (t.part != FacePiece::dark) {
