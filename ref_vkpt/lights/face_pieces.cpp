@@ -143,7 +143,10 @@ void weld(std::vector<FacePiece>& pieces, const Outline& face)
                 continue; // welded to one corner
             std::vector<std::pair<float, glm::vec3>> on_edge { { 0, from } };
             for (const glm::vec3& corner : corners) {
-                const float along = glm::dot(corner - from, edge) / length2;
+                const float product = glm::dot(corner - from, edge);
+                if (!(product > 0) || product > 2 * length2) // most of them: far from the edge, without a division
+                    continue;
+                const float along = product / length2;
                 if (along > 0 && along < 1 && corner != from && corner != from + edge
                     && distance2(corner, from + edge * along) < near2 && distance2(corner, from) >= near2
                     && distance2(corner, from + edge) >= near2)

@@ -42,6 +42,7 @@ Bsp make_base()
     formats::BspModel world {};
     world.head_node = -1;
     bsp.models.push_back(world);
+    bsp.vertices.emplace_back(0);
     bsp.edges.push_back({});
     return bsp;
 }
@@ -140,7 +141,7 @@ Bsp make_nested(float ratio, float shift)
 {
     Bsp bsp = make_base();
     float size = 4000;
-    while (bsp.faces.size() < 16000) {
+    while (bsp.faces.size() < 12000) {
         const glm::vec3 centre(shift * size, shift * size, shift * size);
         const size_t edge = add_polygon(bsp, 3, size, centre);
         add_face(bsp, edge, 3, wall);
@@ -162,10 +163,10 @@ Bsp make_stretched(glm::vec3 s_axis, float s_offset)
     return bsp;
 }
 
-Bsp make_polygons(size_t corners, float radius, uint16_t texinfo)
+Bsp make_polygons(size_t corners, float radius, uint16_t texinfo, size_t bytes = most_bytes)
 {
     Bsp bsp = make_base();
-    add_faces(bsp, corners, radius, texinfo);
+    add_faces(bsp, corners, radius, texinfo, bytes);
     finish_world(bsp);
     return bsp;
 }
@@ -262,7 +263,7 @@ Bsp make_rings(size_t count, size_t length)
 Bsp make_many_models()
 {
     Bsp bsp = make_base();
-    const size_t edge = add_polygon(bsp, 4, 100);
+    const size_t edge = add_polygon(bsp, 4, 30);
     while (bsp.models.size() < 11000) {
         formats::BspModel model = bsp.models[0];
         model.first_face = int32_t(bsp.faces.size());
@@ -309,10 +310,11 @@ std::vector<HostileMap> make_hostile_maps()
     add("tiles in one row", make_stretched({ 1e7f, 0, 0 }, 16777216.0f), loads);
     // Faces: corners, and pieces around the lamps in their picture.
     add("65 corners", make_polygons(65, 300, wall), refused);
-    add("64 corners", make_polygons(64, 300, lamp), refused);
+    add("64 corners", make_polygons(64, 300, lamp), loads);
+    add("64 corners, a few lamps", make_polygons(64, 30, lamp), refused);
     add("64 corners, no lamps", make_polygons(64, 300, wall), loads);
     add("40 corners, no lamps", make_polygons(40, 30, wall), loads);
-    add("one tile", make_polygons(4, 40, lamp), loads);
+    add("one tile", make_polygons(4, 40, lamp, 790'000), loads);
     add("four tiles", make_polygons(4, 80, lamp), refused);
     add("64 tiles", make_polygons(4, 350, lamp), refused);
     // Clusters times lights.
@@ -322,7 +324,7 @@ std::vector<HostileMap> make_hostile_maps()
     add("lights, few clusters", make_lights_in_clusters(700'000, 64, 64), loads);
     add("many lamps, clusters", make_lamps_in_clusters(500'000, 5000, 7000), refused);
     add("few lamps, clusters", make_lamps_in_clusters(10'000, 7000, 7000), loads);
-    add("lamps, few clusters", make_lamps_in_clusters(950'000, 70, 70), loads);
+    add("lamps, few clusters", make_lamps_in_clusters(950'000, 36, 36), loads);
     add("buried lights", make_buried_lights(), refused);
     add("one long branch", make_long_branch(), refused);
     // Triangles that no tree can part.
