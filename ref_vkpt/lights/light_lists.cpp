@@ -67,6 +67,16 @@ uint64_t transpose_square(uint64_t x)
     return x;
 }
 
+// Of two squares that face each other across the diagonal: what either says, both say.
+void unite_across_diagonal(std::vector<ClusterSet>& sets, size_t row, size_t column)
+{
+    const uint64_t here = gather_square(sets, row, column), there = gather_square(sets, column, row);
+    if ((here | there) == 0)
+        return;
+    spread_square(sets, row, column, here | transpose_square(there));
+    spread_square(sets, column, row, there | transpose_square(here));
+}
+
 int encode_leaf(const Bsp& bsp, int32_t child)
 {
     const int cluster = bsp.leaves[size_t(-1 - child)].cluster;
@@ -143,17 +153,14 @@ void LightLists::build_visibility(const Bsp& bsp)
     visible_from_.clear();
     for (size_t cluster = 0; cluster < cluster_count_; cluster++)
         visible_from_.push_back(bsp.pvs(int(cluster)));
-    // In squares of eight clusters by eight, each with the one that faces it across the diagonal.
+    // In squares of eight clusters by eight, and in tiles of such, whose sets stay in the cache.
+    constexpr size_t tile = 64;
     const size_t squares = (cluster_count_ + 7) / 8;
-    for (size_t row = 0; row < squares; row++)
-        for (size_t column = 0; column <= row; column++) {
-            const uint64_t here = gather_square(visible_from_, row, column),
-                           there = gather_square(visible_from_, column, row);
-            if ((here | there) == 0)
-                continue;
-            spread_square(visible_from_, row, column, here | transpose_square(there));
-            spread_square(visible_from_, column, row, there | transpose_square(here));
-        }
+    for (size_t first_row = 0; first_row < squares; first_row += tile)
+        for (size_t first_column = 0; first_column <= first_row; first_column += tile)
+            for (size_t row = first_row; row < std::min(first_row + tile, squares); row++)
+                for (size_t column = first_column; column <= std::min(first_column + tile - 1, row); column++)
+                    unite_across_diagonal(visible_from_, row, column);
 }
 
 void LightLists::build_cluster_bounds(const Bsp& bsp)

@@ -15,11 +15,13 @@ namespace vkpt {
 
 class WorkLimit {
 public:
-    // `what`, plural, is what is counted: "light list entries". Larger files may have more.
+    // `what`, plural, is what is counted: "light list entries". Larger files may have more, and what was made in memory
+    // any number.
     WorkLimit(const formats::Bsp& bsp, uint64_t per_megabyte, std::string_view what)
         : file_(bsp.name)
         , what_(what)
-        , most_(uint64_t(double(per_megabyte) * std::max(double(bsp.file_size) / 1e6, 1.0)))
+        , most_(bsp.file_size == 0 ? UINT64_MAX
+                                   : uint64_t(double(per_megabyte) * std::max(double(bsp.file_size) / 1e6, 1.0)))
     {
     }
 

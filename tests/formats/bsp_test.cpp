@@ -191,6 +191,46 @@ TEST(Bsp, AnimationsThatNeverReturnAreCut)
     EXPECT_EQ(chain({ -1, 0, 1 }), (Chain { -1, 0, 1 }));
 }
 
+// One animation of all texinfos.
+void make_ring(Bsp& bsp, size_t length)
+{
+    bsp.texinfos.resize(length, bsp.texinfos[0]);
+    for (size_t i = 0; i < length; i++)
+        bsp.texinfos[i].next = int32_t((i + 1) % length);
+}
+
+// A face of nine edges in every place of many leaves.
+void fill_with_leaf_faces(Bsp& bsp, size_t count)
+{
+    bsp.surface_edges.resize(100);
+    bsp.faces[1].edge_count = 9;
+    bsp.leaf_faces.assign(count, 1);
+    bsp.leaves[1].first_leaf_face = 0;
+    bsp.leaves[1].leaf_face_count = uint16_t(count / 2);
+    bsp.leaves[2].first_leaf_face = uint16_t(count / 2);
+    bsp.leaves[2].leaf_face_count = uint16_t(count / 2);
+}
+
+TEST(Bsp, LongAnimationsAndLargeFacesAreRead)
+{
+    Bsp bsp = make_bsp();
+    make_ring(bsp, 256);
+    bsp.surface_edges.resize(100);
+    bsp.faces[1].edge_count = 64;
+    fill_with_leaf_faces(bsp, 110000);
+    EXPECT_EQ(read_bsp(write_bsp(bsp), "large").texinfos[255].next, 0);
+}
+
+TEST(Bsp, RefusesLumpsThatOverlap)
+{
+    std::vector<std::byte> file = write_bsp(make_bsp());
+    constexpr size_t entities = 8; // the directory's first entry
+    EXPECT_NO_THROW(read_bsp(file, "m.bsp"));
+    const uint32_t whole[] = { 160, uint32_t(file.size() - 160) };
+    std::memcpy(file.data() + entities, whole, 8);
+    EXPECT_THROW(read_bsp(file, "m.bsp"), FormatError);
+}
+
 TEST(Bsp, RefusesIndicesOutOfRange)
 {
     const std::vector<std::pair<const char*, std::function<void(Bsp&)>>> faults {
@@ -235,6 +275,17 @@ TEST(Bsp, RefusesIndicesOutOfRange)
         { "brush sides", [](Bsp& b) { b.brush_sides[0].texinfo = 3; } },
         { "areas", [](Bsp& b) { b.areas[1].area_portal_count = 2; } },
         { "area portals", [](Bsp& b) { b.area_portals[0].other_area = 2; } },
+        // What costs far more than it takes in the file:
+        { "faces", [](Bsp& b) { b.faces[1].first_edge = b.faces[0].first_edge; b.surface_edges.resize(7); } },
+        { "faces",
+            [](Bsp& b) {
+                b.surface_edges.resize(100);
+                b.faces[1].edge_count = 65;
+            } },
+        { "leaves", [](Bsp& b) { b.leaves[1] = b.leaves[2]; } },
+        { "leaves", [](Bsp& b) { fill_with_leaf_faces(b, 130000); } },
+        { "models", [](Bsp& b) { b.models.push_back(b.models[0]); } },
+        { "texinfos", [](Bsp& b) { make_ring(b, 257); } },
         { "visibility", [](Bsp& b) { b.visibility[0] = 3; } },
         { "visibility", [](Bsp& b) { b.visibility[4] = 22; } },
         { "visibility", [](Bsp& b) { b.visibility.resize(3); } },

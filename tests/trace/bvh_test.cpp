@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <limits>
@@ -140,6 +141,19 @@ TEST_P(BuildBvh, stays_walkable_on_nested_triangles)
         triangles.push_back({ { { -size, -size, 0 }, { size, -size, 0 }, { 0, size, size } }, i, 1 });
     }
     expect_sound_tree_of(triangles);
+}
+
+// Nothing prunes the search for better places: without a bound the time grows with the square of the number.
+TEST_P(BuildBvh, takes_bounded_time_for_nested_triangles)
+{
+    std::vector<BvhTriangle> triangles;
+    for (uint32_t i = 0; i < 100'000; i++) {
+        const float size = 1000 - 0.005f * float(i);
+        triangles.push_back({ { { -size, -size, -size }, { size, -size, size }, { 0, size, size / 2 } }, i, 1 });
+    }
+    const std::clock_t start = std::clock(); // of the processor
+    expect_sound_tree_of(triangles);
+    EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 5);
 }
 
 TEST_P(BuildBvh, holds_a_flat_grid_and_a_line)
