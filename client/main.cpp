@@ -4,12 +4,26 @@
 #include "client/manual.hpp"
 #include "client/options.hpp"
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <iostream>
 #include <new>
 
 namespace {
 
 enum ExitStatus { done = 0, failed = 1, wrong_use = 2 };
+
+// What a command has printed counts once it is written: a full disk may show only here.
+int finish(ExitStatus status)
+{
+    std::cout.flush();
+    if (std::cout && std::fflush(stdout) == 0 && !std::ferror(stdout))
+        return status;
+    std::fprintf(stderr, "vkpt: cannot write to standard output: %s\n", std::strerror(errno));
+    return std::max(status, failed);
+}
 
 int report(ExitStatus status, const char* text)
 {
@@ -36,9 +50,9 @@ int main(int argc, char** argv)
     vkpt::client::add_view_command(program);
     try {
         program.parse(argc, argv);
-        return done;
+        return finish(done);
     } catch (const CLI::ParseError& error) {
-        return program.exit(error) == 0 ? done : wrong_use;
+        return finish(program.exit(error) == 0 ? done : wrong_use);
     } catch (const vkpt::client::WrongUse& error) {
         return report(wrong_use, error.what());
     } catch (const std::bad_alloc&) {

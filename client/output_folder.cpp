@@ -17,6 +17,8 @@ OutputFolder::OutputFolder(const fs::path& path, const std::vector<std::string>&
     if (error || !fs::is_directory(path, error))
         throw Failure(fmt::format("-o {}: cannot make this folder: {}; name one that may be written to", path.string(),
             error ? error.message() : "a file has that name"));
+    if (is_new_)
+        unfinished_.emplace(path);
     try {
         for (const std::string& name : names)
             files_.push_back(std::make_unique<OutputFile>(path / name));

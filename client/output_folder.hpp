@@ -5,6 +5,7 @@
 #include "client/host/output_file.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ private:
 
     std::filesystem::path path_;
     bool is_new_ = false;
+    std::optional<UnfinishedFile> unfinished_; // where it is new
     std::vector<std::unique_ptr<OutputFile>> files_;
 };
 

@@ -59,10 +59,8 @@ void write_radiance(const Extension& extension, OutputFile& output, PictureKind 
         broken += !std::isfinite(value);
     if (broken)
         std::fprintf(stderr, "vkpt: %zu of %zu values are not finite: please report this scene\n", broken, rgb.size());
-    if (kind == PictureKind::exr)
-        write_exr(output.working_path(), size.width, size.height, rgb);
-    else
-        output.write(formats::write_pfm(size.width, size.height, rgb));
+    output.write(kind == PictureKind::exr ? write_exr(size.width, size.height, rgb)
+                                          : formats::write_pfm(size.width, size.height, rgb));
 }
 
 HostOptions make_render_host(const RenderOptions& options, Size size)

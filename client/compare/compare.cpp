@@ -156,8 +156,8 @@ void run_compare(CompareOptions options)
     options.has_all_samplers = options.lists.samplers == std::vector<std::string> { "all" };
     Report report;
     report.size = parse_size(options.size);
-    options.measure.reference.use_cache = !options.ignores_cache;
-    options.measure.reference.cache_folder = default_reference_folder();
+    if (!options.ignores_cache)
+        options.measure.reference.cache_folder = find_reference_folder();
     report.options = options.measure;
     report.settings = options.module.settings;
     report.command = make_command(options);

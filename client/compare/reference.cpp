@@ -4,11 +4,11 @@
 #include "client/host/errors.hpp"
 #include "client/host/hash.hpp"
 #include "client/host/output_file.hpp"
+#include "client/host/private_folder.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
@@ -166,8 +166,6 @@ std::optional<Converged> read_cache(const fs::path& path, int width, int height)
 // A cache that cannot be written costs time only.
 void write_cache(const fs::path& path, const Converged& converged)
 try {
-    std::error_code ignored;
-    fs::create_directories(path.parent_path(), ignored);
     const std::string packed = pack(converged);
     const uint64_t hash = hash_text(packed);
     std::string text(cache_magic);
@@ -182,14 +180,14 @@ try {
 
 } // namespace
 
-fs::path default_reference_folder()
+fs::path find_reference_folder()
 {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    const fs::path folder = cache && *cache ? fs::path(cache)
-        : home && *home                     ? fs::path(home) / ".cache"
-                                            : fs::temp_directory_path();
-    return folder / "vkpt" / "references";
+    const PrivateFolder cache = open_cache_folder();
+    const PrivateFolder folder
+        = cache.path.empty() ? cache : open_private_folder(cache.path / "references");
+    if (folder.path.empty())
+        fmt::print(stderr, "vkpt: converged pictures are not kept: {}\n", folder.problem);
+    return folder.path;
 }
 
 Reference make_reference(
@@ -205,11 +203,12 @@ Reference make_reference(
     const std::string key = fmt::format("{:016x} {} {} {} {} {}", stage.content_hash(), frame,
         part == PixelPart::whole ? "whole" : "centre", sampler, samples, batch_count);
     const fs::path path = options.cache_folder / fmt::format("{:016x}.reference", hash_text(key));
-    std::optional<Converged> converged = options.use_cache ? read_cache(path, first.width, first.height) : std::nullopt;
+    const bool has_cache = !options.cache_folder.empty();
+    std::optional<Converged> converged = has_cache ? read_cache(path, first.width, first.height) : std::nullopt;
     const bool was_cached = converged.has_value();
     if (!converged) {
         converged = draw_converged(stage, frame, part, samples, variant, on_sample);
-        if (options.use_cache)
+        if (has_cache)
             write_cache(path, *converged);
     }
     Reference reference = assemble(*converged);

@@ -32,12 +32,11 @@ inline constexpr int block_side = 16;
 struct ReferenceOptions {
     int samples = 512;
     std::string sampler; // empty: a good one that the module has
-    bool use_cache = true;
-    std::filesystem::path cache_folder;
+    std::filesystem::path cache_folder; // empty: none is read or kept
 };
 
-// Where converged pictures are kept: below $XDG_CACHE_HOME or ~/.cache.
-std::filesystem::path default_reference_folder();
+// Where converged pictures are kept: in the user's cache folder. Empty: nowhere, stderr says why.
+std::filesystem::path find_reference_folder();
 
 // Of the stage's scene at `frame`. on_sample is called after each sample that was drawn; a cached one draws none.
 Reference make_reference(

@@ -7,12 +7,13 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
+#include <ImfStdIO.h>
 #include <fmt/format.h>
-#include <vector>
+#include <string>
 
 namespace vkpt::client {
 
-void write_exr(const std::filesystem::path& path, int width, int height, std::span<const float> rgb)
+std::vector<std::byte> write_exr(int width, int height, std::span<const float> rgb)
 try {
     std::vector<float> pixels(rgb.begin(), rgb.end());
     Imf::Header header(width, height);
@@ -24,11 +25,17 @@ try {
         auto* base = reinterpret_cast<char*>(pixels.data() + channel);
         frame.insert(names[channel], Imf::Slice(Imf::FLOAT, base, pixel_bytes, pixel_bytes * size_t(width)));
     }
-    Imf::OutputFile file(path.c_str(), header);
-    file.setFrameBuffer(frame);
-    file.writePixels(height);
+    Imf::StdOSStream stream;
+    {
+        Imf::OutputFile file(stream, header);
+        file.setFrameBuffer(frame);
+        file.writePixels(height);
+    } // the table of lines is written at its end
+    const std::string text = stream.str();
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    return { bytes, bytes + text.size() };
 } catch (const std::exception& error) {
-    throw Failure(fmt::format("cannot write {}: {}", path.string(), error.what()));
+    throw Failure(fmt::format("cannot make an EXR picture: {}", error.what()));
 }
 
 } // namespace vkpt::client

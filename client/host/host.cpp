@@ -4,6 +4,7 @@
 #include "client/host/companions.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/imports.hpp"
+#include "client/host/private_folder.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -29,20 +30,6 @@ fs::path find_module(const fs::path& wanted)
     return find_companion("ref_vkpt.so", "Build it, or name it with --module PATH or $VKPT_MODULE.");
 }
 
-// Where the module may keep its caches.
-fs::path make_write_folder()
-{
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    std::error_code error;
-    fs::path folder = cache && *cache ? fs::path(cache) : home && *home ? fs::path(home) / ".cache" : fs::path();
-    if (!folder.empty() && (fs::create_directories(folder / "vkpt", error) || fs::is_directory(folder / "vkpt", error)))
-        return folder / "vkpt";
-    folder = fs::temp_directory_path() / "vkpt";
-    fs::create_directories(folder, error);
-    return folder;
-}
-
 // Words of a console line; "..." is one word.
 std::vector<std::string> split_words(std::string_view line)
 {
@@ -62,9 +49,8 @@ std::vector<std::string> split_words(std::string_view line)
 Host::Host(const HostOptions& options, FileSystem* files)
     : options_(options)
     , files_(files)
-    , write_folder_(make_write_folder())
-    , write_folder_text_(write_folder_.string())
 {
+    choose_write_folder();
     HostImports::bind(this);
     try {
         load_module(options.module);
@@ -86,6 +72,18 @@ Host::~Host()
         std::fprintf(stderr, "vkpt: while the module shut down: %s\n", error.what());
     }
     HostImports::bind(nullptr);
+}
+
+// Where the module may keep its caches, and writes what it is told to.
+void Host::choose_write_folder()
+{
+    const PrivateFolder cache = open_cache_folder();
+    if (cache.path.empty()) {
+        std::fprintf(stderr, "vkpt: nothing is kept for the next run: %s\n", cache.problem.c_str());
+        temporary_folder_ = std::make_unique<TemporaryFolder>("vkpt-run-");
+    }
+    write_folder_ = temporary_folder_ ? temporary_folder_->path() : cache.path;
+    write_folder_text_ = write_folder_.string();
 }
 
 void Host::load_module(const fs::path& wanted)

@@ -4,12 +4,14 @@
 
 #include "client/host/cvar_store.hpp"
 #include "client/host/file_system.hpp"
+#include "client/host/temporary_folder.hpp"
 #include "ref_vkpt/extension.hpp"
 
 #include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,6 +58,7 @@ public:
 private:
     friend struct HostImports;
 
+    void choose_write_folder();
     void load_module(const std::filesystem::path& wanted);
     void start_module();
     void check_wanted_cvars();
@@ -71,6 +74,7 @@ private:
     std::string pending_text_;
     std::deque<std::string> console_;
     std::string console_line_; // not ended yet
+    std::unique_ptr<TemporaryFolder> temporary_folder_; // where there is no place for caches
     std::filesystem::path write_folder_;
     std::string write_folder_text_;
     int screenshots_ = 0;

@@ -3,6 +3,7 @@
 
 #include "client/host/errors.hpp"
 #include "client/host/host.hpp"
+#include "client/host/output_file.hpp"
 #include "formats/image.hpp"
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 
 namespace vkpt::client {
 
@@ -113,9 +113,14 @@ engine::Imports HostImports::table()
         formats::Image image { width, height, to_rgba(width, height, bytes_per_pixel, pixels) };
         const auto file = host->write_folder_ / fmt::format("screenshot{:03}.png", host->screenshots_++);
         const std::vector<std::byte> png = formats::write_png(image);
-        std::ofstream(file, std::ios::binary)
-            .write(reinterpret_cast<const char*>(png.data()), std::streamsize(png.size()));
-        host->add_console_text(fmt::format("wrote {}\n", file.string()));
+        try {
+            OutputFile output(file);
+            output.write(png);
+            output.commit();
+            host->add_console_text(fmt::format("wrote {}\n", file.string()));
+        } catch (const Failure& failure) {
+            host->add_console_text(fmt::format("{}\n", failure.what()));
+        }
     };
     imports.init_graphics = [](int, int* width, int* height) -> engine::QBoolean {
         if (host->exports_.prepare_for_window() == -1)

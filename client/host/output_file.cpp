@@ -3,69 +3,165 @@
 
 #include "client/host/errors.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
+#include <random>
+#include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace vkpt::client {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr int most_links = 40; // as the kernel
+
+// Links in /proc (/dev/stdout leads there) are open files and no names.
+bool is_in_proc(const fs::path& path) { return path.string().starts_with("/proc/"); }
+
+// In a folder like /tmp, where everybody may make links and only their owners remove them, those of others are no way
+// to anywhere; Linux's fs.protected_symlinks is the same rule.
+bool is_planted(const fs::path& link)
+{
+    struct stat found { }, around { };
+    const fs::path parent = link.parent_path();
+    if (lstat(link.c_str(), &found) != 0 || stat(parent.empty() ? "." : parent.c_str(), &around) != 0)
+        return true;
+    const bool is_shared = (around.st_mode & S_ISVTX) && (around.st_mode & S_IWOTH);
+    return is_shared && found.st_uid != geteuid() && found.st_uid != around.st_uid;
+}
+
+fs::path random_neighbour(const fs::path& path)
+{
+    std::random_device random;
+    return path.parent_path() / fmt::format(".vkpt-{:08x}{:08x}.part", random(), random());
+}
+
+// The new file gets the old one's owner and permissions. Its group's are for its group alone.
+bool copy_access(int file, const struct stat& from)
+{
+    mode_t mode = from.st_mode & 0777;
+    struct stat now { };
+    if (fchown(file, from.st_uid, from.st_gid) != 0 && (fstat(file, &now) != 0 || now.st_gid != from.st_gid))
+        mode &= mode_t(~0070);
+    return fchmod(file, mode) == 0;
+}
+
+} // namespace
+
 OutputFile::OutputFile(const fs::path& path)
     : path_(path)
+    , target_(follow_links())
 {
     std::error_code ignored;
-    if (fs::is_directory(path, ignored))
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::is_directory(status))
         throw Failure(fmt::format("cannot write {}: it is a folder; name a file", path.string()));
-    working_path_ = path.parent_path() / fmt::format(".{}.{}.part", path.filename().string(), getpid());
-    errno = 0;
-    if (!std::ofstream(working_path_, std::ios::binary))
+    try {
+        if (is_in_proc(target_) || (fs::exists(status) && !fs::is_regular_file(status)))
+            open_directly();
+        else
+            open_neighbour();
+    } catch (...) {
+        discard();
+        throw;
+    }
+}
+
+OutputFile::~OutputFile() { discard(); }
+
+void OutputFile::discard()
+{
+    if (file_ >= 0)
+        close(file_);
+    if (unfinished_)
+        unlink(working_path_.c_str());
+}
+
+// Where writing to the path would write; also for a link to what is not there yet.
+fs::path OutputFile::follow_links() const
+{
+    fs::path path = path_;
+    std::error_code ignored;
+    for (int links = 0; fs::is_symlink(path, ignored) && !is_in_proc(path); links++) {
+        if (links == most_links)
+            fail(ELOOP);
+        if (is_planted(path))
+            fail(EACCES);
+        path = path.parent_path() / fs::read_symlink(path, ignored);
+    }
+    return path;
+}
+
+void OutputFile::open_directly()
+{
+    file_ = open(path_.c_str(), O_WRONLY | O_TRUNC | O_NOCTTY | O_CLOEXEC);
+    if (file_ < 0)
         fail(errno);
 }
 
-OutputFile::~OutputFile()
+void OutputFile::open_neighbour()
 {
-    std::error_code ignored;
-    if (!is_committed_)
-        fs::remove(working_path_, ignored);
+    struct stat old { };
+    const bool replaces = stat(target_.c_str(), &old) == 0;
+    if (replaces && access(target_.c_str(), W_OK) != 0)
+        fail(errno);
+    const auto mode = mode_t(replaces ? 0600 : 0666); // nobody reads what the old file would not have shown
+    int error = EEXIST;
+    while (error == EEXIST) {
+        working_path_ = random_neighbour(target_);
+        unfinished_.emplace(working_path_);
+        file_ = open(working_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+        error = file_ < 0 ? errno : 0;
+        if (error != 0)
+            unfinished_.reset();
+    }
+    if (error != 0)
+        fail(error);
+    if (replaces && !copy_access(file_, old))
+        fail(errno);
 }
 
 void OutputFile::write(formats::Bytes bytes)
 {
-    errno = 0;
-    std::ofstream stream(working_path_, std::ios::binary | std::ios::trunc);
-    stream.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
-    stream.close();
-    if (!stream)
-        fail(errno);
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(file_, bytes.data(), bytes.size());
+        if (count < 0 && errno != EINTR)
+            fail(errno);
+        bytes = bytes.subspan(size_t(std::max<ssize_t>(count, 0)));
+    }
 }
 
 void OutputFile::take(const fs::path& file)
 {
-    // By hand: fs::copy_file calls a full disk an input/output error, operator<< may not notice it.
     errno = 0;
     std::ifstream from(file, std::ios::binary);
-    std::ofstream to(working_path_, std::ios::binary | std::ios::trunc);
-    std::array<char, 1 << 16> part;
-    while (from && to) {
-        from.read(part.data(), std::streamsize(part.size()));
-        to.write(part.data(), from.gcount());
+    std::array<std::byte, 1 << 16> part;
+    while (from) {
+        from.read(reinterpret_cast<char*>(part.data()), std::streamsize(part.size()));
+        write(formats::Bytes(part).first(size_t(from.gcount())));
     }
-    to.close();
-    if (!from.eof() || !to)
+    if (!from.eof())
         fail(errno);
 }
 
 void OutputFile::commit()
 {
-    std::error_code error;
-    fs::rename(working_path_, path_, error);
-    if (error)
-        fail(error.value());
-    is_committed_ = true;
+    const int file = std::exchange(file_, -1);
+    if (close(file) != 0) // a full disk may show only here
+        fail(errno);
+    if (!unfinished_)
+        return;
+    if (rename(working_path_.c_str(), target_.c_str()) != 0)
+        fail(errno);
+    unfinished_.reset();
 }
 
 void OutputFile::fail(int error) const

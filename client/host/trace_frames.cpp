@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 
 namespace vkpt::client {
 
@@ -21,18 +22,17 @@ constexpr size_t max_handles = 1 << 16;
 
 uint64_t join(int32_t low, int32_t high) { return uint64_t(uint32_t(low)) | uint64_t(uint32_t(high)) << 32; }
 
-void keep_handle(std::vector<void*>& handles, int32_t number, void* handle)
-{
-    if (number <= 0 || size_t(number) >= max_handles)
-        return;
-    if (handles.size() <= size_t(number))
-        handles.resize(size_t(number) + 1);
-    handles[size_t(number)] = handle;
-}
 
-void* find_handle(const std::vector<void*>& handles, uint32_t number)
+struct Fingerprint {
+    uint64_t bytes, hash;
+};
+
+// The same for all paths that FileSystem takes for the same.
+std::string plain_path(std::string path)
 {
-    return number < handles.size() ? handles[number] : nullptr;
+    for (char& c : path)
+        c = c == '\\' ? '/' : c >= 'A' && c <= 'Z' ? char(c + ('a' - 'A')) : c;
+    return path.substr(std::min(path.find_first_not_of('/'), path.size()));
 }
 
 // Another eye than the player's sees the player, and not the weapon before the player's eyes.
@@ -52,6 +52,33 @@ void move_eye(const Camera& camera, engine::RefDef& refdef, std::vector<engine::
 }
 
 } // namespace
+
+void TraceFrames::Handles::keep(int32_t number, void* handle)
+{
+    if (number <= 0 || size_t(number) >= max_handles)
+        return;
+    if (handles_.size() <= size_t(number))
+        handles_.resize(size_t(number) + 1);
+    handles_[size_t(number)] = { handle, true };
+}
+
+void* TraceFrames::Handles::find(uint32_t number) const
+{
+    return number < handles_.size() ? handles_[number].handle : nullptr;
+}
+
+void TraceFrames::Handles::begin_registration()
+{
+    for (Handle& handle : handles_)
+        handle.is_current = false;
+}
+
+void TraceFrames::Handles::end_registration()
+{
+    for (Handle& handle : handles_)
+        if (!handle.is_current)
+            handle = {};
+}
 
 TraceFrames::TraceFrames(FileSystem& files, std::string_view path, int chosen_frame)
     : path_(path)
@@ -75,17 +102,22 @@ TraceFrames::TraceFrames(FileSystem& files, std::string_view path, int chosen_fr
 void TraceFrames::check_files(FileSystem& files)
 {
     std::vector<std::string> others;
+    std::map<std::string, std::optional<Fingerprint>> prints; // each file is read once, however often it is named
     for (const Call& call : reader_.facts()) {
         if (call.kind != CallKind::file)
             continue;
-        const auto bytes = files.read(call.name);
-        if (!bytes && call.name.ends_with(".bsp"))
+        const auto [known, is_new] = prints.try_emplace(plain_path(call.name));
+        if (is_new)
+            if (const auto bytes = files.read(call.name))
+                known->second = { bytes->size(), hash_bytes(*bytes) };
+        const std::optional<Fingerprint>& found = known->second;
+        if (!found && call.name.ends_with(".bsp"))
             throw Failure(fmt::format("{} was recorded in {}, which is not in\n  {}\nName the game data that it was "
                                       "recorded with: --basedir DIR, --game NAME.",
                 path_, call.name, fmt::join(files.search_path(), "\n  ")));
-        if (!bytes || bytes->size() != join(call.numbers[0], call.numbers[1])
-            || hash_bytes(*bytes) != join(call.numbers[2], call.numbers[3]))
-            others.push_back(fmt::format("{} ({})", call.name, bytes ? "another" : "missing"));
+        if (!found || found->bytes != join(call.numbers[0], call.numbers[1])
+            || found->hash != join(call.numbers[2], call.numbers[3]))
+            others.push_back(fmt::format("{} ({})", call.name, found ? "another" : "missing"));
     }
     if (others.empty())
         return;
@@ -114,8 +146,8 @@ void TraceFrames::register_with(Host& host)
         if (call.kind == CallKind::screen && call.numbers[0] > 0 && call.numbers[1] > 0)
             placement_ = { call.numbers[0], call.numbers[1], host.width(), host.height() };
     applied_ = 0;
-    models_.clear();
-    skins_.clear();
+    models_ = {};
+    skins_ = {};
     prepare(host, lasting_before(size_t(chosen_frame_)));
 }
 
@@ -169,14 +201,18 @@ void TraceFrames::apply(Host& host, const Call& call)
     case CallKind::setting:
         return set(host, call);
     case CallKind::begin_registration:
+        models_.begin_registration();
+        skins_.begin_registration();
         return module.begin_registration(call.name.c_str());
     case CallKind::register_model:
-        return keep_handle(models_, call.numbers[0], module.register_model(call.name.c_str()));
+        return models_.keep(call.numbers[0], module.register_model(call.name.c_str()));
     case CallKind::register_skin:
-        return keep_handle(skins_, call.numbers[0], module.register_skin(call.name.c_str()));
+        return skins_.keep(call.numbers[0], module.register_skin(call.name.c_str()));
     case CallKind::set_sky:
         return module.set_sky(call.name.c_str(), call.reals[0], &call.reals[1]);
     case CallKind::end_registration:
+        models_.end_registration();
+        skins_.end_registration();
         return module.end_registration();
     case CallKind::set_palette: {
         constexpr size_t palette_bytes = 768;
@@ -218,8 +254,8 @@ void TraceFrames::draw_view(Host& host, const trace::View& view)
     std::vector<engine::Entity> entities;
     for (const trace::View::Entity& recorded : view.entities) {
         engine::Entity& entity = entities.emplace_back(recorded.entity);
-        entity.model = find_handle(models_, recorded.model);
-        entity.skin = find_handle(skins_, recorded.skin);
+        entity.model = models_.find(recorded.model);
+        entity.skin = skins_.find(recorded.skin);
     }
     refdef.area_bits = view.has_area_bits ? view.area_bits.data() : nullptr;
     refdef.lightstyles = view.has_lightstyles ? view.lightstyles.data() : nullptr;

@@ -21,6 +21,23 @@ public:
     std::vector<std::string> notes() const override { return notes_; }
 
 private:
+    // The module's, by the trace's numbers. As in the engine, a registration ends the life of those from before that it
+    // does not name again.
+    class Handles {
+    public:
+        void keep(int32_t number, void* handle);
+        void* find(uint32_t number) const; // nullptr: none
+        void begin_registration();
+        void end_registration();
+
+    private:
+        struct Handle {
+            void* handle = nullptr;
+            bool is_current = false;
+        };
+        std::vector<Handle> handles_;
+    };
+
     void draw_frame(Host& host, int frame) override;
     void check_files(FileSystem& files);
     void prepare(Host& host, size_t lasting_count);
@@ -38,7 +55,7 @@ private:
     std::optional<Camera> camera_;
     ViewPlacement placement_ { 1, 1, 1, 1 };
     size_t applied_ = 0; // of the trace's lasting calls
-    std::vector<void*> models_, skins_; // the module's, by the trace's numbers
+    Handles models_, skins_;
 };
 
 } // namespace vkpt::client

@@ -80,30 +80,6 @@ std::string find_error(const std::string& console)
     return "";
 }
 
-volatile std::sig_atomic_t is_interrupted = 0;
-
-// While it lives, the usual signals to end are noted instead of ending the program.
-class SignalWatch {
-public:
-    SignalWatch()
-    {
-        struct sigaction action { };
-        action.sa_handler = [](int) { is_interrupted = 1; };
-        sigaction(SIGINT, &action, &old_[0]);
-        sigaction(SIGTERM, &action, &old_[1]);
-    }
-    ~SignalWatch()
-    {
-        sigaction(SIGINT, &old_[0], nullptr);
-        sigaction(SIGTERM, &old_[1], nullptr);
-    }
-    SignalWatch(const SignalWatch&) = delete;
-    SignalWatch& operator=(const SignalWatch&) = delete;
-
-private:
-    struct sigaction old_[2] {};
-};
-
 bool become(unsigned user, unsigned group)
 {
     return setgroups(0, nullptr) == 0 && setresgid(group, group, group) == 0 && setresuid(user, user, user) == 0;
@@ -145,32 +121,18 @@ std::string make_settings(const EngineRunOptions& options)
 } // namespace
 
 EngineRun::EngineRun(const EngineRunOptions& options)
-    : data_(fs::absolute(options.data_folder))
+    : temporary_folder_("vkpt-record-")
+    , folder_(temporary_folder_.path())
+    , data_(fs::absolute(options.data_folder))
     , engine_(find_engine(options.engine))
 {
     choose_user();
-    std::string name = (fs::temp_directory_path() / "vkpt-record-XXXXXX").string();
-    if (!mkdtemp(name.data()))
-        throw Failure(fmt::format("cannot make a folder {}: {}", name, std::strerror(errno)));
-    folder_ = name;
     try {
         make_folder(options);
         watch(start(options), options);
     } catch (const fs::filesystem_error& error) {
-        remove_folder();
         throw Failure(fmt::format("cannot prepare the engine's folder: {}; $TMPDIR names another place", error.what()));
-    } catch (...) {
-        remove_folder();
-        throw;
     }
-}
-
-EngineRun::~EngineRun() { remove_folder(); }
-
-void EngineRun::remove_folder() const
-{
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
 }
 
 // The engine refuses to run as root: whoever called sudo plays, or nobody.
@@ -208,6 +170,10 @@ bool EngineRun::can_user_read(const fs::path& path) const
 void EngineRun::make_folder(const EngineRunOptions& options)
 {
     fs::permissions(folder_, fs::perms(0755));
+    if (!can_user_read(folder_))
+        throw Failure(fmt::format("the engine refuses to run as root, and user {} cannot reach {}; $TMPDIR names "
+                                  "another place",
+            user_.id, folder_.string()));
     home_ = folder_ / "home";
     trace_ = home_ / "out.rtrace";
     fs::copy_file(engine_, folder_ / "quake2");
@@ -224,6 +190,7 @@ void EngineRun::make_folder(const EngineRunOptions& options)
     }
     if (!can_user_read(data_ / "baseq2")) {
         const fs::path copy = folder_ / "data";
+        fs::create_directory(copy);
         for (const std::string& game : { std::string("baseq2"), options.game })
             if (!game.empty())
                 fs::copy(data_ / game, copy / game, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
@@ -287,7 +254,6 @@ int EngineRun::start(const EngineRunOptions& options) const
 
 void EngineRun::watch(int process, const EngineRunOptions& options) const
 {
-    const SignalWatch signals;
     const fs::path console = home_ / ".yq2" / (options.game.empty() ? "baseq2" : options.game) / "qconsole.log";
     auto last_change = std::chrono::steady_clock::now();
     uintmax_t last_size = 0;
@@ -303,13 +269,11 @@ void EngineRun::watch(int process, const EngineRunOptions& options) const
             options.on_progress(trace_);
         }
         const std::string error = find_error(read_text(console));
-        if (is_interrupted || !error.empty() || now - last_change > patience) {
+        if (!error.empty() || now - last_change > patience) {
             end_process(process);
-            fail(is_interrupted ? "interrupted" : error.empty() ? "it has recorded nothing for a minute" : error);
+            fail(error.empty() ? "it has recorded nothing for a minute" : error);
         }
     }
-    if (is_interrupted) // a signal from the terminal reaches the engine, too, and lets it end in order
-        fail("interrupted");
     if (const std::string error = find_error(read_text(console)); !error.empty())
         fail(error);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)

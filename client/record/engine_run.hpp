@@ -3,6 +3,8 @@
 // afterwards.
 #pragma once
 
+#include "client/host/temporary_folder.hpp"
+
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -26,7 +28,6 @@ class EngineRun {
 public:
     // Plays the demo to its end. Throws Failure with the engine's words.
     explicit EngineRun(const EngineRunOptions& options);
-    ~EngineRun();
     EngineRun(const EngineRun&) = delete;
     EngineRun& operator=(const EngineRun&) = delete;
 
@@ -36,7 +37,6 @@ private:
     struct User {
         unsigned id = 0, group = 0;
     };
-    void remove_folder() const;
     void choose_user();
     bool can_user_read(const std::filesystem::path& path) const;
     void make_folder(const EngineRunOptions& options);
@@ -45,6 +45,7 @@ private:
     void watch(int process, const EngineRunOptions& options) const;
     [[noreturn]] void fail(const std::string& reason) const;
 
+    TemporaryFolder temporary_folder_;
     std::filesystem::path folder_, home_, data_, trace_, engine_;
     User user_;
     bool changes_user_ = false;

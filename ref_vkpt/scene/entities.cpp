@@ -118,7 +118,7 @@ void SnapshotBuilder::add_entity(const Entity& entity)
     if (entity.flags & RF_BEAM)
         return add_beam(entity);
     const auto* model = static_cast<const Model*>(entity.model);
-    if (!model)
+    if (!model || !model->registration) // a handle of an earlier map
         return add_null_model(entity);
     if (const auto* brush = std::get_if<Model::Brush>(&model->shape))
         add_brush(entity, *brush);
@@ -170,6 +170,8 @@ shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Mode
 {
     shared::Material material = plain_material();
     const Texture* skin = static_cast<const Texture*>(entity.skin);
+    if (skin && !skin->registration) // a handle of an earlier map
+        skin = nullptr;
     if (!skin && !mesh.skins.empty()) {
         const size_t number = size_t(std::max(entity.skin_number, 0));
         skin = mesh.skins[number < mesh.skins.size() ? number : 0];

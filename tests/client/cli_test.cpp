@@ -255,6 +255,46 @@ TEST_F(Cli, CvarPageIsTheOneInTheDocs)
     EXPECT_EQ(result.output, stored) << "write it anew: vkpt info --cvars > docs/cvars.md";
 }
 
+// What is printed counts once it is written; the buffer's last part is written at the very end.
+TEST_F(Cli, FullStandardOutputIsAFailure)
+{
+    ASSERT_EQ(render({ "-o", "a.pfm" }).status, 0);
+    for (const std::string command : { "info --json", "info", "info --cvars", "diff a.pfm a.pfm", "--help", "--man-page",
+             "export --help", "bench maps/sample.bsp --size 4x2 --frames 2" }) {
+        const std::string line = std::string("exec '") + VKPT_PROGRAM + "' " + command + " >/dev/full";
+        const ProgramResult result = run_program("/bin/sh", { "-c", line }, folder.path(),
+            { std::string("VKPT_MODULE=") + FAKE_MODULE, "XDG_CACHE_HOME=" + (folder.path() / "cache").string() });
+        EXPECT_EQ(result.status, 1) << command;
+        expect_in(result.errors, "No space left");
+    }
+}
+
+// Once there was a folder of a known name among the temporary files then, which anybody could have made before.
+TEST_F(Cli, WithoutAHomeNothingIsKept)
+{
+    folder.write("tmp/other/file", "");
+    const ProgramResult result = run_program("/usr/bin/env",
+        { "-u", "HOME", "-u", "XDG_CACHE_HOME", "TMPDIR=" + (folder.path() / "tmp").string(),
+            std::string("VKPT_MODULE=") + FAKE_MODULE, VKPT_PROGRAM, "compare", "maps/sample.bsp", "--samplers", "uniform",
+            "--size", "40x36", "--runs", "2", "--frames", "2", "--reference-spp", "16", "-o", "compared" },
+        folder.path());
+    EXPECT_EQ(result.status, 0) << result.errors;
+    expect_in(result.errors, "nothing is kept for the next run: there is no home folder");
+    expect_in(result.errors, "converged pictures are not kept: there is no home folder");
+    std::filesystem::remove_all(folder.path() / "tmp/other");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "tmp"));
+}
+
+TEST_F(Cli, CacheOfAnotherUserIsLeftAlone)
+{
+    std::filesystem::create_directories(folder.path() / "cache/vkpt");
+    std::filesystem::permissions(folder.path() / "cache/vkpt", std::filesystem::perms(0777));
+    const ProgramResult result = render({ "-o", "a.png" });
+    EXPECT_EQ(result.status, 0);
+    expect_in(result.errors, "cache/vkpt may be written to by others");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "cache/vkpt"));
+}
+
 void expect_info_schema(const ProgramResult& result)
 {
     ASSERT_EQ(result.status, 0) << result.errors;

@@ -3,14 +3,21 @@
 #include "client/host/errors.hpp"
 #include "client/host/file_system.hpp"
 #include "client/host/output_file.hpp"
+#include "client/host/private_folder.hpp"
 #include "client/host/scene.hpp"
+#include "client/host/temporary_folder.hpp"
 #include "tests/client/run_program.hpp"
 
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace vkpt::tests {
 namespace {
@@ -183,6 +190,123 @@ TEST(OutputFile, AppearsOnlyWhenWhole)
     EXPECT_THROW(OutputFile(folder.path() / "none" / "a.png"), Failure);
 }
 
+int permissions_of(const std::filesystem::path& path)
+{
+    struct stat found { };
+    return stat(path.c_str(), &found) == 0 ? int(found.st_mode & 07777) : -1;
+}
+
+void write_file(const std::filesystem::path& path, const std::string& text)
+{
+    OutputFile file(path);
+    file.write(std::as_bytes(std::span(text)));
+    file.commit();
+}
+
+// /dev/null was once replaced by a regular file.
+TEST(OutputFile, DevicesAndPipesStayWhatTheyAre)
+{
+    const ScratchFolder folder;
+    const std::filesystem::path pipe = folder.path() / "pipe", link = folder.path() / "null";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    write_file(pipe, "through");
+    char text[16] = {};
+    EXPECT_EQ(::read(reader, text, sizeof text), 7);
+    EXPECT_STREQ(text, "through");
+    close(reader);
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    std::filesystem::create_symlink("/dev/null", link);
+    write_file(link, "nowhere");
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+    EXPECT_EQ(folder.names(), (std::vector<std::string> { "null", "pipe" }));
+    std::filesystem::create_symlink("/dev/full", folder.path() / "full");
+    try {
+        write_file(folder.path() / "full", "x");
+        ADD_FAILURE() << "nothing was said";
+    } catch (const Failure& failure) {
+        EXPECT_NE(std::string(failure.what()).find("full: No space left"), std::string::npos) << failure.what();
+    }
+    // An open file by its number, as /dev/stdout is one: the file itself is written, not its name anew.
+    const int file = open((folder.path() / "a").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+    write_file("/proc/self/fd/" + std::to_string(file), "itself");
+    EXPECT_EQ(::read(file, text, sizeof text), 6);
+    close(file);
+}
+
+TEST(OutputFile, KeepsPermissionsAndFollowsLinks)
+{
+    const ScratchFolder folder;
+    const auto path = [&](const char* name) { return folder.path() / name; };
+    const mode_t before = umask(027);
+    write_file(path("new"), "new");
+    umask(before);
+    EXPECT_EQ(permissions_of(path("new")), 0640) << "what the umask leaves";
+    folder.write("tight", "old");
+    chmod(path("tight").c_str(), 0600);
+    write_file(path("tight"), "new");
+    EXPECT_EQ(permissions_of(path("tight")), 0600);
+    folder.write("results/latest", "old");
+    std::filesystem::create_symlink("results/latest", path("link"));
+    std::filesystem::create_symlink("results/none yet", path("dangling"));
+    write_file(path("link"), "new");
+    write_file(path("dangling"), "new");
+    for (const char* name : { "link", "dangling" })
+        EXPECT_TRUE(std::filesystem::is_symlink(path(name))) << name;
+    EXPECT_EQ(folder.read("results/latest"), "new");
+    EXPECT_EQ(folder.read("results/none yet"), "new");
+    std::filesystem::create_symlink("loop", path("loop"));
+    EXPECT_THROW(write_file(path("loop"), ""), Failure);
+    std::filesystem::create_directory_symlink("results", path("folder"));
+    EXPECT_THROW(write_file(path("folder"), ""), Failure);
+}
+
+// Somebody who may write beside the file has guessed the working file's name, or made the file itself a link.
+TEST(OutputFile, IsNotLedElsewhere)
+{
+    const ScratchFolder folder;
+    folder.write("victim", "precious");
+    std::filesystem::create_directory(folder.path() / "shared");
+    const std::filesystem::path file = folder.path() / "shared/a.json";
+    std::filesystem::create_symlink("../victim", folder.path() / "shared" / (".a.json." + std::to_string(getpid()) + ".part"));
+    write_file(file, "mine");
+    EXPECT_EQ(folder.read("victim"), "precious");
+    EXPECT_EQ(folder.read("shared/a.json"), "mine");
+    EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(file)));
+    std::filesystem::remove(file);
+    std::filesystem::create_symlink("../victim", file);
+    chmod((folder.path() / "shared").c_str(), 01777);
+    write_file(file, "mine"); // a link of our own
+    EXPECT_EQ(folder.read("victim"), "mine");
+    if (geteuid() != 0)
+        return; // links of others can only be made by root
+    ASSERT_EQ(lchown(file.c_str(), 12345, 12345), 0);
+    EXPECT_THROW(write_file(file, "again"), Failure);
+    EXPECT_EQ(folder.read("victim"), "mine");
+}
+
+// In a child, as the signal ends the program.
+TEST(OutputFile, LeavesNothingWhenASignalEndsTheProgram)
+{
+    for (const int signal : { SIGINT, SIGTERM, SIGHUP }) {
+        const ScratchFolder folder;
+        const pid_t child = fork();
+        if (child == 0) {
+            rlimit no_core {};
+            setrlimit(RLIMIT_CORE, &no_core);
+            OutputFile a(folder.path() / "a.png"), b(folder.path() / "b.png");
+            raise(signal);
+            _exit(0);
+        }
+        int status = 0;
+        waitpid(child, &status, 0);
+        EXPECT_TRUE(WIFSIGNALED(status));
+        EXPECT_EQ(WTERMSIG(status), signal);
+        EXPECT_TRUE(folder.names().empty()) << folder.names().front();
+    }
+}
+
 // A limit on the size of files takes the place of a full disk.
 TEST(OutputFile, LeavesNothingOnAFullDisk)
 {
@@ -206,6 +330,115 @@ TEST(OutputFile, LeavesNothingOnAFullDisk)
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, on_excess);
     EXPECT_EQ(folder.names(), std::vector<std::string> { "from" });
+}
+
+TEST(TemporaryFolder, VanishesHoweverItsOwnerEnds)
+{
+    for (const int signal : { 0, SIGTERM, SIGKILL }) {
+        int ends[2];
+        ASSERT_EQ(pipe(ends), 0);
+        const pid_t child = fork();
+        if (child == 0) {
+            {
+                const TemporaryFolder folder("vkpt-test-");
+                std::filesystem::create_directories(folder.path() / "a/b");
+                const std::string name = folder.path().string();
+                if (write(ends[1], name.data(), name.size()) < 0)
+                    _exit(1);
+                if (signal)
+                    raise(signal);
+            }
+            _exit(0);
+        }
+        char name[256] = {};
+        ASSERT_GT(::read(ends[0], name, sizeof name - 1), 0);
+        waitpid(child, nullptr, 0);
+        close(ends[1]);
+        // The folder's cleaner has nothing open but its own pipe, else this would wait for it.
+        EXPECT_EQ(::read(ends[0], name + 200, 1), 0);
+        close(ends[0]);
+        while (std::filesystem::exists(name)) // the test's own limit ends it
+            usleep(1000);
+    }
+}
+
+void expect_refused(const std::filesystem::path& path, const std::string& part)
+{
+    const PrivateFolder folder = open_private_folder(path);
+    EXPECT_EQ(folder.path, "");
+    EXPECT_NE(folder.problem.find(part), std::string::npos) << "\"" << part << "\" is not in: " << folder.problem;
+}
+
+TEST(PrivateFolder, IsOursAlone)
+{
+    const ScratchFolder folder;
+    const std::filesystem::path path = folder.path() / "on/the/way/vkpt";
+    EXPECT_EQ(open_private_folder(path).path, path);
+    EXPECT_EQ(permissions_of(path), 0700);
+    EXPECT_EQ(permissions_of(path.parent_path()), 0700);
+    EXPECT_EQ(open_private_folder(path).path, path) << "the second time";
+    chmod(path.c_str(), 0755);
+    EXPECT_EQ(open_private_folder(path).path, path) << "others may look";
+    for (const mode_t mode : { 0770, 0707 }) {
+        chmod(path.c_str(), mode);
+        expect_refused(path, "chmod go-w");
+    }
+    chmod(path.c_str(), 0700);
+    std::filesystem::create_directory_symlink(path, folder.path() / "link");
+    expect_refused(folder.path() / "link", "symbolic link");
+    folder.write("file", "");
+    expect_refused(folder.path() / "file", "no folder");
+    expect_refused(folder.path() / "file/below", "cannot make");
+    chmod(path.c_str(), 0777);
+    expect_refused(path / "below", "by everybody");
+}
+
+TEST(PrivateFolder, IsNotTakenOverFromAnotherUser)
+{
+    const ScratchFolder folder;
+    if (geteuid() != 0) {
+        expect_refused("/usr", "belongs to user 0");
+        return;
+    }
+    const std::filesystem::path other = folder.path() / "other";
+    std::filesystem::create_directory(other);
+    ASSERT_EQ(chown(other.c_str(), 12345, 12345), 0);
+    expect_refused(other, "belongs to user 12345");
+    expect_refused(other / "vkpt", "belongs to user 12345");
+}
+
+// Sets a variable of the environment, or takes it away, for a while.
+class Variable {
+public:
+    Variable(const char* name, const char* value)
+        : name_(name)
+        , before_(std::getenv(name) ? std::optional<std::string>(std::getenv(name)) : std::nullopt)
+    {
+        value ? setenv(name, value, 1) : unsetenv(name);
+    }
+    ~Variable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+private:
+    const char* name_;
+    std::optional<std::string> before_;
+};
+
+TEST(PrivateFolder, CacheFollowsTheXdgSpecification)
+{
+    const ScratchFolder folder;
+    const std::string home = folder.path() / "home", cache = folder.path() / "cache";
+    const Variable a("HOME", home.c_str()), b("XDG_CACHE_HOME", cache.c_str());
+    EXPECT_EQ(open_cache_folder().path, cache + "/vkpt");
+    {
+        const Variable relative("XDG_CACHE_HOME", "cache");
+        EXPECT_EQ(open_cache_folder().path, home + "/.cache/vkpt");
+    }
+    const Variable none("XDG_CACHE_HOME", nullptr), nobody("HOME", nullptr);
+    const PrivateFolder without = open_cache_folder();
+    EXPECT_EQ(without.path, "") << "once a known name among the temporary files";
+    EXPECT_NE(without.problem.find("$HOME"), std::string::npos) << without.problem;
 }
 
 } // namespace

@@ -6,11 +6,14 @@
 #include "tests/contract/mock_engine.hpp"
 #include "tests/formats/samples.hpp"
 
+#include <csignal>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace vkpt::tests {
 namespace {
@@ -293,6 +296,105 @@ TEST_F(Replay, FollowsTheEngineToOtherMaps)
     EXPECT_EQ(info.at("maps").at(1).at("map"), "other");
     EXPECT_EQ(info.at("maps").at(1).at("frame"), 2);
     EXPECT_NEAR(info.at("seconds"), 0.3, 1e-6) << "each map has a clock of its own";
+}
+
+// The engine never asks for it, but a file can.
+TEST_F(Replay, HandlesEndWithTheirRegistration)
+{
+    write_sample_map(folder, "other", entities);
+    {
+        RecordModule module(folder.path() / "stale.rtrace");
+        ASSERT_TRUE(module.api.init());
+        void* thing = nullptr;
+        for (const char* map : { "sample", "other" }) {
+            module.api.begin_registration(map);
+            if (!thing)
+                thing = module.api.register_model("models/thing.md2");
+            module.api.end_registration();
+            module.draw(1, thing, nullptr);
+        }
+        module.api.shutdown();
+    }
+    const ProgramResult result = run({ "render", "stale.rtrace", "--size", "800x600", "--frames", "2", "--verbose",
+        "--set", "fake_models=1", "-o", "a.png" });
+    EXPECT_EQ(result.status, 0) << result.errors;
+    const std::string calls = calls_of(result);
+    const size_t first = calls.find("models 1\n"), second = calls.find("models 0\n");
+    EXPECT_TRUE(first < second && second != std::string::npos) << calls;
+}
+
+// Runs `vkpt record` with a program in the engine's place: what matters is around it.
+class RecordCommand : public Replay {
+protected:
+    RecordCommand()
+    {
+        using namespace std::filesystem;
+        folder.write("a.dm2", std::string("\x04\0\0\0demo\xff\xff\xff\xff", 12));
+        folder.write("baseq2/sample.rtrace", folder.read("a.rtrace"));
+        create_directory(folder.path() / "tmp");
+    }
+    void write_engine(const std::string& script)
+    {
+        folder.write("engine", "#!/bin/sh\n" + script);
+        std::filesystem::permissions(folder.path() / "engine", std::filesystem::perms(0755));
+    }
+    std::vector<std::string> words() const
+    {
+        return { VKPT_PROGRAM, "record", "a.dm2", "-o", "b.rtrace", "--basedir", folder.path().string(), "--engine",
+            (folder.path() / "engine").string() };
+    }
+};
+
+// The engine refuses to run as root; the user that takes its place cannot look into root's folders.
+TEST_F(RecordCommand, DataThatTheEnginesUserCannotReadIsCopied)
+{
+    write_engine("cp \"$2/baseq2/sample.rtrace\" \"$VKPT_TRACE\"\n"); // -datadir DIR
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0700));
+    const std::vector<std::string> all = words();
+    const ProgramResult result = run({ all.begin() + 1, all.end() });
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(folder.read("b.rtrace"), folder.read("a.rtrace"));
+}
+
+TEST_F(RecordCommand, LeavesNothingBehindHoweverItEnds)
+{
+    namespace fs = std::filesystem;
+    write_engine("touch \"$HOME/started\"\nexec sleep 100000\n");
+    fs::permissions(folder.path(), fs::perms(0755)); // so that the engine's user reaches its folder in tmp
+    const auto has_started = [&] {
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder.path() / "tmp"))
+            if (fs::exists(entry.path() / "home/started"))
+                return true;
+        return false;
+    };
+    for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGKILL }) {
+        const pid_t child = fork();
+        if (child == 0) {
+            std::vector<std::string> texts = words();
+            std::vector<char*> arguments;
+            for (std::string& text : texts)
+                arguments.push_back(text.data());
+            arguments.push_back(nullptr);
+            setenv("TMPDIR", (folder.path() / "tmp").c_str(), 1);
+            if (chdir(folder.path().c_str()) == 0)
+                execv(VKPT_PROGRAM, arguments.data());
+            _exit(127);
+        }
+        int status = 0;
+        while (!has_started() && waitpid(child, &status, WNOHANG) == 0)
+            usleep(10'000);
+        ASSERT_TRUE(has_started());
+        kill(child, signal);
+        waitpid(child, &status, 0);
+        ASSERT_TRUE(WIFSIGNALED(status));
+        EXPECT_EQ(WTERMSIG(status), signal);
+        while (!fs::is_empty(folder.path() / "tmp")) // the test's own limit ends it
+            usleep(10'000);
+        for (const std::string& name : folder.names())
+            if (signal != SIGKILL) { // which nobody can listen to
+                EXPECT_FALSE(name.ends_with(".part")) << name;
+            }
+    }
 }
 
 TEST_F(Replay, TellsOfOtherFiles)

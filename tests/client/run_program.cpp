@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -92,8 +93,11 @@ ProgramResult run_program(const std::string& program, const std::vector<std::str
     close(output);
     close(errors);
     int status = 0;
-    waitpid(child, &status, 0);
-    return { WIFEXITED(status) ? WEXITSTATUS(status) : -1, log.read("output"), log.read("errors") };
+    rusage usage {};
+    wait4(child, &status, 0, &usage);
+    const auto seconds = [](const timeval& time) { return double(time.tv_sec) + double(time.tv_usec) / 1e6; };
+    return { WIFEXITED(status) ? WEXITSTATUS(status) : -1, log.read("output"), log.read("errors"),
+        seconds(usage.ru_utime) + seconds(usage.ru_stime), double(usage.ru_maxrss) / 1024 };
 }
 
 void write_sample_map(const ScratchFolder& folder, const std::string& name, const std::string& entity_text)

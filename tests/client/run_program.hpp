@@ -11,6 +11,8 @@ namespace vkpt::tests {
 struct ProgramResult {
     int status = -1; // -1: it did not exit by itself
     std::string output, errors;
+    double cpu_seconds = 0;
+    double peak_mib = 0; // of memory in use
 };
 
 class ScratchFolder {

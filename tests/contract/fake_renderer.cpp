@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A renderer that draws nothing and tells the console what it was asked: what exports.cpp and the host are tested with.
-// Cvars steer it: "fake_throw" = "VERB KIND" makes one verb throw (level, fatal, format, memory, bug, number).
+// Cvars steer it: "fake_throw" = "VERB KIND" makes one verb throw (level, fatal, format, memory, bug, number);
+// "fake_models" 1 tells how many of a view's entities have a model.
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/exports.hpp"
 #include "ref_vkpt/renderer.hpp"
 
+#include <algorithm>
 #include <new>
 #include <vector>
 
@@ -143,6 +145,7 @@ namespace renderer {
 bool init()
 {
     note("init");
+    engine::get_cvar("fake_models", "0", engine::CVAR_NONE);
     cvars::register_all();
     engine::add_command("fake_command", [] { note("command", engine::argument(1)); });
     const auto size = engine::init_graphics(0, { cvars::values().r_customwidth, cvars::values().r_customheight });
@@ -200,6 +203,10 @@ void render_view(const engine::RefDef& refdef)
         last_eye[i] = refdef.view_origin[i];
     note("render_view", refdef.width, refdef.height, last_eye[0], last_eye[1], last_eye[2], refdef.view_angles[0],
         refdef.view_angles[1], refdef.entity_count);
+    if (engine::get_cvar("fake_models", "0", engine::CVAR_NONE)->number != 0)
+        note("models", std::count_if(refdef.entities, refdef.entities + refdef.entity_count, [](const auto& entity) {
+            return entity.model != nullptr;
+        }));
 }
 void end_frame()
 {

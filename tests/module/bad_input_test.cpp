@@ -149,6 +149,33 @@ TEST_F(BadInput, BrushModelsThatTheMapLacksAreRefused)
     session.draw();
 }
 
+// A handle from before a change of maps that has not registered it again: drawn as a placeholder, as what there is not.
+TEST_F(BadInput, HandlesOfAnEarlierMapAreDrawnAsPlaceholders)
+{
+    Session& session = start();
+    const std::string cube = folder_.add_cube("cube", 8, red_index);
+    folder_.add("models/sprite.sp2", formats::write_sp2(samples::make_sp2()));
+    folder_.add("players/skin.pcx", formats::write_pcx(samples::make_indexed_image(8, 8)));
+    for (const std::string& name : { cube, std::string("models/sprite.sp2"), std::string("players/skin.pcx") })
+        session.files().add_file(name, folder_.path() / "baseq2" / name);
+    expect_good_map_works();
+    const Radiance empty = session.capture();
+    std::array<void*, 3> handles {};
+    for (size_t i = 0; const char* name : { cube.c_str(), "models/sprite.sp2", "*1" })
+        handles[i++] = session.module().register_model(name);
+    void* const skin = session.module().register_skin("players/skin.pcx");
+    EXPECT_TRUE(handles[0] && handles[1] && handles[2] && skin);
+    expect_good_map_works();
+    for (void* const handle : handles) {
+        engine::Entity entity = make_entity(handle, { 0, 0, 40 });
+        entity.skin = skin;
+        session.view.entities = &entity;
+        session.view.entity_count = 1;
+        session.draw();
+        EXPECT_FALSE(session.capture() == empty);
+    }
+}
+
 // What the engine's entities may hold after a network hiccup.
 TEST_F(BadInput, SenselessEntitiesAreNotDrawn)
 {

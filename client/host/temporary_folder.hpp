@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A folder among the temporary files that vanishes with its owner, however that ends.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace vkpt::client {
+
+class TemporaryFolder {
+public:
+    // The name begins with `prefix`. Throws Failure.
+    explicit TemporaryFolder(const std::string& prefix);
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+    int end_ = -1, cleaner_ = -1;
+};
+
+} // namespace vkpt::client
