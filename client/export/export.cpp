@@ -51,7 +51,7 @@ void run_export(const ExportOptions& options)
     HostOptions host_options = make_host_options(options.module);
     host_options.width = size.width;
     host_options.height = size.height;
-    OutputFolder output(options.output, { "scene.obj", "scene.mtl", "scene.json" });
+    OutputFolder output(options.output, { "scene.obj", "scene.mtl", "scene.json", sky_name });
     FileSystem files(options.scene.base_folder, options.scene.game);
     const std::unique_ptr<FrameSource> source = open_frame_source(files, options.scene.scene);
     Host host(host_options, &files);
@@ -73,9 +73,8 @@ void run_export(const ExportOptions& options)
     output.write(2,
         make_scene_json(scene, options.scene.scene, source->chosen_frame(), host.extension().frame_size(),
             sky.rgb.empty() ? "" : sky_name));
+    output.write(3, write_exr(sky.width, sky.height, sky.rgb));
     output.commit();
-    if (!sky.rgb.empty())
-        write_exr(std::filesystem::path(options.output) / sky_name, sky.width, sky.height, sky.rgb);
     fmt::print("{}: {} triangles, {} materials, {} emitters\n", options.output, scene.triangle_count,
         scene.material_count, scene.emitter_count);
 }

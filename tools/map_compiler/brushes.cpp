@@ -48,6 +48,12 @@ std::array<dvec3, 2> rotated_classic_axes(const dvec3& normal, double degrees)
     return result;
 }
 
+// Beyond these a side's texture coordinates are no longer exact to the texel in the file's 32-bit numbers, and its lightmap
+// cannot be laid out. Editors write scales of 0.05 and shifts of some hundred.
+constexpr double max_texels_per_unit = 1000, max_shift = 1 << 20;
+// What the file can hold, see BspWriter::finish; told as soon as it is passed, as each more is compared with all before.
+constexpr size_t max_texinfos = 8192, max_planes = 65536;
+
 class WorldBuilder {
 public:
     WorldBuilder(MapSource source, TextureLibrary& textures, const WarningSink& warn)
@@ -143,7 +149,11 @@ private:
                 source.line, "the side's three points lie on one line and give no plane; rebuild this brush");
         const dvec3 normal = cross / length;
         BrushSide side;
+        side.line = source.line;
         side.plane = world_.planes.find(normal, glm::dot(normal, a - origin));
+        if (world_.planes.size() > max_planes)
+            world_.source.fail(
+                source.line, fmt::format("more than {} planes; remove brushes or sides", max_planes));
         for (const BrushSide& other : brush.sides) {
             if (other.plane == side.plane) {
                 warn_at(source.line, "this side repeats a plane of its brush; it is left out");
@@ -295,6 +305,13 @@ private:
         for (size_t i = 0; i < 2; i++) {
             axes[i] /= side.scale[i] != 0 ? side.scale[i] : 1.0;
             offset[i] = side.shift[i] + glm::dot(origin, axes[i]);
+            if (!(glm::length(axes[i]) <= max_texels_per_unit))
+                world_.source.fail(side.line,
+                    fmt::format("the texture is scaled to more than {:.0f} texels per unit; give the side a larger scale",
+                        max_texels_per_unit));
+            if (!(std::abs(side.shift[i]) <= max_shift))
+                world_.source.fail(
+                    side.line, fmt::format("the texture is shifted by more than {:.0f} texels", max_shift));
         }
         info.s_axis = axes[0];
         info.t_axis = axes[1];
@@ -321,6 +338,9 @@ private:
         if (found != world_.texinfos.end())
             return int(found - world_.texinfos.begin());
         const int index = int(world_.texinfos.size());
+        if (world_.texinfos.size() >= max_texinfos)
+            world_.source.fail(0,
+                fmt::format("more than {} texture placements; let sides share shift, rotation and scale", max_texinfos));
         const TextureInfo& texture = textures_.find(info.texture);
         world_.texinfos.push_back(info);
         world_.light_colour.push_back(texture.light_colour);

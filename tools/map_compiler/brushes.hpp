@@ -30,6 +30,7 @@ struct BrushSide {
     int texinfo = 0; // always valid in the file: the engine indexes with it unchecked
     uint32_t contents = 0, flags = 0;
     Winding winding; // empty for bevels and for sides that other sides cut away
+    int line = 0; // in the source; bevels have none
     bool bevel = false; // for box traces only
     bool divides = true; // may become a node of the tree and a face
     bool visible = false; // between places of different contents inside the map

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <optional>
 
 namespace vkpt::tools {
@@ -48,6 +49,9 @@ Winding merge_windings(const Winding& a, const Winding& b, const dvec3& normal)
         result.push_back(b[(ib + k) % nb]);
     return result;
 }
+
+// The file holds 65,535 faces; those that were merged and divided are here, too.
+constexpr size_t max_faces = 65535, max_faces_with_replaced = 8 * max_faces;
 
 class FaceMaker {
 public:
@@ -96,6 +100,7 @@ private:
         Face f;
         f.plane = portal.plane ^ side;
         f.texinfo = portal.side->texinfo;
+        f.line = portal.side->line;
         f.node = portal.on_node;
         f.winding = side == 0 ? portal.winding : reversed(portal.winding);
         f.contents = contents & visible_contents_mask;
@@ -143,6 +148,7 @@ private:
         while (!node.faces.empty()) {
             const int index = node.faces.back();
             node.faces.pop_back();
+            check_piece_count(face(index));
             if (const auto plane = find_cut(face(index)))
                 cut_face(index, *plane, node.faces);
             else
@@ -152,38 +158,65 @@ private:
         node.faces = std::move(done);
     }
 
+    bool has_lightmap(const Face& f) const
+    {
+        return !(world_.texinfos[size_t(f.texinfo)].flags & (SURF_WARP | SURF_SKY));
+    }
+
+    // The face along one of its texture's axes.
+    struct Extent {
+        dvec3 axis;
+        double offset, low, high;
+        bool is_full() const { return glm::length(axis) >= 1e-9 && high - low > max_face_texels + 0.1; }
+    };
+    Extent find_extent(const Face& f, int i) const
+    {
+        const BspTexinfo& info = world_.texinfos[size_t(f.texinfo)];
+        Extent extent { dvec3(i == 0 ? info.s_axis : info.t_axis), i == 0 ? info.s_offset : info.t_offset, 1e30, -1e30 };
+        for (const dvec3& p : f.winding) {
+            const double texel = glm::dot(p, extent.axis) + extent.offset;
+            extent.low = std::min(extent.low, texel);
+            extent.high = std::max(extent.high, texel);
+        }
+        return extent;
+    }
+
     // The plane across the face at which its lightmap is full; on a luxel line, so that no luxel is shared.
     std::optional<Plane> find_cut(const Face& f) const
     {
-        const BspTexinfo& info = world_.texinfos[size_t(f.texinfo)];
-        if (info.flags & (SURF_WARP | SURF_SKY))
-            return {};
-        for (int i = 0; i < 2; i++) {
-            const dvec3 axis(i == 0 ? info.s_axis : info.t_axis);
-            const double offset = i == 0 ? info.s_offset : info.t_offset;
-            const double length = glm::length(axis);
-            double low = 1e30, high = -1e30;
-            for (const dvec3& p : f.winding) {
-                const double texel = glm::dot(p, axis) + offset;
-                low = std::min(low, texel);
-                high = std::max(high, texel);
-            }
-            if (length < 1e-9 || high - low <= max_face_texels + 0.1)
+        for (int i = 0; i < 2 && has_lightmap(f); i++) {
+            const Extent extent = find_extent(f, i);
+            if (!extent.is_full())
                 continue;
-            const double cut = 16.0 * std::floor((low + max_face_texels) / 16.0);
-            return Plane { axis / length, (cut - offset) / length, 3 };
+            const double cut = 16.0 * std::floor((extent.low + max_face_texels) / 16.0), length = glm::length(extent.axis);
+            return Plane { extent.axis / length, (cut - extent.offset) / length, 3 };
         }
         return {};
+    }
+
+    // Before a face is divided into more pieces than the file can hold.
+    void check_piece_count(const Face& f) const
+    {
+        double pieces = 1;
+        for (int i = 0; i < 2 && has_lightmap(f); i++)
+            if (const Extent extent = find_extent(f, i); extent.is_full())
+                pieces *= (extent.high - extent.low) / max_face_texels;
+        if (!(pieces <= double(max_faces)) || set_.faces.size() > max_faces_with_replaced)
+            world_.source.fail(f.line,
+                fmt::format("the lightmaps of this side, or of all together, need more than the format's {} faces; give the "
+                            "texture a larger scale",
+                    max_faces));
     }
 
     void cut_face(int index, const Plane& plane, std::vector<int>& pending)
     {
         SplitWinding split = split_winding(face(index).winding, plane, 0.001);
+        if (split.front.size() < 3 || split.back.size() < 3)
+            world_.source.fail(face(index).line,
+                "the side is too narrow to be divided for its lightmap; give the texture a larger scale");
         const Face original = face(index);
         std::vector<int> parts;
         for (Winding* winding : { &split.front, &split.back }) {
-            if (winding->size() < 3)
-                continue;
             Face part = original;
             part.winding = std::move(*winding);
             parts.push_back(int(set_.faces.size()));
@@ -268,11 +301,14 @@ private:
 
 void FaceSet::collect(int face, std::vector<int>& result) const
 {
-    const Face& f = faces[size_t(face)];
-    if (f.replaced_by.empty())
-        result.push_back(face);
-    for (const int next : f.replaced_by)
-        collect(next, result);
+    // Not recursive: a face that is cut into thousands is cut piece by piece.
+    for (std::vector<int> pending { face }; !pending.empty();) {
+        const Face& f = faces[size_t(pending.back())];
+        if (f.replaced_by.empty())
+            result.push_back(pending.back());
+        pending.pop_back();
+        pending.insert(pending.end(), f.replaced_by.rbegin(), f.replaced_by.rend());
+    }
 }
 
 FaceSet make_faces(Tree& tree, const World& world) { return FaceMaker(tree, world).make(); }

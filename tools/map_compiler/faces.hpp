@@ -14,6 +14,7 @@ struct Face {
     int texinfo = 0;
     int node = 0;
     Winding winding;
+    int line = 0; // of the side in the source
     uint32_t contents = 0; // of the leaf that it faces
     std::vector<int> replaced_by; // when merged or cut; else empty and the face is written
 };

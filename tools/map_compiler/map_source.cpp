@@ -83,6 +83,9 @@ struct Token {
     bool quoted = false, end = false;
 };
 
+// More than any map has; each further one is compared with all before. The engine's own format allows 65,536 sides in all.
+constexpr size_t max_entity_keys = 512, max_brush_sides = 256;
+
 class Parser {
 public:
     Parser(std::string_view text, std::string_view file)
@@ -213,6 +216,8 @@ private:
         if (!token_.quoted)
             fail(fmt::format("key \"{}\" has no quoted value", key));
         entity.set(key, std::string(take("a value")));
+        if (entity.pairs.size() > max_entity_keys)
+            fail(fmt::format("this entity has more than {} keys", max_entity_keys));
     }
 
     MapBrushSource parse_brush()
@@ -227,6 +232,8 @@ private:
             if (token_.end)
                 throw MapError(file_, brush.line, "this brush is not closed; add the missing '}'");
             brush.sides.push_back(parse_side());
+            if (brush.sides.size() > max_brush_sides)
+                fail(fmt::format("this brush has more than {} sides; make it of several brushes", max_brush_sides));
         }
         advance();
         if (brush.sides.size() < 4)
