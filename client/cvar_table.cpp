@@ -26,6 +26,11 @@ std::string show_values(const CvarRow& row)
     return row.owner == CvarOwner::engine ? kind : fmt::format("{}, {} to {}", kind, row.lowest, row.highest);
 }
 
+const char* describe_keep(CvarKeep keep)
+{
+    return keep == CvarKeep::session ? "no" : keep == CvarKeep::start ? "no; at the start only" : "yes";
+}
+
 std::string make_table(CvarOwner owner)
 {
     std::string table = "| name | default | values | saved | what it does |\n|---|---|---|---|---|\n";
@@ -33,7 +38,7 @@ std::string make_table(CvarOwner owner)
         if (row.owner == owner)
             table += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.name,
                 *row.initial ? fmt::format("`{}`", row.initial) : std::string("(empty)"), show_values(row),
-                row.keep == CvarKeep::session ? "no" : "yes", escape_bars(row.help));
+                describe_keep(row.keep), escape_bars(row.help));
     return table;
 }
 
@@ -45,7 +50,8 @@ std::string make_cvar_page()
            "<!-- Written by `vkpt info --cvars` from shaders/shared/cvars.def: edit the rows there. -->\n\n"
            "Set one in the game's console (`pt_bounces 2`), on the engine's command line (`+set pt_bounces 2`) or for "
            "the tools\n"
-           "(`--set pt_bounces=2`). A value out of range is put right, with a line in the console.\n\n"
+           "(`--set pt_bounces=2`). A value out of range is put right, with a line in the console.\n"
+           "What is for the start only belongs on the command line or into autoexec.cfg, out of the reach of servers.\n\n"
            "## The renderer's own\n\n"
         + make_table(CvarOwner::module) + "\n## Shared with the engine's renderers\n\n" + make_table(CvarOwner::engine);
 }

@@ -48,6 +48,8 @@ int engine_flags(CvarKeep keep)
         return engine::CVAR_ARCHIVE;
     case CvarKeep::user_info:
         return engine::CVAR_ARCHIVE | engine::CVAR_USERINFO;
+    case CvarKeep::start:
+        return engine::CVAR_NOSET;
     }
     return engine::CVAR_NONE;
 }
@@ -106,7 +108,7 @@ const std::string& read_text(size_t index)
     std::string text = state.cvars[index] && state.cvars[index]->text ? state.cvars[index]->text : row.initial;
     if (row.owner == CvarOwner::module) {
         std::string corrected = row.type == CvarType::text ? correct_choice(row, text) : correct_number(row, text);
-        if (corrected != text)
+        if (corrected != text && row.keep != CvarKeep::start) // those refuse it
             engine::set_cvar(row.name, corrected);
         text = std::move(corrected);
     }
@@ -126,7 +128,9 @@ void read_all(CvarValues& values)
     const auto read_next = [&](auto& field) {
         const size_t i = index++;
         const engine::Cvar* cvar = state.cvars[i];
-        if (!state.texts[i] || (cvar && cvar->text && *state.texts[i] != cvar->text))
+        // CVAR_NOSET alone does not keep the value: "set NAME VALUE u" goes past it.
+        const bool may_change = cvar_rows[i].keep != CvarKeep::start && cvar && cvar->text;
+        if (!state.texts[i] || (may_change && *state.texts[i] != cvar->text))
             read_field(i, field);
     };
 #define VKPT_SHADER_INT(name, initial, lowest, highest, keep, help) read_next(values.name);

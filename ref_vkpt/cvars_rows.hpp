@@ -9,7 +9,8 @@
 namespace vkpt {
 
 enum class CvarType { integer, number, text };
-enum class CvarKeep { session, archive, user_info };
+// start: not saved either, and only the command line and autoexec.cfg change it: servers can run console commands.
+enum class CvarKeep { session, archive, user_info, start };
 enum class CvarOwner { module, engine };
 
 struct CvarRow {
@@ -40,6 +41,7 @@ namespace cvar_keep_names {
 inline constexpr CvarKeep SESSION = CvarKeep::session;
 inline constexpr CvarKeep ARCHIVE = CvarKeep::archive;
 inline constexpr CvarKeep USERINFO = CvarKeep::user_info;
+inline constexpr CvarKeep START = CvarKeep::start;
 } // namespace cvar_keep_names
 
 #define VKPT_NUMBER_ROW(name, type, initial, lowest, highest, keep, help)                                              \

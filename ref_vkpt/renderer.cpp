@@ -5,9 +5,10 @@
 #include "ref_vkpt/cvars_rows.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/exports.hpp"
+#include "ref_vkpt/files/cache_folder.hpp"
+#include "ref_vkpt/files/output_folder.hpp"
 #include "ref_vkpt/frame/bench_report.hpp"
 #include "ref_vkpt/frame/frame_shaders.hpp"
-#include "ref_vkpt/frame/game_file.hpp"
 #include "ref_vkpt/frame/trace_measurement.hpp"
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/scene/camera.hpp"
@@ -15,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 
 namespace vkpt {
@@ -30,11 +30,13 @@ bool start_failed = false;
 // The window size that Init agreed on with the engine; what a host without a window gets its pictures in.
 VkExtent2D agreed_size { 640, 480 };
 
-// For what driver and module compile. Many game folders can share one.
+// For what driver and module compile; empty: nowhere.
 std::string cache_directory()
 {
-    const char* chosen = std::getenv("VKPT_CACHE_DIR");
-    return chosen && *chosen ? chosen : engine::game_directory() + "/vkpt_cache";
+    const CacheFolder folder = find_cache_folder();
+    if (folder.path.empty())
+        engine::print("ref_vkpt: nothing that is compiled is kept for the next start: {}", folder.reason);
+    return folder.path;
 }
 
 GraphicsSettings graphics_settings(void* sdl_window)
@@ -124,10 +126,8 @@ void write_bench_report(const Module& m)
     const std::string& name = cvars::values().pt_bench_json;
     if (name.empty() || m.pass_statistics.empty())
         return;
-    if (!stays_in_game_directory(name)) {
-        engine::print("ref_vkpt: pt_bench_json \"{}\" must be a file below the game's folder, without \"..\" and "
-                      "backslashes",
-            name);
+    if (!is_plain_name(name)) {
+        engine::print("ref_vkpt: pt_bench_json \"{}\" is no name of letters, digits, _ and -", name);
         return;
     }
     BenchFacts facts;
@@ -137,10 +137,14 @@ void write_bench_report(const Module& m)
     facts.first_frame_seconds = m.first_frame_seconds;
     facts.settings = changed_settings();
     const std::string report = make_bench_report(m.pass_statistics, extension_table().info(), facts);
-    const std::string path = engine::game_directory() + "/" + name;
-    const std::string reason = write_game_file(path, std::as_bytes(std::span(report)));
-    engine::print(
-        "ref_vkpt: {} {}", reason.empty() ? "wrote" : "cannot write", reason.empty() ? path : path + ": " + reason);
+    try {
+        const OutputFolder folder(engine::game_directory(), { "vkpt", "bench" });
+        const std::string file = name + ".json";
+        folder.write(file, std::as_bytes(std::span(report)), bench_report_head);
+        engine::print("ref_vkpt: wrote {}", (folder.path() / file).string());
+    } catch (const FileError& error) {
+        engine::print("ref_vkpt: {}", error.what());
+    }
 }
 
 void print_pass_statistics(Module& m)

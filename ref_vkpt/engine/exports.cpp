@@ -70,6 +70,22 @@ template <class Call> auto guard(const char* entry, Call call)
     leave(failure);
 }
 
+// The same for what every frame calls, level or not: if that fails over and over, dropping levels does not help.
+template <class Call> void guard_frame(const char* entry, Call call)
+{
+    constexpr int most_failures = 10;
+    static int failures = 0;
+    Failure failure = Failure::none;
+    try {
+        call();
+    } catch (...) {
+        failure = note_failure(entry);
+    }
+    failures = failure == Failure::none ? 0 : failures + 1;
+    if (failure != Failure::none)
+        leave(failures < most_failures ? failure : Failure::fatal);
+}
+
 // The same where the engine expects to be told by the result: one console line, and `result_on_failure`.
 template <class Call, class Result> Result guard_or(const char* entry, Result result_on_failure, Call call)
 {
@@ -218,12 +234,12 @@ void set_palette(const uint8_t* rgb)
 
 void begin_frame(float camera_separation)
 {
-    guard("BeginFrame", [=] { renderer::begin_frame(camera_separation); });
+    guard_frame("BeginFrame", [=] { renderer::begin_frame(camera_separation); });
 }
 
 void end_frame()
 {
-    guard("EndFrame", [] { renderer::end_frame(); });
+    guard_frame("EndFrame", [] { renderer::end_frame(); });
 }
 
 QBoolean end_world_renderpass()

@@ -70,8 +70,8 @@ std::string make_bench_report(const PassStatistics& statistics, const ModuleInfo
     const uint64_t bytes = info.texture_bytes + info.geometry_bytes + info.acceleration_bytes + info.light_bytes
         + info.image_bytes + info.staging_bytes;
     std::string json
-        = fmt::format("{{\n  \"schema\": {},\n  \"scene\": {},\n  \"size\": [{}, {}],\n  \"frames\": {},\n", schema,
-            quote(facts.scene), facts.width, facts.height, frame_count);
+        = fmt::format("{}{},\n  \"scene\": {},\n  \"size\": [{}, {}],\n  \"frames\": {},\n", bench_report_head,
+            schema, quote(facts.scene), facts.width, facts.height, frame_count);
     json += fmt::format("  \"settings\": {{{}}},\n  \"device\": {},\n  \"driver\": {},\n  \"trace_backend\": {},\n",
         join(settings), quote(info.device), quote(info.driver), quote(info.trace_backend));
     json += fmt::format("  \"frame_ms\": {{\"median\": {:.4f}, \"p5\": {:.4f}, \"p95\": {:.4f}}},\n", median,

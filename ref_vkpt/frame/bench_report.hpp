@@ -16,6 +16,9 @@ namespace vkpt {
 inline constexpr const char* whole_frame = "frame";
 inline constexpr std::string_view cpu_task = "cpu ";
 
+// What every report begins with: a file that does not is none of ours.
+inline constexpr std::string_view bench_report_head = "{\n  \"schema\": ";
+
 struct BenchFacts {
     std::string scene; // "maps/NAME.bsp"
     int width = 0, height = 0;

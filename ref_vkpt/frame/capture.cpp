@@ -3,36 +3,49 @@
 
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
-#include "ref_vkpt/frame/game_file.hpp"
-
-#include <filesystem>
 
 namespace vkpt {
 
-void FrameCapture::give_up(const std::string& reason)
-{
-    engine::print("ref_vkpt: no frames are captured: {}", reason);
-    gave_up_ = true;
-}
+namespace {
+
+constexpr uint64_t mebibyte = 1 << 20;
+constexpr uint64_t left_on_disk = 256 * mebibyte; // for everybody else
+
+} // namespace
 
 bool FrameCapture::is_wanted()
 {
-    const CvarValues& cvars = cvars::values();
-    if (cvars.pt_capture_every == 0) {
-        every_ = 0;
-        return false;
-    }
-    if (cvars.pt_capture_every != every_ || cvars.pt_capture_dir != directory_) {
-        every_ = cvars.pt_capture_every;
-        directory_ = cvars.pt_capture_dir;
+    const int every = cvars::values().pt_capture_every;
+    if (every != every_) {
+        every_ = every;
         gave_up_ = false;
-        if (directory_.empty())
-            give_up("pt_capture_dir does not say where to");
-        else if (!stays_in_game_directory(directory_))
-            give_up(fmt::format(
-                "pt_capture_dir \"{}\" must be a folder below the game's, without \"..\" and backslashes", directory_));
     }
-    return !gave_up_ && (frame_number_ - 1) % uint32_t(every_) == 0;
+    return every != 0 && !gave_up_ && (frame_number_ - 1) % uint32_t(every) == 0;
+}
+
+void FrameCapture::open_folder()
+{
+    const std::string& name = cvars::values().pt_capture_dir;
+    if (name.empty())
+        throw FileError("pt_capture_dir does not say where to; set it at the start, as +set pt_capture_dir NAME");
+    if (!is_plain_name(name))
+        throw FileError(fmt::format("pt_capture_dir \"{}\" is no name of letters, digits, _ and -", name));
+    const OutputFolder captures(engine::game_directory(), { "vkpt", "captures" });
+    captured_bytes_ = captures.bytes();
+    folder_.emplace(captures.make_new(name));
+    engine::print("ref_vkpt: captured frames go to {}", folder_->path().string());
+}
+
+void FrameCapture::take_from_budget(uint64_t bytes)
+{
+    const uint64_t most = uint64_t(cvars::values().pt_capture_mib) * mebibyte;
+    if (captured_bytes_ + bytes > most)
+        throw FileError(fmt::format("all captures in {} may take {} MiB: remove some, or start with +set "
+                                    "pt_capture_mib and a larger number",
+            folder_->path().parent_path().string(), most / mebibyte));
+    if (folder_->free_bytes() < left_on_disk + bytes)
+        throw FileError(fmt::format("the disk of {} is nearly full", folder_->path().string()));
+    captured_bytes_ += bytes;
 }
 
 void FrameCapture::end_view(const std::function<formats::Image()>& read_picture)
@@ -40,11 +53,16 @@ void FrameCapture::end_view(const std::function<formats::Image()>& read_picture)
     frame_number_++;
     if (!is_wanted())
         return;
-    const std::filesystem::path path
-        = std::filesystem::path(engine::game_directory()) / directory_ / fmt::format("frame{:06}.png", frame_number_);
-    const std::string reason = write_game_file(path, formats::write_png(read_picture()));
-    if (!reason.empty())
-        give_up(fmt::format("{}: {}", path.string(), reason));
+    try {
+        if (!folder_)
+            open_folder();
+        const std::vector<std::byte> picture = formats::write_png(read_picture());
+        take_from_budget(picture.size());
+        folder_->write(fmt::format("frame{:06}.png", frame_number_), picture);
+    } catch (const FileError& error) {
+        engine::print("ref_vkpt: no frames are captured: {}", error.what());
+        gave_up_ = true;
+    }
 }
 
 } // namespace vkpt

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// pt_capture_dir and pt_capture_every: shown frames as PNG files in the engine's writable game folder.
+// pt_capture_dir and pt_capture_every: shown frames as PNG files in vkpt/captures/ of the engine's writable game folder.
 #pragma once
 
 #include "formats/image.hpp"
+#include "ref_vkpt/files/output_folder.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace vkpt {
@@ -18,13 +20,15 @@ public:
 
 private:
     bool is_wanted();
-    void give_up(const std::string& reason);
+    void open_folder();
+    // Throws FileError where so many bytes more are too many.
+    void take_from_budget(uint64_t bytes);
 
     uint32_t frame_number_ = 0; // of frames with a 3D view
-    // The settings that the last decision was made for, and whether it was to do nothing more with them.
-    std::string directory_;
-    int every_ = 0;
-    bool gave_up_ = false;
+    int every_ = 0; // that the last decision was made for
+    bool gave_up_ = false; // until pt_capture_every changes
+    std::optional<OutputFolder> folder_; // a new one at each start of the renderer
+    uint64_t captured_bytes_ = 0; // of all captures there are, this folder's and older ones
 };
 
 } // namespace vkpt

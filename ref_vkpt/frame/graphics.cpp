@@ -4,7 +4,6 @@
 #include "ref_vkpt/engine/errors.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 namespace vkpt {
 
@@ -19,10 +18,6 @@ DeviceSettings device_settings(const GraphicsSettings& settings, const Window& w
     result.table_reads = settings.table_reads;
     result.instance_extensions = window.instance_extensions();
     result.cache_directory = settings.cache_directory;
-    // A cache that cannot be made is done without.
-    std::error_code ignored;
-    if (!settings.cache_directory.empty())
-        std::filesystem::create_directories(settings.cache_directory, ignored);
     return result;
 }
 
@@ -60,6 +55,13 @@ void Graphics::create_slot(Slot& slot)
     commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     commands.commandBufferCount = 1;
     VKPT_CHECK(vkAllocateCommandBuffers(device.handle, &commands, &slot.commands));
+    renew_fence(slot);
+}
+
+void Graphics::renew_fence(Slot& slot)
+{
+    vkDestroyFence(device.handle, slot.finished, nullptr);
+    slot.finished = VK_NULL_HANDLE;
     VkFenceCreateInfo fence { VK_STRUCTURE_TYPE_FENCE_CREATE_INFO };
     fence.flags = VK_FENCE_CREATE_SIGNALED_BIT;
     VKPT_CHECK(vkCreateFence(device.handle, &fence, nullptr, &slot.finished));
@@ -85,11 +87,12 @@ bool Graphics::follow_window()
             wanted = size();
         } else if (swapchain_outdated_) {
             device.wait_idle();
-            swapchain_outdated_ = !swapchain_->recreate(vsync_);
+            const bool is_usable = swapchain_->recreate(vsync_);
             present_words_ = Buffer();
             const VkExtent2D extent = swapchain_->extent();
             present_words_ = Buffer(gpu, VkDeviceSize(extent.width) * extent.height * sizeof(uint32_t),
                 BufferHome::device, MemoryKind::images, "present words");
+            swapchain_outdated_ = !is_usable;
         }
     }
     if (screen.output() && screen.output().size.width == wanted.width && screen.output().size.height == wanted.height)
@@ -181,7 +184,11 @@ void Graphics::end_frame()
         submit.pWaitDstStageMask = &copies;
         submit.pSignalSemaphores = &finished;
     }
-    VKPT_CHECK(vkQueueSubmit(device.queue, 1, &submit, slot.finished));
+    if (const VkResult result = vkQueueSubmit(device.queue, 1, &submit, slot.finished); result < 0) {
+        renew_fence(slot); // which nothing signals now
+        swapchain_outdated_ = true; // nor is its picture given back
+        check_vulkan(result, "vkQueueSubmit");
+    }
     if (acquired_)
         swapchain_outdated_ |= !swapchain_->present();
     slot_ = (slot_ + 1) % frames_in_flight;

@@ -76,6 +76,7 @@ private:
         VkFence finished = VK_NULL_HANDLE;
     };
     void create_slot(Slot& slot);
+    void renew_fence(Slot& slot);
     bool follow_window();
     void clear_output();
     void record_present();

@@ -47,8 +47,9 @@ bool Screen::reserve_pixels(glm::uvec2 size)
 {
     if (!must_grow(size))
         return false;
-    view_.pixels = std::max(view_.pixels, pixel_count(size));
-    view_.groups = std::max(view_.groups, pixel_groups(size));
+    const size_t pixels = std::max(view_.pixels, pixel_count(size));
+    const uint32_t groups = std::max(view_.groups, pixel_groups(size));
+    view_.pixels = view_.groups = 0; // until all of it is there
     if (!view_.texels)
         view_.texels = make_screen_texels(gpu_, bindings_);
     const auto renew = [&](Buffer& buffer, size_t bytes, const char* name) {
@@ -65,14 +66,16 @@ bool Screen::reserve_pixels(glm::uvec2 size)
     };
     using namespace shared;
     // However the pixels are arranged, and with blocks that the edge cuts.
-    const size_t strata = view_.pixels / 3 + 1;
+    const size_t strata = pixels / 3 + 1;
 #define VKPT_SCREEN_BUFFER(type, name)                                                                                 \
-    view_.rows.name = renew_row(row_##name, view_.pixels, element_bytes<type>, #name);
+    view_.rows.name = renew_row(row_##name, pixels, element_bytes<type>, #name);
 #define VKPT_STRATUM_BUFFER(type, name) view_.rows.name = renew_row(row_##name, strata, element_bytes<type>, #name);
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
-    const size_t lanes = size_t(view_.groups) * PIXEL_GROUP_SIZE;
+    const size_t lanes = size_t(groups) * PIXEL_GROUP_SIZE;
     renew(view_.trace_stack, lanes * TRACE_STACK_BYTES_PER_LANE, "trace stack");
+    view_.pixels = pixels;
+    view_.groups = groups;
     return true;
 }
 

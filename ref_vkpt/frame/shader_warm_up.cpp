@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/shader_warm_up.hpp"
 
 #include "ref_vkpt/engine/errors.hpp"
+#include "ref_vkpt/files/hash.hpp"
 #include "ref_vkpt/frame/scene_texels.hpp"
 #include "ref_vkpt/frame/screen.hpp"
 #include "shaders/shared/frame.h"
@@ -18,14 +19,6 @@ namespace vkpt {
 namespace {
 
 constexpr size_t most_threads = 8; // each holds a device with its own memory
-
-// FNV-1a, 64 bits.
-uint64_t hash_bytes(std::span<const std::byte> bytes, uint64_t hash)
-{
-    for (const std::byte byte : bytes)
-        hash = (hash ^ uint64_t(byte)) * 0x100000001b3;
-    return hash;
-}
 
 // A device beside the frame's own, that is asked to do nothing by each shader.
 class IdleDevice {
@@ -135,7 +128,7 @@ try {
 // Of the code, what specialises it, and the driver's version.
 std::string ShaderWarmUp::key_of(const std::string& shader) const
 {
-    const uint64_t driver = hash_bytes(std::as_bytes(std::span(device_.driver)), 0xcbf29ce484222325);
+    const uint64_t driver = hash_bytes(std::as_bytes(std::span(device_.driver)));
     return fmt::format(
         "{} {:016x} {}", shader, hash_bytes(std::as_bytes(find_shader(shader)), driver), device_.table_reads());
 }

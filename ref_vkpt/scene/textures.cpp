@@ -108,10 +108,16 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
     texture->file = picture->file;
     texture->use = use;
     const int limit = int(gpu_.device.properties.limits.maxImageDimension2D);
-    if (picture->image.width > limit || picture->image.height > limit)
-        upload(*texture, shrink_picture(picture->image, limit));
-    else
-        upload(*texture, picture->image);
+    try {
+        if (picture->image.width > limit || picture->image.height > limit)
+            upload(*texture, shrink_picture(picture->image, limit));
+        else
+            upload(*texture, picture->image);
+    } catch (...) {
+        texture->image = Image(); // which has no place among the bindings yet
+        release(*texture);
+        throw;
+    }
     texture->width = picture->width;
     texture->height = picture->height;
     return texture;

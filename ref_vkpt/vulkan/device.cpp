@@ -24,7 +24,7 @@ const char* result_name(VkResult result)
     case VK_ERROR_OUT_OF_HOST_MEMORY:
         return "out of host memory";
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-        return "out of device memory, a smaller picture needs less";
+        return "out of device memory";
     case VK_ERROR_DEVICE_LOST:
         return "device lost";
     case VK_ERROR_INITIALIZATION_FAILED:
@@ -148,6 +148,19 @@ const char* require_features(const Features& has, Features& use)
     return nullptr;
 }
 
+DriverIdentity identify_driver(VkPhysicalDevice device)
+{
+    VkPhysicalDeviceIDProperties ids { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES };
+    VkPhysicalDeviceProperties2 about { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &ids };
+    vkGetPhysicalDeviceProperties2(device, &about);
+    const VkPhysicalDeviceProperties& properties = about.properties;
+    DriverIdentity identity { {}, {}, properties.vendorID, properties.deviceID, properties.driverVersion,
+        properties.apiVersion };
+    std::ranges::copy(ids.driverUUID, identity.driver_uuid.begin());
+    std::ranges::copy(properties.pipelineCacheUUID, identity.cache_uuid.begin());
+    return identity;
+}
+
 // What the device's own ray tracing needs, asked for only where its extensions are.
 struct RayTracingFeatures {
     VkPhysicalDeviceAccelerationStructureFeaturesKHR structures {
@@ -237,8 +250,11 @@ void check_vulkan(VkResult result, const char* call)
     if (result >= 0)
         return;
     std::string_view name(call);
-    throw FatalError(fmt::format(
-        "{} failed: {} ({})", name.substr(0, name.find('(')), result_name(result), static_cast<int>(result)));
+    const std::string text = fmt::format(
+        "{} failed: {} ({})", name.substr(0, name.find('(')), result_name(result), static_cast<int>(result));
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+        throw LevelError(fmt::format("{}; {}", text, memory_remedy));
+    throw FatalError(text);
 }
 
 std::string describe_api_version(uint32_t version)
@@ -274,6 +290,7 @@ Device::Device(Twin, const Device& original)
     , properties(original.properties)
     , memory(original.memory)
     , driver(original.driver)
+    , identity(original.identity)
     , is_cpu(original.is_cpu)
     , has_debug_utils(original.has_debug_utils)
     , max_textures(original.max_textures)
@@ -406,6 +423,7 @@ void Device::choose_physical_device(const DeviceSettings& settings)
         throw FatalError("no usable Vulkan device" + reasons);
     is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+    identity = identify_driver(physical);
 }
 
 // CPU drivers load a texel lane by lane, and make gathers of what is read by address: which is quicker is the processor's

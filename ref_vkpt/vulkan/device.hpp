@@ -2,6 +2,7 @@
 // Instance, physical device, logical device and its one queue.
 #pragma once
 
+#include "ref_vkpt/files/pipeline_cache_file.hpp"
 #include "ref_vkpt/vulkan/functions.hpp"
 
 #include <cstdint>
@@ -12,7 +13,10 @@
 
 namespace vkpt {
 
-// Throws FatalError with the call's text unless the call succeeded.
+// What helps where memory does not suffice.
+inline constexpr const char* memory_remedy
+    = "lower pt_render_scale or the window's size (r_mode), set r_retexturing 0, or close other programs";
+// Throws with the call's text unless the call succeeded: LevelError where memory ran out, else FatalError.
 void check_vulkan(VkResult result, const char* call);
 #define VKPT_CHECK(call) ::vkpt::check_vulkan((call), #call)
 
@@ -50,6 +54,7 @@ public:
     VkPhysicalDeviceProperties properties {};
     VkPhysicalDeviceMemoryProperties memory {};
     std::string driver;
+    DriverIdentity identity;
     bool is_cpu = false;
     // Whether shaders read tables and screen buffers as texels (lib/texels.glsl) or by address.
     bool reads_texels() const { return reads_texels_; }

@@ -92,10 +92,22 @@ Allocation MemoryAllocator::allocate(const VkMemoryRequirements& requirements, V
         allocation.offset_ = *offset;
         return true;
     };
-    const bool found = std::ranges::any_of(
-        blocks_, [&](MemoryBlock& block) { return block.type == type && block.linear == linear && place(block); });
-    if (!found)
-        place(add_block(std::max(block_size, allocation.size_), type, linear, kind));
+    const auto find_place = [&] {
+        return std::ranges::any_of(
+            blocks_, [&](MemoryBlock& block) { return block.type == type && block.linear == linear && place(block); });
+    };
+    const auto add_place = [&](VkDeviceSize size) {
+        MemoryBlock* block = add_block(size, type, linear);
+        return block && place(*block);
+    };
+    bool found = find_place() || add_place(std::max(block_size, allocation.size_));
+    if (!found && relief_) {
+        relief_();
+        found = find_place();
+    }
+    if (!found && !add_place(allocation.size_))
+        throw LevelError(fmt::format("out of memory on {}: {} MiB for {} not to be had; {}",
+            device_.properties.deviceName, (allocation.size_ >> 20) + 1, describe(kind), memory_remedy));
     allocation.allocator_ = this;
     in_use_[size_t(kind)] += allocation.size_;
     if (fill_ && allocation.mapped())
@@ -103,7 +115,7 @@ Allocation MemoryAllocator::allocate(const VkMemoryRequirements& requirements, V
     return allocation;
 }
 
-MemoryBlock& MemoryAllocator::add_block(VkDeviceSize size, uint32_t type, bool linear, MemoryKind kind)
+MemoryBlock* MemoryAllocator::add_block(VkDeviceSize size, uint32_t type, bool linear)
 {
     VkMemoryAllocateFlagsInfo flags { VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO };
     if (linear)
@@ -112,20 +124,21 @@ MemoryBlock& MemoryAllocator::add_block(VkDeviceSize size, uint32_t type, bool l
     info.allocationSize = size;
     info.memoryTypeIndex = type;
     MemoryBlock block;
-    if (const VkResult result = vkAllocateMemory(device_.handle, &info, nullptr, &block.memory); result < 0)
-        throw FatalError(fmt::format("out of memory on {}: {} MiB for {} not to be had; lower the resolution or "
-                                     "pt_render_scale",
-            device_.properties.deviceName, size >> 20, describe(kind)));
+    if (vkAllocateMemory(device_.handle, &info, nullptr, &block.memory) < 0)
+        return nullptr;
     block.size = size;
     block.type = type;
     block.linear = linear;
     block.free[0] = size;
     if (device_.memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) {
         void* mapped = nullptr;
-        VKPT_CHECK(vkMapMemory(device_.handle, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped));
+        if (vkMapMemory(device_.handle, block.memory, 0, VK_WHOLE_SIZE, 0, &mapped) < 0) {
+            vkFreeMemory(device_.handle, block.memory, nullptr);
+            return nullptr;
+        }
         block.mapped = static_cast<std::byte*>(mapped);
     }
-    return blocks_.emplace_back(std::move(block));
+    return &blocks_.emplace_back(std::move(block));
 }
 
 void MemoryAllocator::release(Allocation& allocation)

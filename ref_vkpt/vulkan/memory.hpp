@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <list>
 #include <map>
 #include <optional>
@@ -63,18 +64,22 @@ public:
     MemoryAllocator(const MemoryAllocator&) = delete;
     MemoryAllocator& operator=(const MemoryAllocator&) = delete;
 
-    // Throws FatalError: out of memory, naming kind and size.
+    // Called where memory does not suffice, before the last attempt: gives back what it can, and leaves nothing recorded
+    // that uses what the failure is going to destroy.
+    void set_relief(std::function<void()> relief) { relief_ = std::move(relief); }
+    // Throws LevelError: out of memory, naming kind and size.
     Allocation allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
         VkMemoryPropertyFlags preferred, bool linear, MemoryKind kind);
     uint64_t bytes_in_use(MemoryKind kind) const { return in_use_[size_t(kind)]; }
 
 private:
     friend class Allocation;
-    MemoryBlock& add_block(VkDeviceSize size, uint32_t type, bool linear, MemoryKind kind);
+    MemoryBlock* add_block(VkDeviceSize size, uint32_t type, bool linear); // nullptr: not to be had
     void release(Allocation& allocation);
 
     const Device& device_;
     std::optional<int> fill_;
+    std::function<void()> relief_;
     std::list<MemoryBlock> blocks_;
     std::array<uint64_t, size_t(MemoryKind::count)> in_use_ {};
 };

@@ -2,6 +2,7 @@
 #include "ref_vkpt/vulkan/pipelines.hpp"
 
 #include "ref_vkpt/engine/errors.hpp"
+#include "ref_vkpt/files/pipeline_cache_file.hpp"
 #include "shaders/shared/texels.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace vkpt {
 
 namespace {
 
-std::vector<char> read_file(const std::string& path)
+std::string read_file(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
     return { std::istreambuf_iterator<char>(file), {} };
@@ -57,8 +58,8 @@ Pipelines::Pipelines(const Gpu& gpu, const Bindings& bindings, std::string cache
     , bindings_(bindings)
     , cache_file_(std::move(cache_file))
 {
-    // Drivers check the header of what they are given and ignore a foreign cache.
-    const std::vector<char> stored = cache_file_.empty() ? std::vector<char>() : read_file(cache_file_);
+    const std::string file = cache_file_.empty() ? std::string() : read_file(cache_file_);
+    const std::span stored = read_pipeline_cache(gpu.device.identity, std::as_bytes(std::span(file)));
     VkPipelineCacheCreateInfo info { VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO };
     info.initialDataSize = stored.size();
     info.pInitialData = stored.data();
@@ -201,14 +202,16 @@ void Pipelines::save_cache() const
     size_t size = 0;
     if (cache_file_.empty() || vkGetPipelineCacheData(gpu_.device.handle, cache_, &size, nullptr) != VK_SUCCESS)
         return;
-    std::vector<char> data(size);
+    std::vector<std::byte> data(size);
     if (vkGetPipelineCacheData(gpu_.device.handle, cache_, &size, data.data()) != VK_SUCCESS)
         return;
+    data.resize(size);
+    const std::vector<std::byte> bytes = write_pipeline_cache(gpu_.device.identity, data);
     // Written beside and renamed, so that a cut write never leaves half a cache. A cache that cannot be written is no
     // error. By process: several may share the folder.
     const std::string partial = fmt::format("{}.{}.new", cache_file_, getpid());
-    std::ofstream file(partial, std::ios::binary);
-    file.write(data.data(), std::streamsize(size));
+    std::ofstream file(partial, std::ios::binary | std::ios::trunc);
+    file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
     file.close();
     std::error_code ignored;
     if (file)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/vulkan/swapchain.hpp"
 
-#include "ref_vkpt/engine/errors.hpp"
+#include "ref_vkpt/engine/engine.hpp"
 
 #include <algorithm>
 
@@ -23,14 +23,44 @@ Swapchain::Swapchain(const Gpu& gpu, const Window& window) : gpu_(gpu), window_(
 {
     if (!gpu.device.has_swapchain)
         throw FatalError(std::string(gpu.device.properties.deviceName) + " cannot show pictures in windows (VK_KHR_swapchain)");
-    surface_ = window.create_surface(gpu.device.instance);
-    VkBool32 supported = VK_FALSE;
-    VKPT_CHECK(vkGetPhysicalDeviceSurfaceSupportKHR(gpu.device.physical, gpu.device.queue_family, surface_, &supported));
-    if (!supported)
-        throw FatalError(std::string(gpu.device.properties.deviceName) + " cannot show pictures in this window; choose another "
-                                                                         "device with pt_device");
+    create_surface();
     for (VkSemaphore& semaphore : acquired_)
         semaphore = make_semaphore(gpu.device.handle);
+}
+
+void Swapchain::create_surface()
+{
+    surface_ = window_.create_surface(gpu_.device.instance);
+    VkBool32 supported = VK_FALSE;
+    VKPT_CHECK(
+        vkGetPhysicalDeviceSurfaceSupportKHR(gpu_.device.physical, gpu_.device.queue_family, surface_, &supported));
+    if (!supported)
+        throw FatalError(std::string(gpu_.device.properties.deviceName) + " cannot show pictures in this window; choose another "
+                                                                          "device with pt_device");
+}
+
+// Displays and their drivers may take a surface away: a monitor unplugged, a compositor started anew.
+void Swapchain::renew_surface()
+{
+    engine::print("ref_vkpt: the window's surface was lost; making another one");
+    destroy_pictures();
+    if (swapchain_)
+        vkDestroySwapchainKHR(gpu_.device.handle, swapchain_, nullptr);
+    vkDestroySurfaceKHR(gpu_.device.instance, surface_, nullptr);
+    swapchain_ = VK_NULL_HANDLE;
+    surface_ = VK_NULL_HANDLE;
+    create_surface();
+    surface_lost_ = false;
+}
+
+bool Swapchain::check(VkResult result, const char* call)
+{
+    if (result == VK_ERROR_SURFACE_LOST_KHR) {
+        surface_lost_ = true;
+        return false;
+    }
+    check_vulkan(result, call);
+    return true;
 }
 
 Swapchain::~Swapchain()
@@ -79,10 +109,25 @@ VkPresentModeKHR Swapchain::choose_mode(bool vsync) const
 
 bool Swapchain::recreate(bool vsync)
 {
-    destroy_pictures();
     vsync_ = vsync;
+    if (surface_lost_)
+        renew_surface();
+    return make_pictures();
+}
+
+bool Swapchain::make_pictures()
+{
+    destroy_pictures();
+    // A failed submission leaves one signalled, which then cannot be waited for again.
+    for (VkSemaphore& semaphore : acquired_) {
+        vkDestroySemaphore(gpu_.device.handle, semaphore, nullptr);
+        semaphore = VK_NULL_HANDLE;
+        semaphore = make_semaphore(gpu_.device.handle);
+    }
     VkSurfaceCapabilitiesKHR surface;
-    VKPT_CHECK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu_.device.physical, surface_, &surface));
+    if (!check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu_.device.physical, surface_, &surface),
+            "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"))
+        return false;
     extent_ = surface.currentExtent;
     if (extent_.width == UINT32_MAX) { // the window takes the pictures' size
         const VkExtent2D wanted = window_.drawable_size();
@@ -106,13 +151,16 @@ bool Swapchain::recreate(bool vsync)
         info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         info.preTransform = surface.currentTransform;
         info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-        info.presentMode = choose_mode(vsync);
+        info.presentMode = choose_mode(vsync_);
         info.clipped = VK_TRUE;
         info.oldSwapchain = old;
         const VkResult result = vkCreateSwapchainKHR(gpu_.device.handle, &info, nullptr, &swapchain_);
         if (old)
             vkDestroySwapchainKHR(gpu_.device.handle, old, nullptr);
-        check_vulkan(result, "vkCreateSwapchainKHR");
+        if (!check(result, "vkCreateSwapchainKHR")) {
+            swapchain_ = VK_NULL_HANDLE;
+            return false;
+        }
         uint32_t count = 0;
         VKPT_CHECK(vkGetSwapchainImagesKHR(gpu_.device.handle, swapchain_, &count, nullptr));
         pictures_.resize(count);
@@ -129,10 +177,7 @@ bool Swapchain::acquire(uint32_t frame_slot)
 {
     const VkResult result = vkAcquireNextImageKHR(
         gpu_.device.handle, swapchain_, UINT64_MAX, acquired_[frame_slot], VK_NULL_HANDLE, &picture_);
-    if (result == VK_ERROR_OUT_OF_DATE_KHR)
-        return false;
-    check_vulkan(result, "vkAcquireNextImageKHR");
-    return true;
+    return result != VK_ERROR_OUT_OF_DATE_KHR && check(result, "vkAcquireNextImageKHR");
 }
 
 void Swapchain::record_copy(VkCommandBuffer commands, const Buffer& words)
@@ -162,8 +207,7 @@ bool Swapchain::present()
     const VkResult result = vkQueuePresentKHR(gpu_.device.queue, &info);
     if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
         return false;
-    check_vulkan(result, "vkQueuePresentKHR");
-    return true;
+    return check(result, "vkQueuePresentKHR");
 }
 
 } // namespace vkpt

@@ -19,7 +19,8 @@ public:
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    // Makes the pictures for the window's size now. False: there is nothing to show (minimised). The device must be idle.
+    // Makes the pictures for the window's size now, and the surface where it was lost. False: there is nothing to show
+    // (minimised), or the surface is gone again. The device must be idle.
     bool recreate(bool vsync);
     bool is_usable() const { return swapchain_ != VK_NULL_HANDLE; }
     bool vsync() const { return vsync_; }
@@ -37,6 +38,11 @@ public:
     bool present();
 
 private:
+    void create_surface();
+    void renew_surface();
+    bool make_pictures();
+    // Whether the surface still is. Throws for other failures.
+    bool check(VkResult result, const char* call);
     void destroy_pictures();
     VkSurfaceFormatKHR choose_format() const;
     VkPresentModeKHR choose_mode(bool vsync) const;
@@ -46,6 +52,7 @@ private:
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
     VkExtent2D extent_ {};
+    bool surface_lost_ = false;
     bool swaps_red_blue_ = false;
     bool vsync_ = true;
     std::vector<VkImage> pictures_;

@@ -14,6 +14,8 @@ constexpr VkDeviceSize staging_limit = 64u << 20;
 
 Uploader::Uploader(const Gpu& gpu) : gpu_(gpu)
 {
+    // A level that is dropped for want of memory takes along what the copies recorded so far fill.
+    gpu.memory.set_relief([this] { flush(); });
     VkCommandPoolCreateInfo pool { VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO };
     pool.queueFamilyIndex = gpu.device.queue_family;
     VKPT_CHECK(vkCreateCommandPool(gpu.device.handle, &pool, nullptr, &pool_));
@@ -26,6 +28,7 @@ Uploader::Uploader(const Gpu& gpu) : gpu_(gpu)
 
 Uploader::~Uploader()
 {
+    gpu_.memory.set_relief(nullptr);
     vkDeviceWaitIdle(gpu_.device.handle);
     vkDestroyCommandPool(gpu_.device.handle, pool_, nullptr);
 }
@@ -45,11 +48,11 @@ Buffer& Uploader::stage(std::span<const std::byte> bytes)
 {
     if (staged_bytes_ + bytes.size() > staging_limit)
         flush();
-    Buffer& staging = staging_.emplace_back(gpu_, bytes.size(), BufferHome::upload, MemoryKind::staging, "staging");
+    Buffer staging(gpu_, bytes.size(), BufferHome::upload, MemoryKind::staging, "staging"); // may flush
     if (!bytes.empty())
         std::memcpy(staging.mapped(), bytes.data(), bytes.size());
     staged_bytes_ += bytes.size();
-    return staging;
+    return staging_.emplace_back(std::move(staging));
 }
 
 Buffer Uploader::make_buffer(std::span<const std::byte> bytes, MemoryKind kind, std::string_view name)
@@ -85,6 +88,17 @@ void Uploader::flush()
 {
     if (!recording_)
         return;
+    // Whether it succeeds or not: nothing that was recorded is kept.
+    struct Ending {
+        Uploader& uploader;
+        ~Ending()
+        {
+            vkResetCommandPool(uploader.gpu_.device.handle, uploader.pool_, 0);
+            uploader.recording_ = false;
+            uploader.staging_.clear();
+            uploader.staged_bytes_ = 0;
+        }
+    } const ending { *this };
     record_memory_barrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT);
     VKPT_CHECK(vkEndCommandBuffer(commands_));
@@ -93,10 +107,6 @@ void Uploader::flush()
     submit.pCommandBuffers = &commands_;
     VKPT_CHECK(vkQueueSubmit(gpu_.device.queue, 1, &submit, VK_NULL_HANDLE));
     VKPT_CHECK(vkQueueWaitIdle(gpu_.device.queue));
-    VKPT_CHECK(vkResetCommandPool(gpu_.device.handle, pool_, 0));
-    recording_ = false;
-    staging_.clear();
-    staged_bytes_ = 0;
 }
 
 } // namespace vkpt

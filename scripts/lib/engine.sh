@@ -144,8 +144,9 @@ give_folder() {
     if [[ ! -e $dir && ! -L $dir ]]; then
         mkdir -p "$dir" 2>/dev/null && : >"$dir/$own_mark" || return 1
     fi
-    if is_root && [[ ! -L $dir && -f $dir/$own_mark && ! -L $dir/$own_mark ]]; then
-        chown -hR "$player_uid:$player_gid" "$dir"
+    if [[ ! -L $dir && -f $dir/$own_mark && ! -L $dir/$own_mark ]]; then
+        chmod go-w "$dir" # the module takes nothing from a folder that others may write to
+        if is_root; then chown -hR "$player_uid:$player_gid" "$dir"; fi
     fi
     as_player test -d "$dir" -a -w "$dir"
 }

@@ -5,7 +5,7 @@
 
 own_map=vkpt1
 own_demo=vkpt1.dm2
-capture_folder=capture # in the folder that vkpt's module may write to
+capture_folder=play # among the captures of vkpt's module
 
 # --- data ---------------------------------------------------------------------------------------------------------
 
@@ -232,9 +232,15 @@ play_headless() {
     fi
 }
 
+# Where vkpt keeps and writes things: it uses nothing that another user has made, and for root the engine's cache is the
+# player's.
+program_cache_dir() { if ((player_uid == $(id -u))); then echo "$cache_dir"; else echo "$cache_dir-root"; fi; }
+
 # vkpt_program COMMAND...: with the caches of every run.
 vkpt_program() {
-    XDG_CACHE_HOME=$cache_dir VKPT_CACHE_DIR=$cache_dir "$build_dir/bin/vkpt" "$@"
+    local cache
+    cache=$(program_cache_dir)
+    XDG_CACHE_HOME=$cache VKPT_CACHE_DIR=$cache "$build_dir/bin/vkpt" "$@"
 }
 
 # A tenth of a second a frame is what a CPU can draw in minutes; a GPU is given three times as many.
@@ -257,11 +263,11 @@ film_demo() {
         --engine "$(find_engine)" --size "$use" "${data[@]}" ${given[@]+"${given[@]}"} -o "$trace" || exit 1
     film_frames=$(vkpt_program info --json "$trace" | perl -MJSON::PP -e 'local $/; print decode_json(<STDIN>)->{frames}') \
         || die "$trace cannot be read"
-    capture_path=$cache_dir/vkpt/$capture_folder
+    capture_path=$(program_cache_dir)/vkpt/vkpt/captures/$capture_folder
     rm -rf "$capture_path"
-    mkdir -p "${capture_path%/*}" || die "cannot write to $cache_dir"
+    mkdir -p "${capture_path%/*}" || die "cannot write to ${capture_path%/*}"
     vkpt_program render "$trace" --frames "$film_frames" --size "$use" --seed 0 "${data[@]}" \
-        --set pt_capture_dir="$capture_folder" --set pt_capture_every=1 ${given[@]+"${given[@]}"} -o "$capture_path.png" \
+        --set pt_capture_dir="$capture_folder" --set pt_capture_every=1 --set pt_capture_mib=1000000 ${given[@]+"${given[@]}"} -o "$capture_path.png" \
         >"$log_dir/film.log" 2>&1 </dev/null &
     engine_pid=$!
     if ! watch_step "$engine_pid" "Rendering $film_frames frames of $demo_name, $use" film_progress; then

@@ -26,7 +26,10 @@ TEST_F(Cvars, EveryRowIsRegisteredWithItsDefault)
 {
     for (const CvarRow& row : cvar_rows) {
         EXPECT_EQ(mock.get(row.name), row.initial) << row.name;
-        EXPECT_EQ(bool(mock.cvar_flags[row.name] & engine::CVAR_ARCHIVE), row.keep != CvarKeep::session) << row.name;
+        EXPECT_EQ(bool(mock.cvar_flags[row.name] & engine::CVAR_ARCHIVE),
+            row.keep == CvarKeep::archive || row.keep == CvarKeep::user_info)
+            << row.name;
+        EXPECT_EQ(bool(mock.cvar_flags[row.name] & engine::CVAR_NOSET), row.keep == CvarKeep::start) << row.name;
     }
     EXPECT_EQ(mock.cvar_flags["hand"], engine::CVAR_ARCHIVE | engine::CVAR_USERINFO);
     EXPECT_TRUE(mock.console.empty()) << mock.console.front();
@@ -139,6 +142,25 @@ TEST_F(Cvars, ValuesOfTheConfigurationCountFromTheStart)
     cvars::register_all();
     EXPECT_EQ(cvars::values().pt_light_subset, 17);
     EXPECT_EQ(cvars::values().pt_render_scale, 25);
+}
+
+// What a server writes into them by "set NAME VALUE u" comes too late.
+TEST_F(Cvars, WhatNamesFilesIsReadAtTheStartOnly)
+{
+    for (const char* name : { "pt_capture_dir", "pt_capture_mib", "pt_bench_json" })
+        EXPECT_EQ(find_cvar_row(name)->keep, CvarKeep::start) << name;
+    mock.set("pt_capture_dir", "mine");
+    mock.set("pt_capture_mib", "0");
+    cvars::register_all();
+    EXPECT_EQ(cvars::values().pt_capture_dir, "mine");
+    EXPECT_EQ(cvars::values().pt_capture_mib, 1) << "the range holds";
+    EXPECT_EQ(mock.get("pt_capture_mib"), "0") << "the engine refuses to change it, with a line each time";
+    mock.set("pt_capture_dir", "theirs");
+    mock.set("pt_bench_json", "theirs");
+    EXPECT_FALSE(cvars::update());
+    EXPECT_EQ(cvars::values().pt_capture_dir, "mine");
+    EXPECT_EQ(cvars::values().pt_bench_json, "");
+    EXPECT_EQ(mock.console.size(), 1u) << mock.console.back();
 }
 
 TEST_F(Cvars, FilesAreGivenBack)

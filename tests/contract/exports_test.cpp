@@ -223,6 +223,28 @@ TEST(Exports, EveryVerbMayThrow)
     }
 }
 
+// Without a level there is none to drop, and the console would fail for ever.
+TEST(Exports, FramesThatFailOverAndOverStopTheEngine)
+{
+    MockEngine mock("8.70");
+    const Loaded module(mock);
+    const auto draw = [&] { return catch_error([&] { module.table.begin_frame(0); }); };
+    for (int round = 0; round < 3; round++) {
+        mock.set("fake_throw", "begin_frame level");
+        for (int i = 0; i < 5; i++)
+            EXPECT_EQ(draw()->level, engine::ERR_DROP);
+        mock.set("fake_throw", "");
+        EXPECT_FALSE(draw()) << "a frame that succeeds ends the count";
+    }
+    mock.set("fake_throw", "begin_frame level");
+    int level = engine::ERR_DROP;
+    for (int i = 0; i < 20 && level == engine::ERR_DROP; i++)
+        level = draw()->level;
+    EXPECT_EQ(level, engine::ERR_FATAL);
+    mock.set("fake_throw", "");
+    EXPECT_FALSE(draw());
+}
+
 TEST(Exports, FailureAtStartIsOneLineAndFalse)
 {
     for (const char* kind : { "level", "fatal", "format", "memory", "bug", "number" }) {

@@ -9,20 +9,36 @@ namespace vkpt::tests {
 
 namespace {
 
-// Starts capturing into a folder of its own for as long as a few frames take.
-std::string capture_into(const std::string& folder)
+// Captures for as long as a few frames take.
+constexpr const char* capture_some = "set pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\n";
+
+// The number in "frame000017.png".
+int frame_number(const std::filesystem::path& picture) { return std::stoi(picture.stem().string().substr(5)); }
+
+// The last picture of each `capture_some`: between two of them frame numbers leap, or the renderer was started anew, which
+// then captures into a new folder.
+std::vector<formats::Image> captured(const EngineRun& run)
 {
-    return "set pt_capture_dir " + folder + "\nset pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\n";
+    std::vector<formats::Image> last;
+    for (int start = 1;; start++) {
+        const auto pictures = list_pictures(run.captures(start));
+        if (pictures.empty())
+            return last;
+        for (size_t i = 0; i < pictures.size(); i++)
+            if (i + 1 == pictures.size() || frame_number(pictures[i + 1]) != frame_number(pictures[i]) + 1)
+                last.push_back(load_picture(pictures[i]));
+    }
 }
 
-void expect_size(const EngineRun& run, const std::string& folder, int width, int height)
+void expect_sizes(const EngineRun& run, const std::vector<std::pair<int, int>>& sizes)
 {
-    const auto pictures = list_pictures(run.result().game_folder / folder);
-    ASSERT_FALSE(pictures.empty()) << folder << "\n" << run.result().console;
-    const formats::Image picture = load_picture(pictures.back());
-    EXPECT_EQ(picture.width, width) << folder;
-    EXPECT_EQ(picture.height, height) << folder;
-    EXPECT_LT(measure_picture(picture).black, 0.9) << folder;
+    const std::vector<formats::Image> pictures = captured(run);
+    ASSERT_EQ(pictures.size(), sizes.size()) << run.result().console;
+    for (size_t i = 0; i < sizes.size(); i++) {
+        EXPECT_EQ(pictures[i].width, sizes[i].first) << i;
+        EXPECT_EQ(pictures[i].height, sizes[i].second) << i;
+        EXPECT_LT(measure_picture(pictures[i]).black, 0.9) << i;
+    }
 }
 
 } // namespace
@@ -30,33 +46,30 @@ void expect_size(const EngineRun& run, const std::string& folder, int width, int
 TEST(Engine, RestartsVideo)
 {
     EngineOptions options;
-    options.script = "wait_25\nvid_restart\nwait_25\nvid_restart\nwait_25\nvid_restart\nwait_25\n"
-        + capture_into("after") + "quit\n";
-    options.arguments = { "+map", own_map, "+exec", "test.cfg" };
+    options.script = "wait_25\nvid_restart\nwait_25\nvid_restart\nwait_25\nvid_restart\nwait_25\n" + std::string(capture_some)
+        + "quit\n";
+    options.arguments = { "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec", "test.cfg" };
     const EngineRun run(options);
     run.expect_clean();
     EXPECT_EQ(run.lines_with("Successfully loaded ref_vkpt.so").size(), 4u);
-    expect_size(run, "after", options.width, options.height);
+    expect_sizes(run, { { options.width, options.height } });
 }
 
 TEST(Engine, ChangesModes)
 {
     EngineOptions options;
-    options.script = "wait_5\n" + capture_into("first")
-        + "r_customwidth 400\nr_customheight 300\nvid_restart\nwait_25\n" + capture_into("custom")
-        + "r_mode 0\nvid_restart\nwait_25\n" + capture_into("numbered")
-        + "r_mode -2\nvid_fullscreen 2\nvid_restart\nwait_25\n" + capture_into("desktop")
+    const std::string capture = capture_some;
+    options.script = "wait_5\n" + capture + "r_customwidth 400\nr_customheight 300\nvid_restart\nwait_25\n" + capture
+        + "r_mode 0\nvid_restart\nwait_25\n" + capture + "r_mode -2\nvid_fullscreen 2\nvid_restart\nwait_25\n" + capture
         + "r_mode -1\nvid_fullscreen 0\nr_customwidth 161\nr_customheight 97\nr_vsync 0\nvid_restart\nwait_25\n"
-        + capture_into("odd") + "quit\n";
+        + capture + "quit\n";
     // The window's size is what counts here; the 3D view may be coarse, for a CPU renders it.
-    options.arguments = { "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
+    options.arguments
+        = { "+set", "pt_capture_dir", capture_name, "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
     const EngineRun run(options);
     run.expect_clean();
-    expect_size(run, "first", options.width, options.height);
-    expect_size(run, "custom", 400, 300);
-    expect_size(run, "numbered", 320, 240);
-    expect_size(run, "desktop", 1280, 960); // the virtual display's
-    expect_size(run, "odd", 161, 97);
+    constexpr std::pair desktop { 1280, 960 }; // the virtual display's
+    expect_sizes(run, { { options.width, options.height }, { 400, 300 }, { 320, 240 }, desktop, { 161, 97 } });
 }
 
 // What a desktop does to a window while the game runs: other sizes, out of sight, back again.
@@ -64,18 +77,18 @@ TEST(Engine, FollowsItsWindow)
 {
     const std::string window = "xdotool search --class quake2 ";
     EngineOptions options;
-    options.script = "wait_25\n" + capture_into("first") + display_mark + capture_into("resized") + display_mark
-        + display_mark + capture_into("shown") + display_mark + "wait_25\nvid_restart\nwait_25\n" + capture_into("restarted")
-        + "quit\n";
+    const std::string capture = capture_some;
+    options.script = "wait_25\n" + capture + display_mark + capture + display_mark + display_mark + capture + display_mark
+        + "wait_25\nvid_restart\nwait_25\n" + capture + "quit\n";
     options.display_commands = { window + "windowsize 402 299", window + "windowunmap", window + "windowmap",
         window + "windowsize 97 61" };
-    options.arguments = { "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
+    options.arguments
+        = { "+set", "pt_capture_dir", capture_name, "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
     const EngineRun run(options);
     run.expect_clean();
-    expect_size(run, "first", options.width, options.height);
-    expect_size(run, "resized", 402, 299);
-    expect_size(run, "shown", 402, 299);
-    expect_size(run, "restarted", options.width, options.height); // r_customwidth holds again
+    const std::pair configured { options.width, options.height };
+    // After the restart r_customwidth holds again.
+    expect_sizes(run, { configured, { 402, 299 }, { 402, 299 }, configured });
 }
 
 TEST(Engine, ChangesSettingsWhileRunning)

@@ -189,6 +189,12 @@ void EngineRun::run_on_display(const std::string& command)
     EXPECT_EQ(std::system(line.c_str()), 0) << line;
 }
 
+std::filesystem::path EngineRun::captures(int start) const
+{
+    return outcome.game_folder / "vkpt" / "captures"
+        / (std::string(capture_name) + (start == 1 ? std::string() : "-" + std::to_string(start)));
+}
+
 std::vector<std::string> EngineRun::lines_with(const std::string& text) const
 {
     std::vector<std::string> found;

@@ -17,6 +17,8 @@ namespace vkpt::tests {
 inline constexpr const char* own_map = "vkpt1";
 inline constexpr const char* own_demo = "vkpt1.dm2";
 
+inline constexpr const char* capture_name = "shots"; // for pt_capture_dir
+
 struct EngineOptions {
     std::vector<std::string> arguments; // the engine's, in order
     std::string script; // console commands, one a line; run with "+exec test.cfg"
@@ -62,6 +64,8 @@ public:
 
     // Exit status 0 within its CPU time, our module loaded every time a renderer was, no message of the validation layers.
     void expect_clean() const;
+    // Where the renderer's first start captured frames under `capture_name`, its second one with any, and so on.
+    std::filesystem::path captures(int start = 1) const;
     // The lines of the console that contain `text`.
     std::vector<std::string> lines_with(const std::string& text) const;
 

@@ -52,13 +52,13 @@ void write_statistics(const std::vector<PictureStatistics>& rows)
 std::vector<PictureStatistics> play_and_measure()
 {
     EngineOptions options;
-    options.arguments = { "+set", "pt_capture_dir", "capture", "+set", "pt_capture_every",
+    options.arguments = { "+set", "pt_capture_dir", capture_name, "+set", "pt_capture_every",
         std::to_string(capture_every), "+set", "flt_denoiser", "off", "+set", "flt_taa", "off", "+set", "pt_bloom", "0",
         "+set", "timedemo", "1", "+set", "cl_predict", "0", "+set", "nextdemo", "quit", "+demomap", own_demo };
     const EngineRun run(options);
     run.expect_clean();
     std::vector<PictureStatistics> rows;
-    for (const auto& path : list_pictures(run.result().game_folder / "capture")) {
+    for (const auto& path : list_pictures(run.captures())) {
         const formats::Image picture = load_picture(path);
         EXPECT_EQ(picture.width, options.width);
         EXPECT_EQ(picture.height, options.height);

@@ -41,11 +41,11 @@ if command -v ffmpeg >/dev/null; then
     [[ -s $folder/out/demo.mp4 ]] || fail "no film"
 fi
 expect 0 'Engine: +[0-9]+ frames, .* fps' play --size 160x90 --timedemo
-expect 0 'Pass: +' play --size 160x90 --timedemo --set pt_bounces=0 --set pt_bench_json=bench.json
+expect 0 'Pass: +' play --size 160x90 --timedemo --set pt_bounces=0 --set pt_bench_json=bench
 # The keys that `vkpt bench --json` has, too.
 perl -MJSON::PP -e 'local $/; my $b = decode_json(<STDIN>); exit !($b->{schema} == 1 && $b->{scene} eq "maps/vkpt1.bsp"
     && $b->{frame_ms}{median} > 0 && @{$b->{passes}} > 3 && @{$b->{cpu}} > 3 && $b->{settings}{pt_bounces} eq "0"
-    && $b->{start}{first_frame_s} > 0)' <"$folder/run/home/.yq2/baseq2/bench.json" || fail "bench.json is not what it should be"
+    && $b->{start}{first_frame_s} > 0)' <"$folder/run/home/.yq2/baseq2/vkpt/bench/bench.json" || fail "bench.json is not what it should be"
 expect 1 'no demo .nothere' play --timedemo nothere
 expect 1 'no map .nothere' play --headless --map nothere
 expect 1 'no Quake II data in' play --data "$folder"

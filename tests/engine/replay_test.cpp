@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <unistd.h>
 
 namespace vkpt::tests {
 
@@ -43,7 +44,9 @@ protected:
     {
         return run_program(VKPT_PROGRAM, arguments, folder.path(),
             { "XDG_CACHE_HOME=" + (folder.path() / "cache").string(),
-                "VKPT_CACHE_DIR=" VKPT_TEST_BUILD_DIR "/tests/engine/cache" });
+                // The engine's cache belongs to the user that it runs as.
+                std::string("VKPT_CACHE_DIR=" VKPT_TEST_BUILD_DIR "/tests/engine/cache")
+                    + (geteuid() == 0 ? "-root" : "") });
     }
     ProgramResult record(const std::string& output, const std::vector<std::string>& more = {}) const
     {
@@ -109,12 +112,12 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
     options.width = width;
     options.height = height;
     options.validation = false;
-    options.arguments = { "+set", "pt_capture_dir", "capture", "+set", "pt_capture_every", every, "+set", "timedemo",
+    options.arguments = { "+set", "pt_capture_dir", capture_name, "+set", "pt_capture_every", every, "+set", "timedemo",
         "1", "+set", "fixedtime", "100000", "+set", "cl_predict", "0", "+set", "con_notifytime", "100000", "+set",
         "nextdemo", "quit", "+demomap", "start.dm2" };
     const EngineRun engine(options);
     engine.expect_clean();
-    const auto shown = list_pictures(engine.result().game_folder / "capture");
+    const auto shown = list_pictures(engine.captures());
     ASSERT_GE(shown.size(), 8u) << engine.result().console;
 
     const ProgramResult recorded = run({ "record", "start.dm2", "--basedir", game_data, "--timedemo", "--size", size,
@@ -126,7 +129,7 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
         "-o", "last.png" });
     ASSERT_EQ(replayed.status, 0) << replayed.errors;
     for (const auto& picture : shown) {
-        const auto other = folder.path() / "cache/vkpt/capture" / picture.filename();
+        const auto other = folder.path() / "cache/vkpt/vkpt/captures/capture" / picture.filename();
         EXPECT_TRUE(read_file(picture) == read_file(other)) << other;
     }
 }
