@@ -65,7 +65,7 @@ EngineOptions play(const std::string& commands)
     options.files["vkpt/bench/victim.json"] = "{ \"mine\": 1 }\n";
     options.arguments = { "+set", "timedemo", "1", "+set", "cl_predict", "0", "+set", "nextdemo", "quit", "+demomap",
         "evil.dm2" };
-    options.limit = std::chrono::seconds(600);
+    options.cpu_seconds = 600;
     return options;
 }
 

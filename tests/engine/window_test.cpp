@@ -79,7 +79,7 @@ TEST(Engine, WindowAndScreenshotsShowWhatIsCaptured)
     options.display_commands = { VKPT_GRAB_WINDOW " " + std::to_string(options.width) + " "
         + std::to_string(options.height) + " " + grabbed };
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec", "test.cfg" };
-    options.limit = std::chrono::seconds(600);
+    options.cpu_seconds = 600;
     const EngineRun run(options);
     run.expect_clean();
     expect_captured(run, grabbed);
@@ -98,7 +98,7 @@ TEST(Engine, MapsThatDoNotFitAreDropped)
         + "set pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\nquit\n";
     options.display_commands = { faults.begin("memory 0"), faults.end() };
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+exec", "test.cfg" };
-    options.limit = std::chrono::seconds(600);
+    options.cpu_seconds = 600;
     const EngineRun run(options);
     run.expect_clean();
     const auto lines = run.lines_with("out of memory on ");
@@ -122,7 +122,7 @@ TEST(Engine, LostSurfacesAreMadeAnew)
     options.display_commands = { faults.begin("surface"), VKPT_GRAB_WINDOW " " + std::to_string(options.width) + " "
             + std::to_string(options.height) + " " + grabbed };
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec", "test.cfg" };
-    options.limit = std::chrono::seconds(600);
+    options.cpu_seconds = 600;
     const EngineRun run(options);
     run.expect_clean();
     EXPECT_TRUE(faults.is_over()) << "the surface was not lost";
