@@ -142,7 +142,7 @@ TEST(MeasureScene, TellsVariantsApart)
     options.runs = 6;
     options.frames = 3;
     options.warmup = 6;
-    options.reference = { 512, "", true, references.path() };
+    options.reference = { 512, "", references.path() };
     const std::vector<Variant> variants { make_variant("uniform", 8), make_variant("subset", 8),
         make_variant("subset", 8, "asvgf") };
     SceneResult results[2];

@@ -9,6 +9,8 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <tuple>
+#include <utility>
 
 namespace formats {
 
@@ -276,13 +278,21 @@ TEST(Bsp, RefusesIndicesOutOfRange)
         { "areas", [](Bsp& b) { b.areas[1].area_portal_count = 2; } },
         { "area portals", [](Bsp& b) { b.area_portals[0].other_area = 2; } },
         // What costs far more than it takes in the file:
-        { "faces", [](Bsp& b) { b.faces[1].first_edge = b.faces[0].first_edge; b.surface_edges.resize(7); } },
+        { "faces",
+            [](Bsp& b) {
+                b.faces[1].first_edge = b.faces[0].first_edge;
+                b.surface_edges.resize(7);
+            } },
         { "faces",
             [](Bsp& b) {
                 b.surface_edges.resize(100);
                 b.faces[1].edge_count = 65;
             } },
-        { "leaves", [](Bsp& b) { b.leaves[1] = b.leaves[2]; } },
+        { "leaves",
+            [](Bsp& b) {
+                for (BspLeaf& leaf : b.leaves)
+                    std::tie(leaf.first_leaf_face, leaf.leaf_face_count) = std::pair(0, 2);
+            } },
         { "leaves", [](Bsp& b) { fill_with_leaf_faces(b, 130000); } },
         { "models", [](Bsp& b) { b.models.push_back(b.models[0]); } },
         { "texinfos", [](Bsp& b) { make_ring(b, 257); } },
