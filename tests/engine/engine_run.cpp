@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -192,7 +193,7 @@ void EngineRun::run_on_display(const std::string& command)
 std::filesystem::path EngineRun::captures(int start) const
 {
     return outcome.game_folder / "vkpt" / "captures"
-        / (std::string(capture_name) + (start == 1 ? std::string() : "-" + std::to_string(start)));
+        / (start == 1 ? std::string(capture_name) : fmt::format("{}-{}", capture_name, start));
 }
 
 std::vector<std::string> EngineRun::lines_with(const std::string& text) const
