@@ -45,13 +45,20 @@ void write_pictures(const std::filesystem::path& folder, const ScenePictures& pi
     output.commit();
 }
 
+void write_sky(const std::filesystem::path& path, const analysis::LinearImage& sky)
+{
+    OutputFile file(path);
+    file.write(write_exr(sky.width, sky.height, sky.rgb));
+    file.commit();
+}
+
 void run_export(const ExportOptions& options)
 {
     const Size size = parse_size(options.scene.size);
     HostOptions host_options = make_host_options(options.module);
     host_options.width = size.width;
     host_options.height = size.height;
-    OutputFolder output(options.output, { "scene.obj", "scene.mtl", "scene.json", sky_name });
+    OutputFolder output(options.output, { "scene.obj", "scene.mtl", "scene.json" });
     FileSystem files(options.scene.base_folder, options.scene.game);
     const std::unique_ptr<FrameSource> source = open_frame_source(files, options.scene.scene);
     Host host(host_options, &files);
@@ -73,7 +80,8 @@ void run_export(const ExportOptions& options)
     output.write(2,
         make_scene_json(scene, options.scene.scene, source->chosen_frame(), host.extension().frame_size(),
             sky.rgb.empty() ? "" : sky_name));
-    output.write(3, write_exr(sky.width, sky.height, sky.rgb));
+    if (!sky.rgb.empty())
+        write_sky(std::filesystem::path(options.output) / sky_name, sky);
     output.commit();
     fmt::print("{}: {} triangles, {} materials, {} emitters\n", options.output, scene.triangle_count,
         scene.material_count, scene.emitter_count);

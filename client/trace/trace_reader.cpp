@@ -18,7 +18,7 @@ constexpr uint32_t max_chunk_bytes = 32u << 20; // unpacked
 constexpr uint64_t max_chunk_memory = 128ull << 20; // as calls and views
 constexpr uint64_t max_kept_memory = 64ull << 20; // of what is kept of all chunks: what lasts, and facts
 // By the size of the file; 1 MiB for smaller ones.
-constexpr uint64_t max_unpacked_ratio = 128, max_memory_ratio = 2048;
+constexpr uint64_t max_unpacked_ratio = 128, max_memory_ratio = 1024;
 // Deflate's best.
 constexpr uint64_t max_ratio = 1040;
 

