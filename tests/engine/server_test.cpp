@@ -99,8 +99,13 @@ TEST(Engine, ServersCannotChooseWhatIsWritten)
 // Started anew the module reads what the server has written, and keeps it among the captures.
 TEST(Engine, RestartsHelpServersNoFurther)
 {
-    const EngineRun run(play("pt_times 1\nset pt_capture_every 1\nset pt_bench_json victim u\nset pt_capture_dir maps u\n"
-                             "set pt_capture_mib 0 u\nvid_restart\n"));
+    constexpr int frames = 150; // together more than 1 MiB
+    std::string commands = "pt_times 1\nset pt_capture_every 1\nset pt_bench_json victim u\nset pt_capture_dir maps u\n"
+                           "set pt_capture_mib 0 u\nvid_restart\n";
+    for (int i = 0; i < frames; i++)
+        commands += "wait;";
+    // By itself the engine does not end at the end of a demo that the renderer was restarted in.
+    const EngineRun run(play(commands + "\npt_times_print\nquit\n"));
     run.expect_clean();
     expect_nothing_foreign_touched(run);
     EXPECT_FALSE(run.lines_with("victim.json: something that the module did not write is there").empty())
