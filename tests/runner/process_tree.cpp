@@ -24,7 +24,8 @@ struct Process {
 bool read_process(const std::filesystem::path& folder, Process& process)
 {
     std::ifstream file(folder / "stat");
-    std::string line { std::istreambuf_iterator<char>(file), {} };
+    std::string line;
+    std::getline(file, line, '\0'); // iterators would throw where the process has ended since
     const size_t name_end = line.rfind(')');
     if (name_end == std::string::npos)
         return false;
