@@ -201,8 +201,6 @@ void TraceFrames::apply(Host& host, const Call& call)
     case CallKind::setting:
         return set(host, call);
     case CallKind::begin_registration:
-        models_.begin_registration();
-        skins_.begin_registration();
         return module.begin_registration(call.name.c_str());
     case CallKind::register_model:
         return models_.keep(call.numbers[0], module.register_model(call.name.c_str()));
@@ -211,8 +209,6 @@ void TraceFrames::apply(Host& host, const Call& call)
     case CallKind::set_sky:
         return module.set_sky(call.name.c_str(), call.reals[0], &call.reals[1]);
     case CallKind::end_registration:
-        models_.end_registration();
-        skins_.end_registration();
         return module.end_registration();
     case CallKind::set_palette: {
         constexpr size_t palette_bytes = 768;
