@@ -59,25 +59,12 @@ void TraceFrames::Handles::keep(int32_t number, void* handle)
         return;
     if (handles_.size() <= size_t(number))
         handles_.resize(size_t(number) + 1);
-    handles_[size_t(number)] = { handle, true };
+    handles_[size_t(number)] = handle;
 }
 
 void* TraceFrames::Handles::find(uint32_t number) const
 {
-    return number < handles_.size() ? handles_[number].handle : nullptr;
-}
-
-void TraceFrames::Handles::begin_registration()
-{
-    for (Handle& handle : handles_)
-        handle.is_current = false;
-}
-
-void TraceFrames::Handles::end_registration()
-{
-    for (Handle& handle : handles_)
-        if (!handle.is_current)
-            handle = {};
+    return number < handles_.size() ? handles_[number] : nullptr;
 }
 
 TraceFrames::TraceFrames(FileSystem& files, std::string_view path, int chosen_frame)

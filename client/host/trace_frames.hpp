@@ -27,15 +27,9 @@ private:
     public:
         void keep(int32_t number, void* handle);
         void* find(uint32_t number) const; // nullptr: none
-        void begin_registration();
-        void end_registration();
 
     private:
-        struct Handle {
-            void* handle = nullptr;
-            bool is_current = false;
-        };
-        std::vector<Handle> handles_;
+        std::vector<void*> handles_;
     };
 
     void draw_frame(Host& host, int frame) override;

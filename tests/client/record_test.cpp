@@ -298,31 +298,6 @@ TEST_F(Replay, FollowsTheEngineToOtherMaps)
     EXPECT_NEAR(info.at("seconds"), 0.3, 1e-6) << "each map has a clock of its own";
 }
 
-// The engine never asks for it, but a file can.
-TEST_F(Replay, HandlesEndWithTheirRegistration)
-{
-    write_sample_map(folder, "other", entities);
-    {
-        RecordModule module(folder.path() / "stale.rtrace");
-        ASSERT_TRUE(module.api.init());
-        void* thing = nullptr;
-        for (const char* map : { "sample", "other" }) {
-            module.api.begin_registration(map);
-            if (!thing)
-                thing = module.api.register_model("models/thing.md2");
-            module.api.end_registration();
-            module.draw(1, thing, nullptr);
-        }
-        module.api.shutdown();
-    }
-    const ProgramResult result = run({ "render", "stale.rtrace", "--size", "800x600", "--frames", "2", "--verbose",
-        "--set", "fake_models=1", "-o", "a.png" });
-    EXPECT_EQ(result.status, 0) << result.errors;
-    const std::string calls = calls_of(result);
-    const size_t first = calls.find("models 1\n"), second = calls.find("models 0\n");
-    EXPECT_TRUE(first < second && second != std::string::npos) << calls;
-}
-
 // Runs `vkpt record` with a program in the engine's place: what matters is around it.
 class RecordCommand : public Replay {
 protected:

