@@ -17,6 +17,7 @@ bool FrameCapture::is_wanted()
 {
     const int every = cvars::values().pt_capture_every;
     if (every != every_) {
+        report();
         every_ = every;
         gave_up_ = false;
     }
@@ -33,7 +34,13 @@ void FrameCapture::open_folder()
     const OutputFolder captures(engine::game_directory(), { "vkpt", "captures" });
     captured_bytes_ = captures.bytes();
     folder_.emplace(captures.make_new(name));
-    engine::print("ref_vkpt: captured frames go to {}", folder_->path().string());
+}
+
+void FrameCapture::report()
+{
+    if (captured_frames_ != 0)
+        engine::print("ref_vkpt: {} captured frames are in {}", captured_frames_, folder_->path().string());
+    captured_frames_ = 0;
 }
 
 void FrameCapture::take_from_budget(uint64_t bytes)
@@ -59,7 +66,9 @@ void FrameCapture::end_view(const std::function<formats::Image()>& read_picture)
         const std::vector<std::byte> picture = formats::write_png(read_picture());
         take_from_budget(picture.size());
         folder_->write(fmt::format("frame{:06}.png", frame_number_), picture);
+        captured_frames_++;
     } catch (const FileError& error) {
+        report();
         engine::print("ref_vkpt: no frames are captured: {}", error.what());
         gave_up_ = true;
     }

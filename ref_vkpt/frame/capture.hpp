@@ -14,6 +14,8 @@ namespace vkpt {
 
 class FrameCapture {
 public:
+    ~FrameCapture() { report(); }
+
     // After a frame with a 3D view was submitted. Calls `read_picture`, which waits for the device, only if this frame
     // is to be captured. Frames are counted from the start of the renderer; the first one has the number 1.
     void end_view(const std::function<formats::Image()>& read_picture);
@@ -21,6 +23,8 @@ public:
 private:
     bool is_wanted();
     void open_folder();
+    // Says how many frames there are and where. Only when no more follow: console lines are part of the picture.
+    void report();
     // Throws FileError where so many bytes more are too many.
     void take_from_budget(uint64_t bytes);
 
@@ -28,6 +32,7 @@ private:
     int every_ = 0; // that the last decision was made for
     bool gave_up_ = false; // until pt_capture_every changes
     std::optional<OutputFolder> folder_; // a new one at each start of the renderer
+    uint32_t captured_frames_ = 0; // that the console has not been told of
     uint64_t captured_bytes_ = 0; // of all captures there are, this folder's and older ones
 };
 

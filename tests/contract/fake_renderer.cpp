@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A renderer that draws nothing and tells the console what it was asked: what exports.cpp and the host are tested with.
-// Cvars steer it: "fake_throw" = "VERB KIND" makes one verb throw (level, fatal, format, memory, bug, number);
-// "fake_models" 1 tells how many of a view's entities have a model.
+// Cvars steer it: "fake_throw" = "VERB KIND" makes one verb throw (level, fatal, format, memory, bug, number).
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/exports.hpp"
 #include "ref_vkpt/renderer.hpp"
 
-#include <algorithm>
 #include <new>
 #include <vector>
 
@@ -203,10 +201,6 @@ void render_view(const engine::RefDef& refdef)
         last_eye[i] = refdef.view_origin[i];
     note("render_view", refdef.width, refdef.height, last_eye[0], last_eye[1], last_eye[2], refdef.view_angles[0],
         refdef.view_angles[1], refdef.entity_count);
-    if (engine::get_cvar("fake_models", "0", engine::CVAR_NONE)->number != 0)
-        note("models", std::count_if(refdef.entities, refdef.entities + refdef.entity_count, [](const auto& entity) {
-            return entity.model != nullptr;
-        }));
 }
 void end_frame()
 {

@@ -34,6 +34,7 @@ void expect_sizes(const EngineRun& run, const std::vector<std::pair<int, int>>& 
 {
     const std::vector<formats::Image> pictures = captured(run);
     ASSERT_EQ(pictures.size(), sizes.size()) << run.result().console;
+    EXPECT_FALSE(run.lines_with("captured frames are in ").empty()) << run.result().console;
     for (size_t i = 0; i < sizes.size(); i++) {
         EXPECT_EQ(pictures[i].width, sizes[i].first) << i;
         EXPECT_EQ(pictures[i].height, sizes[i].second) << i;
