@@ -179,7 +179,8 @@ void Host::add_console_text(std::string_view text)
             console_line_ += c;
             continue;
         }
-        if (options_.verbose)
+        // Who sets pt_validation wants to know what the layers say.
+        if (options_.verbose || console_line_.starts_with("vkpt validation:"))
             std::fprintf(stderr, "%s\n", console_line_.c_str());
         if (options_.on_line)
             options_.on_line(console_line_);

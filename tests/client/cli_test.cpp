@@ -499,16 +499,19 @@ TEST_F(Cli, RealModuleRefusesWhatItCannotDo)
 
 TEST_F(Cli, RealModuleRendersTheSampleMap)
 {
-    const ProgramResult result = render({ "--module", REAL_MODULE, "-o", "a.png" });
+    const ProgramResult result = render({ "--module", REAL_MODULE, "--set", "pt_validation=1", "-o", "a.png" });
     EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(result.errors.find("vkpt validation:"), std::string::npos) << result.errors;
     EXPECT_FALSE(folder.read("a.png").empty());
 }
 
 TEST_F(Cli, ExportAgreesWithTheModule)
 {
     const ProgramResult result
-        = run({ "export", "maps/sample.bsp", "--module", REAL_MODULE, "--size", "16x8", "-o", "scene" });
+        = run({ "export", "maps/sample.bsp", "--module", REAL_MODULE, "--size", "16x8", "--set", "pt_validation=1", "-o",
+            "scene" });
     ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(result.errors.find("vkpt validation:"), std::string::npos) << result.errors;
     const nlohmann::json json = nlohmann::json::parse(folder.read("scene/scene.json"));
     EXPECT_EQ(json.at("emitters").size(), json.at("emitter_count"));
     EXPECT_EQ(json.at("camera").at("width"), 16);

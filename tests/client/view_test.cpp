@@ -215,7 +215,8 @@ TEST_F(ViewWindow, ModuleThatFailsEndsWithItsWords)
 #ifdef REAL_MODULE
 TEST_F(ViewWindow, RealModuleComparesAndInspects)
 {
-    start(REAL_MODULE, { "maps/sample.bsp", "--size", "64x48", "--b", "pt_bounces=0" }, VKPT_TEST_CACHE);
+    start(REAL_MODULE, { "maps/sample.bsp", "--size", "64x48", "--b", "pt_bounces=0", "--set", "pt_validation=1" },
+        VKPT_TEST_CACHE);
     ASSERT_TRUE(save_picture("vkpt-view-001.png", 300)) << folder.read("log.txt");
     expect_title("pt_bounces 0");
     press("p m");
@@ -224,6 +225,7 @@ TEST_F(ViewWindow, RealModuleComparesAndInspects)
     EXPECT_TRUE(save_picture("vkpt-view-002.png", 60)) << folder.read("log.txt");
     press("ctrl+q");
     EXPECT_EQ(program.wait(60), 0) << folder.read("log.txt");
+    EXPECT_EQ(folder.read("log.txt").find("vkpt validation:"), std::string::npos) << folder.read("log.txt");
 }
 #endif
 

@@ -136,8 +136,8 @@ TEST(MeasureScene, TellsVariantsApart)
     const GameFolder folder;
     add_test_map(folder);
     const ScratchFolder references;
-    StageOptions stage_options { { VKPT_TESTED_MODULE, { "pt_bounces=0" }, false }, folder.path().string(), "",
-        { 64, 64 } };
+    StageOptions stage_options { { VKPT_TESTED_MODULE, { "pt_bounces=0", "pt_validation=1" }, false },
+        folder.path().string(), "", { 64, 64 } };
     MeasureOptions options;
     options.runs = 6;
     options.frames = 3;
@@ -146,6 +146,7 @@ TEST(MeasureScene, TellsVariantsApart)
     const std::vector<Variant> variants { make_variant("uniform", 8), make_variant("subset", 8),
         make_variant("subset", 8, "asvgf") };
     SceneResult results[2];
+    testing::internal::CaptureStderr();
     for (SceneResult& result : results) {
         Stage stage(stage_options, "maps/scene.bsp");
         int last = 0, total = 0;
@@ -156,6 +157,8 @@ TEST(MeasureScene, TellsVariantsApart)
         });
         EXPECT_EQ(last, total);
     }
+    const std::string errors = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(errors.find("vkpt validation:"), std::string::npos) << errors;
     EXPECT_FALSE(results[0].reference.was_cached);
     EXPECT_TRUE(results[1].reference.was_cached);
     EXPECT_EQ(results[0].reference.image.rgb, results[1].reference.image.rgb);

@@ -111,7 +111,6 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
     options.files["demos/start.dm2"] = demo;
     options.width = width;
     options.height = height;
-    options.validation = false;
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+set", "pt_capture_every", every, "+set", "timedemo",
         "1", "+set", "fixedtime", "100000", "+set", "cl_predict", "0", "+set", "con_notifytime", "100000", "+set",
         "nextdemo", "quit", "+demomap", "start.dm2" };
@@ -125,9 +124,10 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
     ASSERT_EQ(recorded.status, 0) << recorded.errors;
     const size_t frames = trace::TraceReader(folder.path() / "a.rtrace").frame_count();
     const ProgramResult replayed = run({ "render", "a.rtrace", "--basedir", game_data, "--size", size, "--seed", "1",
-        "--frames", std::to_string(frames), "--set", "pt_capture_dir=capture", "--set", "pt_capture_every=" + every,
+        "--set", "pt_validation=1", "--frames", std::to_string(frames), "--set", "pt_capture_dir=capture", "--set", "pt_capture_every=" + every,
         "-o", "last.png" });
     ASSERT_EQ(replayed.status, 0) << replayed.errors;
+    EXPECT_EQ(replayed.errors.find("vkpt validation:"), std::string::npos) << replayed.errors;
     for (const auto& picture : shown) {
         const auto other = folder.path() / "cache/vkpt/vkpt/captures/capture" / picture.filename();
         EXPECT_TRUE(read_file(picture) == read_file(other)) << other;

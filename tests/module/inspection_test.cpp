@@ -4,6 +4,8 @@
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -100,33 +102,51 @@ TEST_F(Inspection, FrozenViewKeepsItsLights)
 TEST_F(Inspection, ProbabilitiesAreThoseOfThePicks)
 {
     EXPECT_FALSE(inspect({ 1, 1 })) << "nothing has been drawn";
-    for (const char* sampler : { "uniform", "subset", "subset_mis" }) {
+    // Of a sampler whose probability depends on random numbers, each seed knows the average over 64 of them.
+    constexpr int seeds = 32;
+    constexpr size_t light_count = 11; // five lamps of two triangles, and the point light
+    for (const std::string sampler : { "uniform", "subset", "subset_mis" }) {
         session_->set("pt_light_sampler", sampler);
-        session_->draw();
-        ASSERT_TRUE(inspect({ 32, 40 })) << sampler; // the floor
-        EXPECT_GT(surface_.depth, 0);
-        EXPECT_NEAR(surface_.normal[2], 1, 1e-3);
-        EXPECT_NEAR(surface_.position[2], 0, 0.1);
-        EXPECT_EQ(lights_.size(), 11u) << sampler; // five lamps of two triangles, and the point light
-        ASSERT_GT(surface_.choices, 10000u);
-        double sum = 0;
-        for (size_t i = 0; i < lights_.size(); i++) {
-            const InspectedLight& light = lights_[i];
-            const double picked = double(light.picked) / surface_.choices;
-            const double sigma = std::sqrt(picked * (1 - picked) / surface_.choices);
-            // Of a sampler whose probability depends on random numbers, the average of 64 of them is known.
-            const double tolerance = 5 * sigma + (std::string_view(sampler) == "subset_mis" ? 0.06 : 1e-4);
-            EXPECT_NEAR(light.probability, picked, tolerance) << sampler << ", light " << i;
-            EXPECT_TRUE(i == 0 || light.emitter > lights_[i - 1].emitter);
-            EXPECT_GT(light.weight, 0);
-            EXPECT_GT(light.radiance[0], 0);
-            sum += light.probability;
-            if (std::string_view(sampler) == "uniform") {
-                EXPECT_NEAR(light.probability, 1.0 / 11, 1e-6);
+        struct Sums {
+            double told = 0, squares = 0, picked = 0;
+        };
+        std::array<Sums, light_count> sums {};
+        double choices = 0;
+        for (int seed = 1; seed <= seeds; seed++) {
+            session_->set("pt_seed", seed);
+            session_->draw();
+            ASSERT_TRUE(inspect({ 32, 40 })) << sampler; // the floor
+            EXPECT_GT(surface_.depth, 0);
+            EXPECT_NEAR(surface_.normal[2], 1, 1e-3);
+            EXPECT_NEAR(surface_.position[2], 0, 0.1);
+            ASSERT_EQ(lights_.size(), light_count) << sampler;
+            ASSERT_GT(surface_.choices, 10000u);
+            choices += surface_.choices;
+            for (size_t i = 0; i < light_count; i++) {
+                const InspectedLight& light = lights_[i];
+                EXPECT_TRUE(i == 0 || light.emitter > lights_[i - 1].emitter);
+                EXPECT_GT(light.weight, 0);
+                EXPECT_GT(light.radiance[0], 0);
+                sums[i].told += double(light.probability);
+                sums[i].squares += double(light.probability) * double(light.probability);
+                sums[i].picked += light.picked;
             }
         }
-        EXPECT_NEAR(sum, 1, std::string_view(sampler) == "subset_mis" ? 0.05 : 1e-3) << sampler;
+        double sum = 0;
+        for (size_t i = 0; i < light_count; i++) {
+            const double told = sums[i].told / seeds, picked = sums[i].picked / choices;
+            const double told_variance = std::max(sums[i].squares / seeds - told * told, 0.0) / (seeds - 1);
+            const double sigma = std::sqrt(told_variance + picked * (1 - picked) / choices);
+            EXPECT_NEAR(told, picked, 5 * sigma + 1e-4) << sampler << ", light " << i;
+            EXPECT_LT(sigma, 0.01) << sampler << ", light " << i << ": too noisy to tell";
+            sum += told;
+            if (sampler == "uniform") {
+                EXPECT_NEAR(told, 1.0 / light_count, 1e-6);
+            }
+        }
+        EXPECT_NEAR(sum, 1, sampler == "subset_mis" ? 0.02 : 1e-3) << sampler;
     }
+    session_->set("pt_seed", 1);
     EXPECT_FALSE(inspect({ 64, 1 })) << "beside the picture";
 }
 
