@@ -3,6 +3,7 @@
 // seen which can.
 #include "glsl_libraries.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>

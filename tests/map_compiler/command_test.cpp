@@ -3,6 +3,7 @@
 #include "tests/map_compiler/map_text.hpp"
 #include "tests/map_compiler/texture_folder.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
