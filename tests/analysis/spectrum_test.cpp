@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
 
 namespace vkpt::tests {
@@ -27,6 +28,31 @@ TEST(Spectrum, TellsWhiteFromSmoothAndRough)
     EXPECT_NEAR(spectrum.high, 9, 0.5);
     EXPECT_GT(measure_spectrum(smooth, side).low_to_high(), 20);
     EXPECT_LT(measure_spectrum(rough, side).low_to_high(), 0.01);
+}
+
+// One wave has all its power at its own frequency, whichever way it runs, and half a picture of side^2 / 2 pixels' worth
+// at each of the two places that are it.
+TEST(Spectrum, AWaveStandsInItsOwnBand)
+{
+    constexpr size_t side = 64;
+    for (const auto& [across, down] : { std::pair { 3, 0 }, { 0, 5 }, { 7, 2 }, { 4, 6 }, { 8, 0 }, { 0, 9 }, { 12, 5 },
+             { 21, 17 }, { 31, 0 } }) {
+        SCOPED_TRACE(testing::Message() << across << " " << down);
+        std::vector<double> wave(side * side);
+        for (size_t i = 0; i < wave.size(); i++)
+            wave[i] = std::cos(2 * std::numbers::pi * double(size_t(across) * (i % side) + size_t(down) * (i / side))
+                / double(side));
+        const Spectrum spectrum = measure_spectrum(wave, side);
+        const double frequency = std::hypot(across, down) / double(side);
+        EXPECT_NEAR(frequency < 0.125 ? spectrum.high : spectrum.low, 0, 1e-9) << "an eighth of a cycle per pixel divides";
+        EXPECT_GT(frequency < 0.125 ? spectrum.low : spectrum.high, 0.1);
+        const auto own = size_t(frequency * 2 * double(spectrum.power.size()));
+        for (size_t band = 0; band < spectrum.power.size(); band++)
+            if (band == own)
+                EXPECT_GT(spectrum.power[band], 1) << band;
+            else
+                EXPECT_NEAR(spectrum.power[band], 0, 1e-9) << band;
+    }
 }
 
 // High-pass noise on the left, a hundred times as much white noise on the right: tiles count alike.

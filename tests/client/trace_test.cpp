@@ -65,8 +65,17 @@ public:
             View::Entity e {};
             e.model = 1 + random_() % 5;
             e.skin = random_() % 3;
-            for (float& x : e.entity.origin)
-                x = 1000 * uniform_(random_);
+            for (size_t i = 0; i < 3; i++) {
+                e.entity.origin[i] = 1000 * uniform_(random_);
+                e.entity.previous_origin[i] = e.entity.origin[i] - uniform_(random_);
+                e.entity.angles[i] = 180 * uniform_(random_);
+            }
+            e.entity.frame = int32_t(random_() % 200);
+            e.entity.previous_frame = int32_t(random_() % 200);
+            e.entity.skin_number = int32_t(random_() % 256);
+            e.entity.lightstyle = int32_t(random_() % 64);
+            e.entity.alpha = uniform_(random_);
+            e.entity.flags = int32_t(random_() % 0x1000000);
             return e;
         });
         for (View::Entity& e : entities_)

@@ -90,6 +90,8 @@ TEST(M8, Reads)
     const auto file = make_m8();
     EXPECT_EQ(read_m8_info(file, "m8").name, "walls/m8");
     EXPECT_EQ(read_m8_info(file, "m8").next_animation, "walls/m8_next");
+    EXPECT_EQ(read_m8_info(file, "m8").flags, 1u);
+    EXPECT_EQ(read_m8_info(file, "m8").contents, 2u);
     EXPECT_EQ(read_m8_info(file, "m8").value, 3);
     const Image image = read_image(file, "a.m8", {});
     ASSERT_EQ(image.pixels.size(), 32u);
@@ -100,7 +102,9 @@ TEST(M32, Reads)
 {
     const auto file = make_m32();
     EXPECT_EQ(read_m32_info(file, "m32").next_animation, "walls/m32_next");
+    EXPECT_EQ(read_m32_info(file, "m32").flags, 1u);
     EXPECT_EQ(read_m32_info(file, "m32").contents, 2u);
+    EXPECT_EQ(read_m32_info(file, "m32").value, 3);
     const Image image = read_image(file, "a.m32", {});
     ASSERT_EQ(image.pixels.size(), 32u);
     EXPECT_EQ(image.at(1, 1), (Rgba8 { 9, 18, 27, 36 }));
@@ -147,6 +151,21 @@ TEST(CommonImages, ReadsPackedTgaBottomUp)
     EXPECT_EQ(image.at(1, 1), (Rgba8 { 30, 20, 10, 255 }));
     EXPECT_EQ(image.at(2, 1), (Rgba8 { 200, 100, 0, 255 }));
     EXPECT_EQ(image.at(4, 0), (Rgba8 { 207, 107, 7, 255 }));
+}
+
+// Bits 4 and 5 of the descriptor say at which corner the pixels begin.
+TEST(CommonImages, TurnsTgaFromEveryCorner)
+{
+    const Image image = make_image(5, 3);
+    for (const bool right : { false, true })
+        for (const bool top : { false, true }) {
+            auto file = write_tga(image);
+            file[17] = std::byte(8 | (right ? 0x10 : 0) | (top ? 0x20 : 0));
+            const Image turned = read_common_image(file, "turned.tga");
+            for (int y = 0; y < 3; y++)
+                for (int x = 0; x < 5; x++)
+                    EXPECT_EQ(turned.at(x, y), image.at(right ? 4 - x : x, top ? y : 2 - y)) << x << " " << y;
+        }
 }
 
 TEST(CommonImages, RefusesAPictureThatTheFileCannotHold)

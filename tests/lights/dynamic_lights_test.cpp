@@ -206,6 +206,29 @@ TEST(DynamicLights, ThatGoOutAreInNoList)
     EXPECT_TRUE(lists.dynamic_indices().empty());
 }
 
+// Two lights in a row move on by more than half of what is between them: the first ends nearest to where the second was.
+TEST(DynamicLights, TheNearestPairIsMatchedFirst)
+{
+    const auto light_at = [](float x) {
+        Emitter e {};
+        e.type = shared::EMITTER_SPHERE;
+        e.p0 = { x, 0, 0 };
+        e.radiance = glm::vec3(1);
+        return e;
+    };
+    for (const bool reversed : { false, true }) {
+        DynamicLights slots;
+        std::vector<Emitter> lights { light_at(0), light_at(30) };
+        slots.arrange(lights);
+        // 50 is 20 from slot 1 and 50 from slot 0; 35 is 5 from slot 1 and 35 from slot 0.
+        lights = { light_at(50), light_at(35) };
+        if (reversed)
+            std::ranges::reverse(lights);
+        const std::vector<uint32_t> found = slots.arrange(lights);
+        EXPECT_EQ(found, reversed ? (std::vector<uint32_t> { 1, 0 }) : (std::vector<uint32_t> { 0, 1 }));
+    }
+}
+
 // What moves as one and has thousands of lights that are alike: their order tells them apart, and no time grows with the
 // square of their number.
 TEST(DynamicLights, ThousandsThatAreAlikeKeepTheirSlots)

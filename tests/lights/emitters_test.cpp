@@ -105,6 +105,18 @@ TEST(Emitters, UndrawnAndBlackLightsAreNamed)
     EXPECT_TRUE(mentions(emitters, "test/c"));
 }
 
+// Rays that bounce pass through what is not whole: its light must not be counted as a wall's.
+TEST(Emitters, WhatLetsRaysThroughIsAVeil)
+{
+    for (const int32_t flag : { formats::SURF_TRANS33, formats::SURF_TRANS66, formats::SURF_ALPHATEST }) {
+        formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+        bsp.texinfos[1].flags |= flag;
+        const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
+        EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[1])].type, shared::EMITTER_VEIL) << flag;
+        EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[2])].type, shared::EMITTER_TRIANGLE) << flag;
+    }
+}
+
 TEST(Emitters, FollowTheOrderOfLeaves)
 {
     const formats::Bsp bsp = make_cell_map(16, make_random_cells(16, 0.7, 3));

@@ -85,6 +85,23 @@ TEST(Source, LeakNamesTheEntityAndGivesAWay)
     }
 }
 
+// Entities stand exactly on floors: there the room begins, not the solid.
+TEST(Source, AnEntityOnTheFloorIsInside)
+{
+    const Box room { { -64, -64, 0 }, { 64, 64, 128 } };
+    const auto map = [](const std::string& brushes) {
+        return entity_text({ { "classname", "worldspawn" } }, brushes)
+            + entity_text({ { "classname", "info_player_start" }, { "origin", "0 0 0" } });
+    };
+    EXPECT_EQ(failure(map(walls_around({ room }, "wall"))), "no error");
+    const std::string floor = box_brush({ { -64, -64, -16 }, { 64, 64, 0 } }, "floor");
+    EXPECT_THROW(compile_map(map(floor), "leak.map", {}), LeakError);
+    // What is out of every entity's reach is filled.
+    const Bsp bsp = compile_map(map(walls_around({ room, { { 256, 0, 0 }, { 320, 64, 64 } } }, "wall")), "two.map", {});
+    EXPECT_FALSE(bsp.leaves[bsp.find_leaf({ 0, 0, 64 })].contents & CONTENTS_SOLID);
+    EXPECT_TRUE(bsp.leaves[bsp.find_leaf({ 288, 32, 32 })].contents & CONTENTS_SOLID);
+}
+
 TEST(Textures, WalFlagsAndAnimationsAreTakenAndTheMapOverrides)
 {
     const TextureFolder folder;

@@ -146,6 +146,19 @@ TEST(Overlap, CornersAreSealedAndInsideNoFaceRemains)
         EXPECT_NE(bsp.texinfos[face.texinfo].texture, "hidden");
 }
 
+// Nothing can show inside a structural wall: what stands in it divides it no further.
+TEST(Overlap, WhatAWallHidesMakesNoNodes)
+{
+    const auto map = [](const std::string& hidden) {
+        const std::string pillar = box_brush({ { -60, -60, 0 }, { 60, 60, 192 } }, "pillar");
+        return compile(entity_text({ { "classname", "worldspawn" } }, walls_around({ two_rooms::room_a }, "wall") + pillar + hidden)
+            + entity_text({ { "classname", "info_player_start" }, { "origin", "200 200 24" } }));
+    };
+    const Bsp bare = map(""), with_hidden = map(box_brush({ { -13, -17, 40 }, { 11, 19, 90 } }, "hidden"));
+    EXPECT_EQ(with_hidden.nodes.size(), bare.nodes.size());
+    EXPECT_EQ(with_hidden.leaves.size(), bare.leaves.size());
+}
+
 // A room full of turned, overlapping pillars: closed, solid exactly where a brush is, and nothing visible is lost.
 class RandomBrushes : public testing::TestWithParam<int> { };
 
