@@ -40,13 +40,17 @@ vec3 count_emission(BouncePath path, BsdfSample bsdf, HitSurface hit, Random pix
             return vec3(0.0);
         return is_sky ? sky_radiance(bsdf.direction) : hit.emission;
     }
-    if (!light_sampler_mis || hit.front == 0.0)
+#ifdef VKPT_SAMPLER_MIS
+    if (hit.front == 0.0)
         return vec3(0.0);
     float weight = weigh_met_emitter(path.surface, path.cluster, light_random(pixel_random, path.vertex),
         uint(hit.emitter), hit.surface.position, bsdf.pdf);
     // Not the picture's colour there: both ways to find the light must see the same.
     Emitter e = load_emitter(open_light_list(light_tables(), path.cluster), uint(hit.emitter));
     return weight * (e.type == EMITTER_SKY ? sky_radiance(bsdf.direction) : emitted_radiance(e, path.surface.position));
+#else
+    return vec3(0.0);
+#endif
 }
 
 // Traces a BSDF sample and moves the path to what it finds. False: the path has ended.

@@ -223,7 +223,7 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfac
     if (surfaces == Surfaces::probes)
         return;
     if (world)
-        record_lit_pass("light_level", { 1, { shared::LIGHT_LEVEL_LANES, 1 } });
+        record_traced_pass("light_level", { 1, { shared::LIGHT_LEVEL_LANES, 1 } });
     record_pass("exposure", 1);
     if (uniforms.flags & shared::FRAME_BLOOM)
         record_bloom(uniforms);

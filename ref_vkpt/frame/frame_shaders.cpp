@@ -24,7 +24,7 @@ std::vector<std::string> frame_shaders(TraceBackend backend)
     std::vector<std::string> shaders;
     if (backend != TraceBackend::pipeline)
         shaders = { lit_shader("indirect_light", backend), lit_shader("direct_light", backend),
-            lit_shader("light_level", backend), traced_shader("primary_visibility", backend) };
+            traced_shader("light_level", backend), traced_shader("primary_visibility", backend) };
     const auto add = [&](std::initializer_list<const char*> passes) {
         for (const char* pass : passes)
             shaders.push_back(std::string(pass) + ".comp");

@@ -154,10 +154,14 @@ float subsets_of_parts_probability(
         choices.of_static.offset = remainder_whole(uint(place), choices.of_static.stride);
     else
         choices.of_dynamic.offset = remainder_whole(uint(place) - static_count, choices.of_dynamic.stride);
-    float total = float(choices.of_static.stride)
-            * weigh_lights(static_lights(list), predictor, choices.of_static.offset, choices.of_static.stride)
-        + float(choices.of_dynamic.stride)
-            * weigh_lights(dynamic_lights(list), predictor, choices.of_dynamic.offset, choices.of_dynamic.stride);
+    float total = 0.0f;
+    SubsetChoice choice = choices.of_static;
+    LightListView lights = static_lights(list);
+    ROLLED_FOR (uint part = 0u; part < 2u; part++) {
+        total += float(choice.stride) * weigh_lights(lights, predictor, choice.offset, choice.stride);
+        choice = choices.of_dynamic;
+        lights = dynamic_lights(list);
+    }
     float weight = weigh_emitter(list, predictor, light_at(list, uint(place)));
     return weight > 0.0f ? weight / total : 0.0f;
 }

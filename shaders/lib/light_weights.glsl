@@ -162,23 +162,42 @@ float cosine_form_factor(vec3 a, vec3 b, vec3 c)
     return abs(sum) * (0.5f / bsdf_pi);
 }
 
-// Shares of the two lobes that a triangle takes. Corners relative to the surface.
-vec2 form_factors(LightPredictor p, vec3 a, vec3 b, vec3 c)
+// A fan of one triangle or two: the second one is a, c, d. Corners relative to the surface.
+struct Fan {
+    vec3 a, b, c, d;
+    uint triangles;
+};
+
+// What share of a lobe the fan takes; x, y, z: rows that turn the world into the lobe's space.
+float form_factor(Fan fan, vec3 x, vec3 y, vec3 z)
+{
+    vec3 a = to_axes(fan.a, x, y, z), b = to_axes(fan.b, x, y, z), c = to_axes(fan.c, x, y, z);
+    float share = 0.0f;
+    ROLLED_FOR (uint triangle = 0u; triangle < fan.triangles; triangle++) {
+        share += cosine_form_factor(a, b, c);
+        b = c;
+        c = to_axes(fan.d, x, y, z);
+    }
+    return share;
+}
+
+// Shares of the two lobes. Loops, here and above, because drivers put every call of a function in line.
+vec2 form_factors(LightPredictor p, Fan fan)
 {
     vec2 shares = vec2(0.0f);
-    if (p.diffuse > 0.0f)
-        shares.x = cosine_form_factor(to_axes(a, p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2]),
-            to_axes(b, p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2]),
-            to_axes(c, p.diffuse_rows[0], p.diffuse_rows[1], p.diffuse_rows[2]));
-    if (p.specular > 0.0f)
-        shares.y = cosine_form_factor(to_axes(a, p.specular_rows[0], p.specular_rows[1], p.specular_rows[2]),
-            to_axes(b, p.specular_rows[0], p.specular_rows[1], p.specular_rows[2]),
-            to_axes(c, p.specular_rows[0], p.specular_rows[1], p.specular_rows[2]));
+    ROLLED_FOR (uint lobe = 0u; lobe < 2u; lobe++) {
+        bool is_first = lobe == 0u;
+        if ((is_first ? p.diffuse : p.specular) > 0.0f) {
+            float share = form_factor(fan, is_first ? p.diffuse_rows[0] : p.specular_rows[0],
+                is_first ? p.diffuse_rows[1] : p.specular_rows[1], is_first ? p.diffuse_rows[2] : p.specular_rows[2]);
+            shares = is_first ? vec2(share, 0.0f) : vec2(shares.x, share);
+        }
+    }
     return shares;
 }
 
 // A sphere as the square that faces the surface and looks as large.
-vec2 sphere_form_factors(LightPredictor p, vec3 to_centre, float radius)
+Fan square_of_sphere(vec3 to_centre, float radius)
 {
     float distance2 = dot(to_centre, to_centre), distance = sqrt(distance2);
     const float half_side_of_disc = 0.886226925f; // sqrt(pi) / 2
@@ -186,8 +205,13 @@ vec2 sphere_form_factors(LightPredictor p, vec3 to_centre, float radius)
         * inversesqrt(max(distance2 - radius * radius, 0.02f * distance2));
     vec3 x = any_tangent(to_centre / distance), y = cross(to_centre / distance, x);
     vec3 across = (x + y) * half_side, other = (x - y) * half_side;
-    return form_factors(p, to_centre + across, to_centre + other, to_centre - across)
-        + form_factors(p, to_centre + across, to_centre - across, to_centre - other);
+    Fan square;
+    square.a = to_centre + across;
+    square.b = to_centre + other;
+    square.c = to_centre - across;
+    square.d = to_centre - other;
+    square.triangles = 2u;
+    return square;
 }
 
 // An emitter as its weight sees it.
@@ -309,12 +333,16 @@ float predict_by_ltc(LightPredictor p, LightShape light, EmitterAspect aspect)
 {
     if (!(aspect.solid_angle > 0.0f))
         return 0.0f;
-    vec3 a = light.p0 - p.s.position;
-    vec2 shares = vec2(1.0f); // inside of a sphere: it is all around
-    if (!light.is_sphere)
-        shares = form_factors(p, a, a + light.first, a + light.second);
-    else if (dot(a, a) > light.radius * light.radius)
-        shares = sphere_form_factors(p, a, light.radius);
+    Fan fan;
+    fan.a = light.p0 - p.s.position;
+    fan.b = fan.a + light.first;
+    fan.c = fan.a + light.second;
+    fan.d = fan.c;
+    fan.triangles = 1u;
+    bool is_inside = light.is_sphere && !(dot(fan.a, fan.a) > light.radius * light.radius);
+    if (light.is_sphere)
+        fan = square_of_sphere(fan.a, light.radius);
+    vec2 shares = is_inside ? vec2(1.0f) : form_factors(p, fan); // inside of a sphere: it is all around
     // Transformed cosines end at a horizon of their own, GGX does not: about what it has far off its peak.
     float alpha = ggx_alpha(p.s.roughness);
     float cosine = cosine_bound(aspect, quick_inversesqrt(quick_max(aspect.length2, 1e-20f)));

@@ -2,6 +2,8 @@
 // Next event estimation: one light chosen by the light sampler that this pass was built with, one point on it, one shadow ray.
 // With samplers that say so, MIS: the ray that goes on from the surface anyway counts the emitters that it meets, and both
 // ways to find a point share its light by mis_share.
+// VKPT_SAMPLER_MIS is defined for those samplers alone (shaders/CMakeLists.txt, from their light_sampler_mis): drivers put every call in
+// line before they find out that a constant condition never holds, and a third of the code would be that.
 #ifndef VKPT_LIB_LIGHTING
 #define VKPT_LIB_LIGHTING
 
@@ -56,8 +58,10 @@ ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bo
     if (!trace_visible(shadow, mask_shadow))
         return result;
     float density = point.pdf * light.probability;
-    if (light_sampler_mis && bsdf_ray_follows && is_met_by_rays(emitter))
+#ifdef VKPT_SAMPLER_MIS
+    if (bsdf_ray_follows && is_met_by_rays(emitter))
         density /= mis_share(density, pdf_bsdf(s, point.direction));
+#endif
     vec3 incoming = radiance / density;
     result.diffuse = bsdf.diffuse * incoming;
     result.specular = bsdf.specular * incoming;

@@ -255,12 +255,10 @@ vec3 sample_disc_triangle(vec3 a, vec3 b, vec3 c, vec2 xi)
 vec3 sample_projected_triangle(ProjectedTriangle p, vec2 xi)
 {
     float share = xi.x * p.area;
-    vec3 direction;
-    if (share < p.first_area || p.area <= p.first_area)
-        direction = sample_disc_triangle(p.v0, p.v1, p.v2, vec2(min(share / p.first_area, 1.0f), xi.y));
-    else
-        direction = sample_disc_triangle(
-            p.v0, p.v2, p.v3, vec2(min((share - p.first_area) / (p.area - p.first_area), 1.0f), xi.y));
+    bool in_first = share < p.first_area || p.area <= p.first_area;
+    float rest = in_first ? share / p.first_area : (share - p.first_area) / (p.area - p.first_area);
+    vec3 direction = sample_disc_triangle(
+        p.v0, in_first ? p.v1 : p.v2, in_first ? p.v2 : p.v3, vec2(min(rest, 1.0f), xi.y));
     // Clear of the horizon, where the density would be 0.
     return normalize(p.x * direction.x + p.y * direction.y + p.z * max(direction.z, 1e-4f));
 }

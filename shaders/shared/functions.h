@@ -16,13 +16,16 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vector_relational.hpp>
 #define INOUT(type) type&
+#define ROLLED_FOR for
 // Elements are name.v[i]. `alignment` is what the address is known to be a multiple of.
 #define VKPT_BUFFER(name, type, alignment)                                                                             \
     struct name {                                                                                                      \
         const type* v = nullptr;                                                                                       \
     }
 #else
+#extension GL_EXT_control_flow_attributes : require
 #define INOUT(type) inout type
+#define ROLLED_FOR [[dont_unroll]] for
 #define VKPT_BUFFER(name, type, alignment)                                                                             \
     layout(buffer_reference, scalar, buffer_reference_align = alignment) readonly buffer name { type v[]; }
 #endif

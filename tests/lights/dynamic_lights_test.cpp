@@ -253,6 +253,29 @@ TEST(DynamicLights, ThousandsThatAreAlikeKeepTheirSlots)
     EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 1);
 }
 
+// Too many to compare each with each, and told of in another order every frame: their places tell them apart.
+TEST(DynamicLights, ThousandsThatStandStillKeepTheirSlotsInAnyOrder)
+{
+    std::vector<Emitter> lights(2000);
+    for (size_t i = 0; i < lights.size(); i++) {
+        lights[i].p0 = { float(i % 20), float(i / 20), 0 };
+        lights[i].area = 1;
+        lights[i].radiance = glm::vec3(1);
+    }
+    DynamicLights slots;
+    std::vector<Emitter> first = lights;
+    slots.arrange(first);
+    std::mt19937 rng(5);
+    for (int frame = 0; frame < 3; frame++) {
+        std::ranges::shuffle(lights, rng);
+        std::vector<Emitter> arranged = lights;
+        slots.arrange(arranged);
+        ASSERT_EQ(arranged.size(), first.size());
+        for (size_t i = 0; i < first.size(); i++)
+            ASSERT_EQ(arranged[i].p0, first[i].p0) << "frame " << frame;
+    }
+}
+
 // 100,000 static emitters, 32 dlights and 128 entities of 20 emitters each: nothing is cut.
 TEST(LightLists, HaveNoLimit)
 {

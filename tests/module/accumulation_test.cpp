@@ -11,9 +11,6 @@ namespace {
 
 class Accumulation : public testing::Test {
 protected:
-    static void SetUpTestSuite() { Session::share_starts(); }
-    static void TearDownTestSuite() { Session::end_sharing(); }
-
     Accumulation()
     {
         folder_.add_wall("wall", 180);

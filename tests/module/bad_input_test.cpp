@@ -23,9 +23,6 @@ std::vector<std::byte> cut(std::vector<std::byte> bytes, double share)
 
 class BadInput : public testing::Test {
 protected:
-    static void SetUpTestSuite() { Session::share_starts(); }
-    static void TearDownTestSuite() { Session::end_sharing(); }
-
     BadInput()
     {
         folder_.add_wall("wall", 180);

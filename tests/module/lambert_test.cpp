@@ -208,9 +208,6 @@ double sphere_irradiance(glm::vec3 light, glm::vec3 p)
 
 class PointLight : public testing::Test {
 protected:
-    static void SetUpTestSuite() { Session::share_starts(); }
-    static void TearDownTestSuite() { Session::end_sharing(); }
-
     static constexpr int style = 32;
     const glm::vec3 light_ { 16, -8, light_height };
     const std::array<glm::vec3, 4> places_ { { { 16, -8, 0 }, { 100, 0, 0 }, { -150, 120, 0 }, { 0, 0, 60 } } };

@@ -46,6 +46,12 @@ std::filesystem::path between_sessions()
     return folder.path() / "baseq2/maps/between_sessions.bsp";
 }
 
+// The last module ends with the tests, while the driver is still whole.
+class LastModule : public testing::Environment {
+    void TearDown() override { Session::end_idle(); }
+};
+const testing::Environment* const last_module = testing::AddGlobalTestEnvironment(new LastModule);
+
 } // namespace
 
 Session::Session(const std::filesystem::path& base_folder, const CvarList& cvars, glm::ivec2 size)
@@ -118,20 +124,12 @@ Session::~Session()
 {
     if (!running_)
         return;
-    if (!shares_starts_)
-        return;
     running_->session = nullptr;
     client::HostImports::use_files(host(), nullptr);
     idle_ = std::move(running_);
 }
 
 void Session::end_idle() { idle_ = nullptr; }
-
-void Session::end_sharing()
-{
-    shares_starts_ = false;
-    end_idle();
-}
 
 bool Session::has_line(std::string_view part) const
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One run of the real module: started with validation, a map registered, frames drawn, pictures taken.
 // Any line of the validation layers fails the running test.
-// A start takes seconds, nearly all of them for shaders. So suites can share starts: a module that a session has left is
-// taken over by the next one that wants the same settings, without its map, every cvar at its default, the console empty.
+// A start takes seconds, nearly all of them for shaders. So a module that a session has left is taken over by the next one that
+// wants the same settings, without its map, every cvar at its default, the console empty.
 #pragma once
 
 #include "client/host/host.hpp"
@@ -23,9 +23,6 @@ public:
         const std::filesystem::path& base_folder, const CvarList& cvars = {}, glm::ivec2 size = { 64, 48 });
     explicit Session(const GameFolder& folder, const CvarList& cvars = {}, glm::ivec2 size = { 64, 48 });
     ~Session();
-    // From now on, or until end_sharing(): for SetUpTestSuite and TearDownTestSuite.
-    static void share_starts() { shares_starts_ = true; }
-    static void end_sharing();
     // The next session's module is a new one.
     static void end_idle();
 
@@ -62,7 +59,6 @@ private:
         Session* session = nullptr;
     };
     static std::unique_ptr<Running> idle_;
-    static inline bool shares_starts_ = false;
 
     void start(const CvarList& cvars, glm::ivec2 size, std::vector<std::string> key);
     void take_over(const CvarList& cvars);

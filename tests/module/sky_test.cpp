@@ -21,9 +21,6 @@ constexpr Side sides[]
 
 class Sky : public testing::Test {
 protected:
-    static void SetUpTestSuite() { Session::share_starts(); }
-    static void TearDownTestSuite() { Session::end_sharing(); }
-
     Sky()
     {
         for (const Side& side : sides) {

@@ -17,9 +17,6 @@ constexpr float cube_half = 8;
 // A floor, a lamp high above, and a mirror at y = 100.
 class Visibility : public testing::Test {
 protected:
-    static void SetUpTestSuite() { Session::share_starts(); }
-    static void TearDownTestSuite() { Session::end_sharing(); }
-
     Visibility()
     {
         folder_.add_wall("wall", 180);
