@@ -68,8 +68,8 @@ build_harnesses() {
             || die "cmake failed"
     done
     run_step fuzz-build "Building the harnesses under both sanitizers" \
-        cmake --build "$checked" --target fuzzers fuzz_seeds || die "the build failed"
-    run_step fuzz-fast-build "Building the harnesses without them" cmake --build "$fast" --target fuzzers || die "the build failed"
+        cmake --build "$checked" --target harness_programs fuzz_seeds || die "the build failed"
+    run_step fuzz-fast-build "Building the harnesses without them" cmake --build "$fast" --target harness_programs || die "the build failed"
 }
 
 # Executions that libFuzzer's log tells of.

@@ -17,7 +17,7 @@ cmake -S "$root" -B "$WORK/build" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLA
     -DCMAKE_EXE_LINKER_FLAGS="-static-libstdc++ -static-libgcc" \
     -DPNG_LIBRARY="$(find_static png)" -DZLIB_LIBRARY="$(find_static z)" -DJPEG_LIBRARY="$(find_static jpeg)" \
     -DVKPT_READERS_ONLY=ON -DVKPT_FUZZ=ON -DBUILD_TESTING=OFF
-cmake --build "$WORK/build" --target fuzzers fuzz_seeds
+cmake --build "$WORK/build" --target harness_programs fuzz_seeds
 
 while read -r name; do
     cp "$WORK/build/fuzz/${name}_fuzzer" "$OUT/"

@@ -23,8 +23,11 @@
 #endif
 #endif
 #ifdef VKPT_COUNTS_MEMORY
-#include <sanitizer/allocator_interface.h>
 #include <sanitizer/common_interface_defs.h>
+// Of <sanitizer/allocator_interface.h>, which GCC's packages leave out.
+extern "C" size_t __sanitizer_get_allocated_size(const volatile void* memory);
+extern "C" int __sanitizer_install_malloc_and_free_hooks(
+    void (*allocated)(const volatile void*, size_t), void (*freed)(const volatile void*));
 #endif
 
 namespace {
@@ -32,8 +35,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t most_memory = size_t(512) << 20; // bytes held at once, above what was held before the input
+#ifdef VKPT_COUNTS_MEMORY
+constexpr double most_seconds = 25; // of CPU: sanitizers take up to five times as long
+#else
 constexpr double most_seconds = 5; // of CPU
-constexpr long seconds_until_end = 30; // of CPU: it will not come to an end by itself
+#endif
+constexpr long seconds_until_end = 60; // of CPU: it will not come to an end by itself
 
 const char* current_input = "(none)";
 
@@ -62,7 +69,7 @@ void count_allocation(const volatile void*, size_t size)
 void count_release(const volatile void* memory)
 {
     if (memory)
-        held -= __sanitizer_get_allocated_size(const_cast<const void*>(memory));
+        held -= __sanitizer_get_allocated_size(memory);
 }
 
 void watch_memory()

@@ -212,7 +212,7 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
         material.uv_scroll = scroll_of(texinfo, time);
     }
     // Two pictures a second, as the classic renderers show them.
-    const int tick = int(std::max(time, 0.0f) * 2);
+    const int tick = time > 0 ? int(std::min(time * 2, 1e9f)) : 0; // any number may be a view's time
     for (uint32_t i = 0; i < count; i++)
         materials[i] = materials[animation_frame(i, tick)];
     return materials;
