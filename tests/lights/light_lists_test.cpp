@@ -5,6 +5,7 @@
 #include "synthetic_bsp.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <gtest/gtest.h>
 #include <map>
 #include <random>
@@ -124,6 +125,42 @@ TEST(LightLists, HoldEveryEmitterThatIsInSight)
 }
 
 // The lists must also be useful: emitters in other, separate rooms and out of reach are left out.
+// Compilers compute each direction for itself, and may find one of them only.
+TEST(LightLists, HoldWhatIsSeenInOneDirectionOnly)
+{
+    constexpr uint32_t clusters = 16, row_bytes = clusters / 8;
+    formats::Bsp bsp = make_cell_map(4, std::vector<bool>(clusters, true));
+    ASSERT_EQ(bsp.cluster_count, int(clusters));
+    // The first sees itself alone, and all see it.
+    std::vector<uint32_t> head { clusters };
+    std::vector<uint8_t> rows;
+    for (uint32_t cluster = 0; cluster < clusters; cluster++) {
+        const uint32_t offset = uint32_t(4 + 8 * clusters + rows.size());
+        head.insert(head.end(), { offset, offset });
+        if (cluster == 0)
+            rows.insert(rows.end(), { 1, 0, row_bytes - 1 }); // a zero, and how many
+        else
+            rows.insert(rows.end(), row_bytes, 0xff);
+    }
+    bsp.visibility.resize(4 * head.size());
+    std::memcpy(bsp.visibility.data(), head.data(), bsp.visibility.size());
+    bsp.visibility.insert(bsp.visibility.end(), rows.begin(), rows.end());
+    ASSERT_FALSE(bsp.pvs(0).contains(9));
+    ASSERT_TRUE(bsp.pvs(9).contains(0));
+
+    std::vector<Emitter> emitters(clusters);
+    for (uint32_t i = 0; i < clusters; i++) {
+        emitters[i].type = shared::EMITTER_SPHERE;
+        emitters[i].p0 = cell_size * glm::vec3(float(i % 4) + 0.5f, float(i / 4) + 0.5f, 0.5f);
+        emitters[i].p1 = glm::vec3(2, 0, 0);
+        emitters[i].radiance = glm::vec3(1);
+    }
+    LightLists lists;
+    lists.build(bsp, emitters);
+    for (size_t cluster = 0; cluster < clusters; cluster++)
+        EXPECT_EQ(collect_list(lists, cluster).size(), clusters) << cluster;
+}
+
 TEST(LightLists, LeaveOutWhatCannotBeSeen)
 {
     CellWorld world(12, 0.35, 9);
