@@ -99,7 +99,7 @@ run_harness() {
 # The smallest set of inputs that reaches the same, as far as there is room for it in the project.
 keep_corpus() {
     local name=$1 merged=$work/merged/$name file size total=0
-    rm -rf "$merged" && mkdir -p "$merged"
+    rm -rf "$merged" && mkdir -p "$merged" "$root/fuzz/corpus/$name"
     "$checked/fuzz/${name}_fuzzer" -merge=1 -timeout=600 -rss_limit_mb=2048 "$merged" "$root/fuzz/corpus/$name" "$work/corpus/$name" \
         >"$work/log/$name.merge" 2>&1 </dev/null || warn "$name: the corpus could not be merged; see $work/log/$name.merge"
     rm -rf "${root:?}/fuzz/corpus/$name" && mkdir -p "$root/fuzz/corpus/$name"
