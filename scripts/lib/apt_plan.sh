@@ -159,16 +159,26 @@ release or held back: bring the system into order first (apt-get install -f, apt
         | awk '{ sum += $3 } END { printf "%.0f MB", sum / 1e6 }')
 }
 
-# is_wanted_upgrade NAME ORIGIN: Mesa's packages from backports when asked for so, and newer builds of this very release that a
-# development package demands of its library.
+# Mesa's OpenGL libraries, where no GPU uses them, may get their release's own fixes: another Debian revision of the same version.
+# libsdl2-dev asks for that on a machine that is behind by one update of Mesa.
+is_fix_of_unused_mesa() {
+    case ${1%%:*} in
+    libgl1-mesa-dri | libglx-mesa0 | libegl-mesa0 | libglapi-mesa | libgbm1) ;;
+    *) return 1 ;;
+    esac
+    [[ ${2%-*} == "${3%-*}" ]] && ! has_gpu
+}
+
+# is_wanted_upgrade NAME VERSION OLD ORIGIN: Mesa's packages from backports when asked for so, and newer builds of this very release
+# that a development package demands of its library.
 is_wanted_upgrade() {
     local argument release
     for argument in "${plan_arguments[@]}"; do
         [[ ${1%%:*} == "${argument%%[/=]*}" ]] && return 0
     done
-    is_guarded "$1" && return 1
+    is_guarded "$1" && ! is_fix_of_unused_mesa "$1" "$2" "$3" && return 1
     release=$(release_number)
-    [[ -n $release && $2 =~ (^|, ?)Debian(-Security)?:${release%%.*}[./-] ]]
+    [[ -n $release && $4 =~ (^|, ?)Debian(-Security)?:${release%%.*}[./-] ]]
 }
 
 # Ends the script where the plan would touch what the game does not need.
@@ -177,7 +187,7 @@ check_plan() {
     while read -r kind name version old origin; do
         case $kind in
         remove) refused+="   remove $name $version"$'\n' ;;
-        upgrade) is_wanted_upgrade "$name" "$origin" || refused+="   upgrade $name $old to $version"$'\n' ;;
+        upgrade) is_wanted_upgrade "$name" "$version" "$old" "$origin" || refused+="   upgrade $name $old to $version"$'\n' ;;
         esac
     done <<<"$plan_changes"
     [[ -z $refused ]] && return 0

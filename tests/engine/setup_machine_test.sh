@@ -81,6 +81,10 @@ add_the_rest trixie 2.41-12
 add_package old main libc6 2.36-9+deb12u1
 add_package old main libudev1 252.1-1
 add_package old main udev 252.1-1 "libudev1 (= 252.1-1)"
+for version in 22.3.6-1 22.3.5-1; do
+    add_package old main libgl1-mesa-dri $version
+    add_package old main libgbm1 $version "libgl1-mesa-dri (= $version)"
+done
 finish_suite bookworm 12.12 Debian
 finish_suite bookworm-backports '' 'Debian Backports' 'NotAutomatic: yes
 ButAutomaticUpgrades: yes'
@@ -237,6 +241,15 @@ start_machine bookworm
 install_fake libc6 2.36-9+deb12u1
 set_up || expect_equal "an older build of the C library: status" 0 "$(cat "$folder/output")"
 expect_equal "an older build of the C library: its own newer one" 'upgrade libc6 2.36-9+deb12u13' "$(print_changes | sed -n 's/^\(upgrade [^ ]* [^ ]*\).*/\1/p')"
+
+start_machine bookworm libgl1-mesa-dri=22.3.6-1 libgbm1=22.3.6-1
+set_up || expect_equal "Mesa without its release's last fix: status" 0 "$(cat "$folder/output")"
+expect_equal "Mesa without its release's last fix: gets it" 'upgrade libgbm1 22.3.6-1+deb12u1' "$(print_changes | sed -n 's/^\(upgrade lib[^ ]* 22[^ ]*\).*/\1/p')"
+start_machine bookworm libgl1-mesa-dri=22.3.6-1 libgbm1=22.3.6-1
+gpu
+set_up && expect_equal "a GPU's Mesa without its last fix: refused" 1 0
+start_machine bookworm libgl1-mesa-dri=22.3.5-1 libgbm1=22.3.5-1
+set_up && expect_equal "an older Mesa: refused" 1 0
 
 start_machine bookworm
 install_fake libudev1 252.1-1
