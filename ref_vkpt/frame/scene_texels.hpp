@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The scene's tables as buffers of texels, for CPU drivers, which read these in half the time of buffer references
-// (docs/benchmarks.md, "The floor"). GPUs read the tables by address; there every buffer of texels is an empty one.
+// (docs/notes/cpu-driver.md). GPUs read the tables by address; there every buffer of texels is an empty one.
 #pragma once
 
 #include "ref_vkpt/vulkan/bindings.hpp"

@@ -14,7 +14,7 @@
 // / 4.1 / 6.1 with four children and float boxes, 10 / 5.6 / 7.3 with eight, 14 / 6.5 / 9.1 with eight quantised ones,
 // which halve the loads; the driver's own ray query reached 1.3 / .71 / 1.1. All planes of an axis are one texel of 16
 // bytes, whose halves a ray's sign swaps, and the sizes are whole texels: read as such, nodes and triangles cost that
-// driver half of what 64-bit loads do (docs/benchmarks.md).
+// driver half of what 64-bit loads do (docs/notes/cpu-driver.md).
 #include "ref_vkpt/trace/bvh.hpp"
 
 #include "ref_vkpt/trace/reinsertion.hpp"

@@ -427,7 +427,7 @@ void Device::choose_physical_device(const DeviceSettings& settings)
 }
 
 // CPU drivers load a texel lane by lane, and make gathers of what is read by address: which is quicker is the processor's
-// matter (docs/benchmarks.md, "The floor").
+// matter (docs/notes/cpu-driver.md).
 bool Device::choose_texels(TableReads wanted) const
 {
     constexpr uint32_t least_texels = 1u << 27; // tables may grow to so many

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Tables that are read as texels, 16 bytes at once. The CPU driver loads a texel lane by lane and transposes, in 20 ns for the
 // 16 lanes of a vector; by buffer references it makes gathers of eight lanes out of every load, which take 40 ns for as much
-// (docs/benchmarks.md, "The floor"), unless the processor's gathers are quick. GPUs read by address, see Device::reads_texels.
+// (docs/notes/cpu-driver.md), unless the processor's gathers are quick. GPUs read by address, see Device::reads_texels.
 // Needs GL_EXT_samplerless_texture_functions. Define VKPT_TEXEL_SET where it is not 2.
 #ifndef VKPT_LIB_TEXELS
 #define VKPT_LIB_TEXELS
