@@ -12,10 +12,15 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 "$vkpt" info --cvars >"$folder/cvars.md" || die "vkpt info --cvars failed"
-# The README has the first table with name, default and purpose; a bar inside a cell is written \|.
+# The README has those of the first table that players set, with name, default and purpose; a bar inside a cell is written \|.
+players_cvars='pt_bounces pt_light_sampler pt_accumulate flt_denoiser flt_taa pt_render_scale pt_target_ms pt_exposure_bias
+    pt_bloom pt_emission_scale pt_sky_scale pt_dlight_scale pt_trace pt_device'
 awk '/^## /{ table++ } table == 1 && /^\|/' "$folder/cvars.md" | sed 's/\\|/\x01/g' \
-    | awk -F'|' '{ print "|" $2 "|" $3 "|" $6 "|" }' | sed 's/\x01/\\|/g' >"$folder/table"
-[[ $(wc -l <"$folder/table") -gt 3 ]] || die "vkpt info --cvars has no table"
+    | awk -F'|' '{ print "|" $2 "|" $3 "|" $6 "|" }' | sed 's/\x01/\\|/g' >"$folder/whole_table"
+head -n 2 "$folder/whole_table" >"$folder/table"
+for name in $players_cvars; do
+    grep -F "| \`$name\` |" "$folder/whole_table" >>"$folder/table" || die "vkpt info --cvars has no $name, which the README names"
+done
 awk -v table="$folder/table" '
     /<!-- cvars end -->/ { inside = 0 }
     !inside { print }

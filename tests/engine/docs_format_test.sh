@@ -55,10 +55,14 @@ code   with    spaces $twelve $twelve [no link](nowhere.md)
 \`\`\`
 PAGE
 
+printf '# Generated\n\n<!-- Written by a program -->\n\nshort\nlines\n' >"$folder/docs/generated.md"
+cp "$folder/docs/generated.md" "$folder/generated"
+
 "$root/scripts/format_docs.sh" --check "$folder" >"$folder/said" && fail "--check accepts a page that is not wrapped"
 grep -q '^docs/page.md: not wrapped' "$folder/said" || fail "--check does not name the page: $(cat "$folder/said")"
 "$root/scripts/format_docs.sh" "$folder" >"$folder/said" || fail "refuses good pages: $(cat "$folder/said")"
 diff "$folder/expected" "$folder/docs/page.md" || fail "wraps otherwise"
+cmp -s "$folder/generated" "$folder/docs/generated.md" || fail "wraps what a program has written"
 "$root/scripts/format_docs.sh" --check "$folder" >"$folder/said" || fail "--check refuses what it wrote: $(cat "$folder/said")"
 
 printf '[a](gone.md) [b](other.md#gone) [c](#gone) [d](https://example.org/gone)\n' >"$folder/docs/links.md"
