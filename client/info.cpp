@@ -2,6 +2,7 @@
 // vkpt info: what the module found on this machine.
 #include "client/cvar_table.hpp"
 #include "client/options.hpp"
+#include "client/pass_table.hpp"
 #include "client/trace_info.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
 
@@ -20,7 +21,7 @@ constexpr int info_schema = 1;
 struct InfoOptions {
     ModuleOptions module;
     std::string trace;
-    bool json = false, cvars = false;
+    bool json = false, cvars = false, passes = false;
 };
 
 Json make_list(const char* const* names)
@@ -98,6 +99,10 @@ void print_text(const Json& info)
 
 void run_info(const InfoOptions& options)
 {
+    if (options.passes) {
+        fmt::print("{}", make_pass_page());
+        return;
+    }
     if (options.cvars && !options.json) {
         fmt::print("{}", make_cvar_page());
         return;
@@ -131,6 +136,7 @@ void add_info_command(CLI::App& program)
     command->add_flag("--json", options->json, "Machine readable, with a schema number");
     command->add_flag(
         "--cvars", options->cvars, "List the console variables (Markdown; with --json added to the rest)");
+    command->add_flag("--passes", options->passes, "List the passes of a frame (Markdown)");
     add_module_options(*command, options->module);
     add_examples(*command, { "vkpt info", "vkpt info --json --cvars", "vkpt info game.rtrace" });
     command->callback([options] { run_info(*options); });

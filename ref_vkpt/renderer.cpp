@@ -8,7 +8,7 @@
 #include "ref_vkpt/files/cache_folder.hpp"
 #include "ref_vkpt/files/output_folder.hpp"
 #include "ref_vkpt/frame/bench_report.hpp"
-#include "ref_vkpt/frame/frame_shaders.hpp"
+#include "ref_vkpt/frame/pass_shaders.hpp"
 #include "ref_vkpt/frame/trace_measurement.hpp"
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/scene/camera.hpp"

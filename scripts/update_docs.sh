@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Writes the tables of console variables from the one list that the program has: docs/cvars.md and the README's table.
+# Writes the tables that come from the program's lists: docs/cvars.md, the README's table of console variables, docs/passes.md.
 #   scripts/update_docs.sh            writes them
 #   scripts/update_docs.sh --check    says whether they are current (exit status 1: no)
 set -uo pipefail
@@ -12,6 +12,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 "$vkpt" info --cvars >"$folder/cvars.md" || die "vkpt info --cvars failed"
+"$vkpt" info --passes >"$folder/passes.md" || die "vkpt info --passes failed"
 # The README has those of the first table that players set, with name, default and purpose; a bar inside a cell is written \|.
 players_cvars='pt_bounces pt_light_sampler pt_accumulate flt_denoiser flt_taa pt_render_scale pt_target_ms pt_exposure_bias
     pt_bloom pt_emission_scale pt_sky_scale pt_dlight_scale pt_trace pt_device'
@@ -27,9 +28,14 @@ awk -v table="$folder/table" '
     /<!-- cvars begin/ { inside = 1; while ((getline line < table) > 0) print line }' "$root/README.md" >"$folder/README.md"
 
 if [[ ${1:-} == --check ]]; then
-    cmp -s "$folder/cvars.md" "$root/docs/cvars.md" && cmp -s "$folder/README.md" "$root/README.md" && exit 0
-    diff -u "$root/docs/cvars.md" "$folder/cvars.md" | head -n 20
-    diff -u "$root/README.md" "$folder/README.md" | head -n 20
-    die "docs/cvars.md or README.md is out of date: run scripts/update_docs.sh"
+    outdated=
+    for page in docs/cvars.md docs/passes.md README.md; do
+        cmp -s "$folder/${page##*/}" "$root/$page" && continue
+        diff -u "$root/$page" "$folder/${page##*/}" | head -n 20
+        outdated+=" $page"
+    done
+    [[ -z $outdated ]] || die "out of date:$outdated: run scripts/update_docs.sh"
+    exit 0
 fi
-cp "$folder/cvars.md" "$root/docs/cvars.md" && cp "$folder/README.md" "$root/README.md" && say "docs/cvars.md and README.md are current"
+cp "$folder/cvars.md" "$folder/passes.md" "$root/docs/" && cp "$folder/README.md" "$root/README.md" \
+    && say "docs/cvars.md, docs/passes.md and README.md are current"

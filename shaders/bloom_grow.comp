@@ -5,7 +5,7 @@
 #include "lib/frame.glsl"
 #include "lib/bloom.glsl"
 
-layout(push_constant, scalar) uniform PushBlock { BloomPush push; };
+VKPT_PUSH_CONSTANTS
 
 void grow_pixel(uvec2 pixel, uint index)
 {

@@ -6,7 +6,7 @@
 #include "lib/bloom.glsl"
 #include "lib/bsdf.glsl"
 
-layout(push_constant, scalar) uniform PushBlock { BloomPush push; };
+VKPT_PUSH_CONSTANTS
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
 // Very bright pixels count less, or a single one would flicker over the whole picture.

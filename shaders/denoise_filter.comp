@@ -5,7 +5,7 @@
 #include "lib/frame.glsl"
 #include "lib/denoise_taps.glsl"
 
-layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
+VKPT_PUSH_CONSTANTS
 
 // As FilteredLight has it. What is unknown stays so until the next level, but for pixels beside some with more history, as anti-aliasing
 // makes them at every edge: the next level would blur those.

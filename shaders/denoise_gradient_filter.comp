@@ -6,7 +6,7 @@
 #include "lib/frame.glsl"
 #include "lib/denoise.glsl"
 
-layout(push_constant, scalar) uniform PushBlock { FilterPush push; };
+VKPT_PUSH_CONSTANTS
 
 void filter_stratum(uvec2 stratum, uint number)
 {

@@ -7,7 +7,7 @@
 #include "lib/packing.glsl"
 #include "shared/quad.h"
 
-layout(push_constant, scalar) uniform Push { QuadPush push; };
+VKPT_PUSH_CONSTANTS
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer QuadList { Quad v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer QuadTileList { QuadTile v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer QuadIndexList { uint v[]; };

@@ -7,7 +7,7 @@
 #include "lib/light_choice.glsl"
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
-layout(push_constant, scalar) uniform PushBlock { InspectPush push; };
+VKPT_PUSH_CONSTANTS
 
 // As in ref_vkpt/extension.hpp.
 struct InspectedSurface {

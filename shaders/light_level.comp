@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How bright it is where the player stands, for the monsters' eyes (r_lightlevel): direct light on the floor below the eye.
+#define VKPT_ALWAYS_RIS
 #include "lib/frame.glsl"
 #include "lib/lighting.glsl"
 

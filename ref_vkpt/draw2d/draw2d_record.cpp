@@ -98,6 +98,7 @@ void Draw2d::record(VkCommandBuffer commands)
         record_memory_barrier(commands, other_stages, other_writes, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
         const shared::QuadPush push = upload_lists();
+        const DebugLabel label(gpu_.device, commands, "draw_quads");
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
         bindings_.bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, 0);
         vkCmdPushConstants(commands, bindings_.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);

@@ -2,7 +2,7 @@
 #include "ref_vkpt/frame/frame.hpp"
 
 #include "ref_vkpt/engine/engine.hpp"
-#include "ref_vkpt/frame/frame_shaders.hpp"
+#include "ref_vkpt/frame/bloom.hpp"
 #include "ref_vkpt/lights/ltc_table.hpp"
 #include "ref_vkpt/noise/blue_noise.hpp"
 
@@ -30,6 +30,7 @@ constexpr VkAccessFlags shader_access = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SH
 
 Frame::Frame(Graphics& graphics, Workers& workers)
     : graphics_(graphics)
+    , recorder_(graphics)
     , uploads_(graphics.gpu, MemoryKind::staging)
     , moving_writer_(workers)
     , structures_(graphics.gpu)
@@ -153,81 +154,22 @@ uint32_t Frame::write_uniforms(const shared::FrameUniforms& uniforms)
     return offset;
 }
 
-void Frame::bind(uint32_t uniform_offset) const
+void Frame::bind(uint32_t uniform_offset)
 {
+    recorder_.begin(commands_, backend_);
     const Bindings::ViewSets sets { scene_texels_, graphics_.screen.texels() };
     graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, uniform_offset, sets);
     if (backend_ == TraceBackend::pipeline)
         graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, uniform_offset, sets);
 }
 
-// What one pass wrote, the next one reads.
-void Frame::finish_pass(const char* name)
+// The whole image pipeline, as passes.def has it.
+void Frame::record_passes(const shared::FrameUniforms& uniforms)
 {
-    const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
-    record_memory_barrier(commands_, shaders, VK_ACCESS_SHADER_WRITE_BIT, shaders, shader_access);
-    graphics_.timer.mark(commands_, name);
-}
-
-void Frame::record_pass(const char* name, uint32_t groups)
-{
-    vkCmdBindPipeline(
-        commands_, VK_PIPELINE_BIND_POINT_COMPUTE, graphics_.pipelines.compute(std::string(name) + ".comp"));
-    vkCmdDispatch(commands_, groups, 1, 1);
-    finish_pass(name);
-}
-
-// A pass that traces: its shader was built once for each backend.
-void Frame::record_traced_pass(const char* name, const Work& work)
-{
-    record_traced(name, traced_shader(name, backend_), work);
-}
-
-// A pass that chooses lights, and traces: its shader was built once for each light sampler, too.
-void Frame::record_lit_pass(const char* name, const Work& work)
-{
-    record_traced(name, lit_shader(name, backend_), work);
-}
-
-void Frame::record_traced(const char* name, const std::string& shader, const Work& work)
-{
-    if (backend_ == TraceBackend::pipeline) {
-        const RayPipeline& pipeline = graphics_.pipelines.ray(shader);
-        vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.handle);
-        vkCmdTraceRaysKHR(commands_, &pipeline.generation, &pipeline.miss, &pipeline.hit, &pipeline.callable,
-            work.launch.x, work.launch.y, 1);
-    } else {
-        vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, graphics_.pipelines.compute(shader));
-        vkCmdDispatch(commands_, work.groups, 1, 1);
-    }
-    finish_pass(name);
-}
-
-// The whole image pipeline. A pass is its shader's name; what it reads and writes is in shared/screen_buffers.def.
-void Frame::record_passes(const shared::FrameUniforms& uniforms, Surfaces surfaces, bool world)
-{
-    const Work pixels = pixel_work(uniforms.size);
-    if (surfaces == Surfaces::camera)
-        record_traced_pass("primary_visibility", pixels);
-    else
-        record_pass("probe_surfaces", pixels.groups);
-    record_replay(uniforms);
-    record_lit_pass("direct_light", pixels);
-    // Also without bounces: MIS samplers need its rays.
-    record_lit_pass("indirect_light", pixel_work(count_blocks(uniforms.size, uniforms.bounce_block)));
-    if (uniforms.flags & shared::FRAME_DENOISED)
-        record_denoiser(uniforms);
-    record_composition(uniforms);
-    if (uniforms.flags & shared::FRAME_ANTIALIASED)
-        record_pass("temporal_antialiasing", pixel_groups(uniforms.resolved_size));
-    if (surfaces == Surfaces::probes)
-        return;
-    if (world)
-        record_traced_pass("light_level", { 1, { shared::LIGHT_LEVEL_LANES, 1 } });
-    record_pass("exposure", 1);
-    if (uniforms.flags & shared::FRAME_BLOOM)
-        record_bloom(uniforms);
-    record_pass("tone_map", pixel_groups(uniforms.output_size));
+    for (const Pass& pass : pass_rows)
+        if (pass.is_run_with(uniforms.flags))
+            for (const PassStep& step : pass_steps(pass, uniforms))
+                recorder_.record(pass, step);
 }
 
 // What was averaged holds no longer if anything has changed.
@@ -294,7 +236,7 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
     graphics_.timer.mark(commands_, "2d");
     if (counts_rays)
         record_clear_ray_counts();
-    record_passes(uniforms, Surfaces::camera, scene.world != nullptr);
+    record_passes(uniforms);
     if (counts_rays)
         record_read_ray_counts();
     record_memory_barrier(

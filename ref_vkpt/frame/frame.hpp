@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The frame: from a scene and a camera to the picture, as one straight list of passes (record_passes).
+// The frame: from a scene and a camera to the picture, by the straight list of passes in shaders/passes.def.
 #pragma once
 
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/extension.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/frame/outline_upload.hpp"
+#include "ref_vkpt/frame/pass_recorder.hpp"
 #include "ref_vkpt/frame/render_scale.hpp"
 #include "ref_vkpt/frame/scene_texels.hpp"
 #include "ref_vkpt/frame/uploads.hpp"
@@ -117,13 +118,6 @@ private:
         OutlineUpload outlines;
         KeptUpload materials, light_lists, dynamic_light_indices;
     };
-    enum class Surfaces { camera, probes };
-    // How much a pass has to do: workgroups, or launch indices where it is a ray generation shader.
-    struct Work {
-        uint32_t groups;
-        glm::uvec2 launch;
-    };
-    static Work pixel_work(glm::uvec2 size) { return { pixel_groups(size), size }; }
     Buffer make_exposure();
     shared::FrameUniforms make_uniforms(const View& view, glm::uvec2 size);
     // known: primary_visibility asks where moving things were in the last view.
@@ -134,30 +128,12 @@ private:
     void fill_structures(
         shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const MovingTarget& target);
     uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
-    void bind(uint32_t uniform_offset) const;
+    void bind(uint32_t uniform_offset);
     void record_clear_ray_counts() const;
     void record_read_ray_counts() const;
-    void record_passes(const shared::FrameUniforms& uniforms, Surfaces surfaces, bool world);
-    void record_pass(const char* name, uint32_t groups);
+    void record_passes(const shared::FrameUniforms& uniforms);
     void begin_filters(
         shared::FrameUniforms& uniforms, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average);
-    void record_denoiser(const shared::FrameUniforms& uniforms);
-    void record_composition(const shared::FrameUniforms& uniforms);
-    void record_replay(const shared::FrameUniforms& uniforms);
-    void record_gradient(const shared::FrameUniforms& uniforms);
-    void record_spatial_filter(uint32_t groups);
-    static void begin_bloom(shared::FrameUniforms& uniforms);
-    // A pass that is told something.
-    template <class Push> void record_level(const char* name, const Push& push, uint32_t groups)
-    {
-        vkCmdPushConstants(
-            commands_, graphics_.bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);
-        record_pass(name, groups);
-    }
-    void record_traced_pass(const char* name, const Work& work);
-    void record_lit_pass(const char* name, const Work& work);
-    void record_traced(const char* name, const std::string& shader, const Work& work);
-    void finish_pass(const char* name);
     void trace_chunk(std::span<const TracedRay> rays, uint32_t row, const TraceRequest& request, SceneSnapshot& scene,
         const GpuWorld& gpu_world, TracedHit* hits, double& seconds);
     static RenderScale::Limits scale_limits();
@@ -165,10 +141,10 @@ private:
     void read_statistics();
     void follow_changes(const View& view, bool average);
     void prepare_menu(shared::FrameUniforms& uniforms) const;
-    void record_bloom(const shared::FrameUniforms& uniforms);
     void reserve(glm::uvec2 size);
 
     Graphics& graphics_;
+    PassRecorder recorder_;
     FrameUploads uploads_;
     // By the view's number in the frame: all views are drawn after all have been described.
     std::vector<SceneUploads> scene_uploads_;

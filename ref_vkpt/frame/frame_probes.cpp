@@ -33,7 +33,7 @@ void Frame::measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t
             uniforms.flags = shared::FRAME_PROBES | (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0);
             bind(write_uniforms(uniforms));
             graphics_.timer.begin_untimed(graphics_.slot());
-            record_passes(uniforms, Surfaces::probes, true);
+            record_passes(uniforms);
         });
     }
     std::vector<float> picture(size_t(view.size.x) * view.size.y * 3);
@@ -87,7 +87,7 @@ void Frame::trace_chunk(std::span<const TracedRay> rays, uint32_t row, const Tra
             graphics_.timer.begin_untimed(graphics_.slot());
             bind(offset);
             for (uint32_t round = 0; round < rounds; round++)
-                record_traced_pass("probe_rays", pixel_work(view.size));
+                recorder_.record(find_pass(PassId::probe_rays), { pixel_work(view.size), 0, {} });
             record_memory_barrier(commands, graphics_.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT,
                 VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
         });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// GPU time of a frame and of its passes, by timestamps. The full barriers between passes keep them from overlapping, so
-// the times add up. Every timestamp costs Mesa's CPU driver 60 us, as it rasterises a scene of its own for it: so the
-// passes are timed in one frame of a few, and the other ones have two timestamps.
+// GPU time of a frame and of its passes, by timestamps. Each stretch ends where all that came before has finished, so
+// the times add up even where passes overlap. Every timestamp costs Mesa's CPU driver 60 us, as it rasterises a scene
+// of its own for it: so the passes are timed in one frame of a few, and the other ones have two timestamps.
 #pragma once
 
 #include "ref_vkpt/extension.hpp"

@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/graphics.hpp"
 
 #include "ref_vkpt/engine/errors.hpp"
+#include "shaders/shared/present.h"
 
 #include <algorithm>
 
@@ -116,19 +117,15 @@ void Graphics::clear_output()
 
 void Graphics::record_present()
 {
-    struct Push { // of present.comp
-        VkDeviceAddress picture, words;
-        VkExtent2D picture_size, size;
-        uint32_t swap_red_blue, padding;
-    };
     const VkExtent2D extent = swapchain_->extent();
     const OutputPicture& output = screen.output();
-    const Push push { output.words.address(), present_words_.address(), output.size, extent,
-        swapchain_->swaps_red_blue(), 0 };
+    const shared::PresentPush push { output.words.address(), present_words_.address(),
+        { output.size.width, output.size.height }, { extent.width, extent.height }, swapchain_->swaps_red_blue() };
     constexpr VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     record_memory_barrier(commands(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
         VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT, compute,
         VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    const DebugLabel label(device, commands(), "present");
     bindings.bind(commands(), VK_PIPELINE_BIND_POINT_COMPUTE, 0);
     vkCmdBindPipeline(commands(), VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.compute("present.comp"));
     vkCmdPushConstants(commands(), bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <string>
 
 namespace vkpt {
 
@@ -13,7 +12,7 @@ namespace {
 // Random numbers that a light's probability is averaged over: samplers whose probability depends on them spread widely.
 constexpr uint32_t probability_draws = 64;
 constexpr uint32_t counted_choices = 16384;
-constexpr uint32_t most_groups = 64;
+constexpr uint32_t max_groups = 64;
 
 } // namespace
 
@@ -40,11 +39,9 @@ bool Frame::inspect_pixel(glm::uvec2 pixel, SceneSnapshot& scene, const GpuWorld
         bind(write_uniforms(uniforms));
         const shared::InspectPush push { surface_buffer.address(), light_buffer.address(),
             rendered.y * state_.size.x + rendered.x, uint32_t(lights.size()), probability_draws, counted_choices };
-        vkCmdPushConstants(commands, graphics_.bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof push, &push);
-        const std::string shader = "inspect_pixel.comp:" + cvars::values().pt_light_sampler;
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, graphics_.pipelines.compute(shader));
         const uint32_t groups = (uint32_t(lights.size()) + shared::PIXEL_GROUP_SIZE - 1) / shared::PIXEL_GROUP_SIZE;
-        vkCmdDispatch(commands, std::clamp(groups, 1u, most_groups), 1, 1);
+        recorder_.record(
+            find_pass(PassId::inspect_pixel), make_step(push, { std::clamp(groups, 1u, max_groups), { 0, 0 } }));
         record_memory_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     });

@@ -426,8 +426,8 @@ void Device::choose_physical_device(const DeviceSettings& settings)
     identity = identify_driver(physical);
 }
 
-// CPU drivers load a texel lane by lane, and make gathers of what is read by address: which is quicker is the processor's
-// matter (docs/notes/cpu-driver.md).
+// CPU drivers load a texel lane by lane, and make gathers of what is read by address: which is quicker is the
+// processor's matter (docs/notes/cpu-driver.md).
 bool Device::choose_texels(TableReads wanted) const
 {
     constexpr uint32_t least_texels = 1u << 27; // tables may grow to so many
@@ -552,6 +552,22 @@ void Device::name_object(VkObjectType type, uint64_t object, std::string_view na
     info.objectHandle = object;
     info.pObjectName = text.c_str();
     vkSetDebugUtilsObjectNameEXT(handle, &info);
+}
+
+DebugLabel::DebugLabel(const Device& device, VkCommandBuffer commands, const char* name)
+    : commands_(device.has_debug_utils && vkCmdBeginDebugUtilsLabelEXT ? commands : VK_NULL_HANDLE)
+{
+    if (!commands_)
+        return;
+    VkDebugUtilsLabelEXT label { VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT };
+    label.pLabelName = name;
+    vkCmdBeginDebugUtilsLabelEXT(commands_, &label);
+}
+
+DebugLabel::~DebugLabel()
+{
+    if (commands_)
+        vkCmdEndDebugUtilsLabelEXT(commands_);
 }
 
 } // namespace vkpt

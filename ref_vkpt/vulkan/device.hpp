@@ -20,7 +20,8 @@ inline constexpr const char* memory_remedy
 void check_vulkan(VkResult result, const char* call);
 #define VKPT_CHECK(call) ::vkpt::check_vulkan((call), #call)
 
-// How shaders read tables and screen buffers, in the order of pt_table_reads. GPUs read by address, whatever is asked for.
+// How shaders read tables and screen buffers, in the order of pt_table_reads. GPUs read by address, whatever is asked
+// for.
 enum class TableReads { automatic, texels, address };
 
 struct DeviceSettings {
@@ -105,6 +106,18 @@ private:
     bool owns_instance_ = true;
     bool reads_texels_ = false;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+};
+
+// What is recorded while it lives is a group of its own in tools such as RenderDoc, by this name.
+class DebugLabel {
+public:
+    DebugLabel(const Device& device, VkCommandBuffer commands, const char* name);
+    ~DebugLabel();
+    DebugLabel(const DebugLabel&) = delete;
+    DebugLabel& operator=(const DebugLabel&) = delete;
+
+private:
+    VkCommandBuffer commands_;
 };
 
 // "1.2.131"

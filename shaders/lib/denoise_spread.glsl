@@ -6,7 +6,7 @@
 
 #include "denoise_taps.glsl"
 
-layout(push_constant, scalar) uniform PushBlock { SpreadPush push; };
+VKPT_PUSH_CONSTANTS
 
 const float centre_weight = 1.0 / 3.0, tap_weight = 1.0 / 6.0;
 

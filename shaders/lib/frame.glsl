@@ -23,6 +23,9 @@ layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; }
 layout(set = 0, binding = 1) uniform sampler samplers[SAMPLER_COUNT];
 layout(set = 1, binding = 0) uniform texture2D textures[];
 
+// The pass's push constants, whose struct its row in passes.def names.
+#define VKPT_PUSH_CONSTANTS layout(push_constant, scalar) uniform PushBlock { VKPT_PUSH push; };
+
 // A picture that may be another one in every lane. Both the index and what is made of it have to be called nonuniform, or the CPU
 // driver takes the first lane's picture for all.
 #define VKPT_PICTURE(slot, sampler_index) nonuniformEXT(sampler2D(textures[nonuniformEXT(slot)], samplers[sampler_index]))

@@ -9,7 +9,11 @@
 #ifdef VKPT_TRACE_SOFTWARE
 #define VKPT_LANE_MEMORY lane_stack() // see light_subsets.glsl
 #endif
+#ifdef VKPT_ALWAYS_RIS // a pass that measures, whatever sampler the picture is made with
+#include "../light_samplers/ris.glsl"
+#else
 #include "selected_light_sampler.glsl"
+#endif
 
 LightOptions light_options()
 {

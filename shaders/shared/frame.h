@@ -37,6 +37,7 @@ VKPT_CONST uint FRAME_REPLAYED = 256u;  // random numbers follow the buffer rand
 VKPT_CONST uint FRAME_BLOOM = 2048u; // the picture is mixed with what bloom_*.comp made of it
 VKPT_CONST uint FRAME_LAYERED = 8192u; // pixels share out what glass and water show, and are mixed by blend_layers
 VKPT_CONST uint FRAME_COUNT_RAYS = 4096u; // every ray is counted in `ray_counts`
+VKPT_CONST uint FRAME_SPATIAL = 16384u; // the denoiser also filters over neighbours
 
 // Rays of a view, by what they were asked.
 struct RayCounts {

@@ -245,22 +245,23 @@ TEST_F(Cli, WritesRadianceAsExr)
     EXPECT_EQ(green[1][3], 113);
 }
 
-TEST_F(Cli, CvarPageIsTheOneInTheDocs)
+TEST_F(Cli, PagesAreThoseInTheDocs)
 {
-    const ProgramResult result = run({ "info", "--cvars" });
-    EXPECT_EQ(result.status, 0);
-    const std::filesystem::path page(CVAR_PAGE);
-    std::ifstream stream(page);
-    const std::string stored { std::istreambuf_iterator<char>(stream), {} };
-    EXPECT_EQ(result.output, stored) << "write it anew: vkpt info --cvars > docs/cvars.md";
+    for (const auto& [option, name] : { std::pair("--cvars", "cvars.md"), std::pair("--passes", "passes.md") }) {
+        const ProgramResult result = run({ "info", option });
+        EXPECT_EQ(result.status, 0);
+        std::ifstream stream(std::filesystem::path(CVAR_PAGE).parent_path() / name);
+        const std::string stored { std::istreambuf_iterator<char>(stream), {} };
+        EXPECT_EQ(result.output, stored) << "write it anew: vkpt info " << option << " > docs/" << name;
+    }
 }
 
 // What is printed counts once it is written; the buffer's last part is written at the very end.
 TEST_F(Cli, FullStandardOutputIsAFailure)
 {
     ASSERT_EQ(render({ "-o", "a.pfm" }).status, 0);
-    for (const std::string command : { "info --json", "info", "info --cvars", "diff a.pfm a.pfm", "--help", "--man-page",
-             "export --help", "bench maps/sample.bsp --size 4x2 --frames 2" }) {
+    for (const std::string command : { "info --json", "info", "info --cvars", "diff a.pfm a.pfm", "--help",
+             "--man-page", "export --help", "bench maps/sample.bsp --size 4x2 --frames 2" }) {
         const std::string line = std::string("exec '") + VKPT_PROGRAM + "' " + command + " >/dev/full";
         const ProgramResult result = run_program("/bin/sh", { "-c", line }, folder.path(),
             { std::string("VKPT_MODULE=") + FAKE_MODULE, "XDG_CACHE_HOME=" + (folder.path() / "cache").string() });
@@ -275,8 +276,8 @@ TEST_F(Cli, WithoutAHomeNothingIsKept)
     folder.write("tmp/other/file", "");
     const ProgramResult result = run_program("/usr/bin/env",
         { "-u", "HOME", "-u", "XDG_CACHE_HOME", "TMPDIR=" + (folder.path() / "tmp").string(),
-            std::string("VKPT_MODULE=") + FAKE_MODULE, VKPT_PROGRAM, "compare", "maps/sample.bsp", "--samplers", "uniform",
-            "--size", "40x36", "--runs", "2", "--frames", "2", "--reference-spp", "16", "-o", "compared" },
+            std::string("VKPT_MODULE=") + FAKE_MODULE, VKPT_PROGRAM, "compare", "maps/sample.bsp", "--samplers",
+            "uniform", "--size", "40x36", "--runs", "2", "--frames", "2", "--reference-spp", "16", "-o", "compared" },
         folder.path());
     EXPECT_EQ(result.status, 0) << result.errors;
     expect_in(result.errors, "nothing is kept for the next run: there is no home folder");
@@ -507,9 +508,8 @@ TEST_F(Cli, RealModuleRendersTheSampleMap)
 
 TEST_F(Cli, ExportAgreesWithTheModule)
 {
-    const ProgramResult result
-        = run({ "export", "maps/sample.bsp", "--module", REAL_MODULE, "--size", "16x8", "--set", "pt_validation=1", "-o",
-            "scene" });
+    const ProgramResult result = run({ "export", "maps/sample.bsp", "--module", REAL_MODULE, "--size", "16x8", "--set",
+        "pt_validation=1", "-o", "scene" });
     ASSERT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(result.errors.find("vkpt validation:"), std::string::npos) << result.errors;
     const nlohmann::json json = nlohmann::json::parse(folder.read("scene/scene.json"));

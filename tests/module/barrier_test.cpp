@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Barriers between all work that hands on data. Passes hand theirs on by buffer addresses: synchronisation validation
-// does not follow them, and a CPU driver runs passes in order, barriers or not.
+// Barriers between all work that hands on data, as the rows of the passes tell (pass_rows_test.cpp checks those).
+// Passes hand theirs on by buffer addresses: synchronisation validation does not follow them, and a CPU driver runs
+// passes in order, barriers or not.
+#include "ref_vkpt/frame/pass_rows.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/recording_layer.hpp"
 #include "tests/module/session.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -34,7 +37,10 @@ Use use_of(RecordedCommand::Kind kind)
     }
 }
 
-bool covers(VkFlags mask, VkFlags wanted, VkFlags everything) { return (mask & everything) || (mask & wanted) == wanted; }
+bool covers(VkFlags mask, VkFlags wanted, VkFlags everything)
+{
+    return (mask & everything) || (mask & wanted) == wanted;
+}
 
 // Whether what `before` wrote can be read, and written anew, by `after`.
 bool orders(const RecordedCommand& barrier, const Use& before, const Use& after)
@@ -51,12 +57,22 @@ bool is_shader(RecordedCommand::Kind kind)
     return kind == RecordedCommand::dispatch || kind == RecordedCommand::trace;
 }
 
-// What two pieces of work of these kinds have in common is memory that one of them writes.
-bool depend(RecordedCommand::Kind before, RecordedCommand::Kind after)
+const Pass* find_pass(const std::string& name)
 {
-    if (is_shader(before))
-        return after != RecordedCommand::build; // builds read what the host wrote
-    return is_shader(after) && before != RecordedCommand::build; // builds: see structures_are_read_after_builds
+    const auto pass = std::ranges::find(pass_rows, name, &Pass::name);
+    return pass != std::end(pass_rows) ? &*pass : nullptr;
+}
+
+// Whether two pieces of work have memory in common that one of them writes.
+bool depend(const RecordedCommand& before, const RecordedCommand& after)
+{
+    const Pass *const first = find_pass(before.label), *const second = find_pass(after.label);
+    if (first && second)
+        return (first->writes & (second->reads | second->writes)) || (first->reads & second->writes);
+    if (is_shader(before.kind))
+        return after.kind != RecordedCommand::build; // builds read what the host wrote
+    // Builds: see StandBetweenTheDevicesOwnTracesToo.
+    return is_shader(after.kind) && before.kind != RecordedCommand::build;
 }
 
 class Barriers : public testing::Test {
@@ -134,6 +150,9 @@ protected:
                 if (commands[i].kind == RecordedCommand::barrier)
                     continue;
                 shaders += is_shader(commands[i].kind);
+                if (is_shader(commands[i].kind)) {
+                    EXPECT_TRUE(find_pass(commands[i].label)) << "no pass: \"" << commands[i].label << '"';
+                }
                 expect_ordered_to_next(commands, i, fmt::format("frame {}, command {}", frame, i));
             }
             expect_earlier_frames_are_waited_for(commands);
@@ -145,7 +164,7 @@ private:
     static void expect_ordered_to_next(const RecordedCommands& commands, size_t first, const std::string& place)
     {
         for (size_t i = first + 1; i < commands.size(); i++) {
-            if (commands[i].kind == RecordedCommand::barrier || !depend(commands[first].kind, commands[i].kind))
+            if (commands[i].kind == RecordedCommand::barrier || !depend(commands[first], commands[i]))
                 continue;
             bool ordered = false;
             for (size_t between = first + 1; between < i; between++)
@@ -225,6 +244,16 @@ TEST_F(Barriers, StandBetweenTheDevicesOwnTracesToo)
             }
         }
     }
+}
+
+// A pass of one workgroup leaves the device to the next one, where they share nothing.
+TEST_F(Barriers, DoNotStandBetweenPassesThatShareNothing)
+{
+    size_t seen = 0;
+    for (const RecordedCommands& commands : record_frames(2))
+        for (size_t i = 1; i < commands.size(); i++)
+            seen += commands[i].label == "light_level" && commands[i - 1].label == "temporal_antialiasing";
+    EXPECT_GE(seen, 2u);
 }
 
 // What the host reads after a frame (the light level, counted rays) is made visible to it.

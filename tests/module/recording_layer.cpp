@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A Vulkan layer that notes which work a program records into its command buffers, and which barriers between. Data that
-// goes by buffer addresses is nothing that the validation layers could follow.
+// A Vulkan layer that notes which work a program records into its command buffers, and which barriers between. Data
+// that goes by buffer addresses is nothing that the validation layers could follow.
 #include "tests/module/recording_layer.hpp"
 
 #include <vulkan/vk_layer.h>
@@ -25,6 +25,7 @@ struct Next {
 std::map<void*, Next> devices;
 void* recorded_device = nullptr;
 std::map<VkCommandBuffer, RecordedCommands> recording;
+std::map<VkCommandBuffer, std::string> labels; // open ones; they do not nest
 std::vector<RecordedCommands> submitted;
 
 template <class Function, class Handle> Function next_device_function(Handle handle, const char* name)
@@ -39,12 +40,14 @@ void note(VkCommandBuffer commands, const RecordedCommand& command)
     const std::lock_guard lock(mutex);
     if (key_of(commands) == recorded_device)
         recording[commands].push_back(command);
+    if (const auto label = labels.find(commands); label != labels.end() && key_of(commands) == recorded_device)
+        recording[commands].back().label = label->second;
 }
 
-RecordedCommand make_barrier(VkPipelineStageFlags from, VkPipelineStageFlags to, VkAccessFlags from_access,
-    VkAccessFlags to_access, bool global)
+RecordedCommand make_barrier(
+    VkPipelineStageFlags from, VkPipelineStageFlags to, VkAccessFlags from_access, VkAccessFlags to_access, bool global)
 {
-    return { RecordedCommand::barrier, from, to, from_access, to_access, global };
+    return { RecordedCommand::barrier, from, to, from_access, to_access, global, {} };
 }
 
 #define VKPT_NEXT(handle, name) next_device_function<PFN_##name>(handle, #name)
@@ -84,7 +87,7 @@ VKAPI_ATTR void VKAPI_CALL pipeline_barrier(VkCommandBuffer commands, VkPipeline
 
 VKAPI_ATTR void VKAPI_CALL dispatch(VkCommandBuffer commands, uint32_t x, uint32_t y, uint32_t z)
 {
-    note(commands, { RecordedCommand::dispatch });
+    note(commands, { .kind = RecordedCommand::dispatch });
     VKPT_NEXT(commands, vkCmdDispatch)(commands, x, y, z);
 }
 
@@ -92,33 +95,46 @@ VKAPI_ATTR void VKAPI_CALL trace_rays(VkCommandBuffer commands, const VkStridedD
     const VkStridedDeviceAddressRegionKHR* miss, const VkStridedDeviceAddressRegionKHR* hit,
     const VkStridedDeviceAddressRegionKHR* callable, uint32_t width, uint32_t height, uint32_t depth)
 {
-    note(commands, { RecordedCommand::trace });
+    note(commands, { .kind = RecordedCommand::trace });
     VKPT_NEXT(commands, vkCmdTraceRaysKHR)(commands, generation, miss, hit, callable, width, height, depth);
 }
 
 VKAPI_ATTR void VKAPI_CALL build_structures(VkCommandBuffer commands, uint32_t count,
-    const VkAccelerationStructureBuildGeometryInfoKHR* infos, const VkAccelerationStructureBuildRangeInfoKHR* const* ranges)
+    const VkAccelerationStructureBuildGeometryInfoKHR* infos,
+    const VkAccelerationStructureBuildRangeInfoKHR* const* ranges)
 {
-    note(commands, { RecordedCommand::build });
+    note(commands, { .kind = RecordedCommand::build });
     VKPT_NEXT(commands, vkCmdBuildAccelerationStructuresKHR)(commands, count, infos, ranges);
 }
 
 VKAPI_ATTR void VKAPI_CALL fill_buffer(
     VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize offset, VkDeviceSize size, uint32_t data)
 {
-    note(commands, { RecordedCommand::fill });
+    note(commands, { .kind = RecordedCommand::fill });
     VKPT_NEXT(commands, vkCmdFillBuffer)(commands, buffer, offset, size, data);
 }
 
 VKAPI_ATTR void VKAPI_CALL copy_buffer(
     VkCommandBuffer commands, VkBuffer from, VkBuffer to, uint32_t count, const VkBufferCopy* regions)
 {
-    note(commands, { RecordedCommand::copy });
+    note(commands, { .kind = RecordedCommand::copy });
     VKPT_NEXT(commands, vkCmdCopyBuffer)(commands, from, to, count, regions);
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL create_device(
-    VkPhysicalDevice physical, const VkDeviceCreateInfo* info, const VkAllocationCallbacks* callbacks, VkDevice* device);
+VKAPI_ATTR void VKAPI_CALL begin_label(VkCommandBuffer commands, const VkDebugUtilsLabelEXT* label)
+{
+    const std::lock_guard lock(mutex);
+    labels[commands] = label->pLabelName;
+}
+
+VKAPI_ATTR void VKAPI_CALL end_label(VkCommandBuffer commands)
+{
+    const std::lock_guard lock(mutex);
+    labels.erase(commands);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
+    const VkAllocationCallbacks* callbacks, VkDevice* device);
 VKAPI_ATTR VkResult VKAPI_CALL create_instance(
     const VkInstanceCreateInfo* info, const VkAllocationCallbacks* callbacks, VkInstance* instance);
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL get_device_function(VkDevice device, const char* name);
@@ -140,6 +156,8 @@ PFN_vkVoidFunction find_function(const char* name)
         { "vkCmdBuildAccelerationStructuresKHR", PFN_vkVoidFunction(build_structures) },
         { "vkCmdFillBuffer", PFN_vkVoidFunction(fill_buffer) },
         { "vkCmdCopyBuffer", PFN_vkVoidFunction(copy_buffer) },
+        { "vkCmdBeginDebugUtilsLabelEXT", PFN_vkVoidFunction(begin_label) },
+        { "vkCmdEndDebugUtilsLabelEXT", PFN_vkVoidFunction(end_label) },
     };
     for (const auto& [known, function] : functions)
         if (std::strcmp(name, known) == 0)
@@ -151,7 +169,8 @@ PFN_vkVoidFunction get_device_function(VkDevice device, const char* name)
 {
     const std::lock_guard lock(mutex);
     const PFN_vkVoidFunction found = devices.at(key_of(device)).get_function(device, name), own = find_function(name);
-    return own && found ? own : found; // what the driver lacks stays missing
+    const bool is_label = own == PFN_vkVoidFunction(begin_label) || own == PFN_vkVoidFunction(end_label);
+    return own && (found || is_label) ? own : found; // what the driver lacks stays missing
 }
 
 PFN_vkVoidFunction get_instance_function(VkInstance instance, const char* name)
@@ -181,8 +200,7 @@ VkResult create_instance(const VkInstanceCreateInfo* info, const VkAllocationCal
         return VK_ERROR_INITIALIZATION_FAILED;
     const PFN_vkGetInstanceProcAddr next = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
-    const VkResult result
-        = PFN_vkCreateInstance(next(VK_NULL_HANDLE, "vkCreateInstance"))(info, callbacks, instance);
+    const VkResult result = PFN_vkCreateInstance(next(VK_NULL_HANDLE, "vkCreateInstance"))(info, callbacks, instance);
     const std::lock_guard lock(mutex);
     if (result == VK_SUCCESS)
         instances[key_of(*instance)] = next;

@@ -7,6 +7,7 @@
 #endif
 #include <vulkan/vulkan.h>
 
+#include <string>
 #include <vector>
 
 namespace vkpt::tests {
@@ -17,6 +18,7 @@ struct RecordedCommand {
     VkPipelineStageFlags from_stages = 0, to_stages = 0;
     VkAccessFlags from_access = 0, to_access = 0;
     bool global = false;
+    std::string label; // the debug label that it stands under: the pass
 };
 using RecordedCommands = std::vector<RecordedCommand>; // of one command buffer, in order
 

@@ -2,18 +2,18 @@
 // The names of the passes' shaders (see find_shader): some were built once for each trace backend and light sampler.
 #pragma once
 
+#include "ref_vkpt/frame/pass_rows.hpp"
 #include "ref_vkpt/trace/backend.hpp"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace vkpt {
 
-// Of a pass that traces rays.
-std::string traced_shader(std::string_view pass, TraceBackend backend);
-// Of a pass that also chooses lights, by pt_light_sampler.
-std::string lit_shader(std::string_view pass, TraceBackend backend);
+// By pt_light_sampler, where the pass chooses lights.
+std::string shader_of(const Pass& pass, TraceBackend backend);
+// Whether that is a ray generation shader.
+bool is_ray_pipeline(const Pass& pass, TraceBackend backend);
 
 // The compute shaders of a world's frame with the present settings, those first that take longest to compile.
 std::vector<std::string> frame_shaders(TraceBackend backend);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which FRAME_* flags the settings ask for: with them the passes of a view are chosen (pass_rows.hpp), before it is
+// recorded and, to compile ahead, long before.
+#pragma once
+
+#include <cstdint>
+
+namespace vkpt {
+
+// Of the filters of a live view of a world, by the present settings.
+uint32_t filter_flags();
+// Those, bloom, and what a live view of a world may have beside.
+uint32_t possible_flags();
+
+} // namespace vkpt

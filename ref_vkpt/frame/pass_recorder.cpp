@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/frame/pass_recorder.hpp"
+
+#include "ref_vkpt/frame/pass_shaders.hpp"
+
+#include <cassert>
+
+namespace vkpt {
+
+void PassRecorder::begin(VkCommandBuffer commands, TraceBackend backend)
+{
+    commands_ = commands;
+    backend_ = backend;
+    read_ = written_ = 0;
+}
+
+void PassRecorder::wait_for_what_it_uses(const Pass& pass)
+{
+    if ((pass.reads & written_) || (pass.writes & (read_ | written_))) {
+        const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
+        record_memory_barrier(commands_, shaders, VK_ACCESS_SHADER_WRITE_BIT, shaders,
+            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+        read_ = written_ = 0;
+    }
+    read_ |= pass.reads;
+    written_ |= pass.writes;
+}
+
+void PassRecorder::dispatch(const Pass& pass, const PassWork& work)
+{
+    const std::string shader = shader_of(pass, backend_);
+    if (is_ray_pipeline(pass, backend_)) {
+        const RayPipeline& pipeline = graphics_.pipelines.ray(shader);
+        vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.handle);
+        vkCmdTraceRaysKHR(commands_, &pipeline.generation, &pipeline.miss, &pipeline.hit, &pipeline.callable,
+            work.launch.x, work.launch.y, 1);
+    } else {
+        vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, graphics_.pipelines.compute(shader));
+        vkCmdDispatch(commands_, work.groups, 1, 1);
+    }
+}
+
+void PassRecorder::record(const Pass& pass, const PassStep& step)
+{
+    assert(step.push_bytes == pass.push_bytes);
+    wait_for_what_it_uses(pass);
+    const DebugLabel label(graphics_.device, commands_, pass.name);
+    if (step.push_bytes > 0)
+        vkCmdPushConstants(
+            commands_, graphics_.bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, step.push_bytes, step.push.data());
+    dispatch(pass, step.work);
+    graphics_.timer.mark(commands_, pass.name);
+}
+
+} // namespace vkpt
