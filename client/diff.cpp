@@ -38,11 +38,12 @@ void check_same_shape(
     const DiffOptions& options, const LinearImage& reference, const std::string& path, const LinearImage& picture)
 {
     if (picture.width != reference.width || picture.height != reference.height)
-        throw Failure(fmt::format("{} has {} x {} pixels, {} has {} x {}: only pictures of one size can be compared; "
-                                  "render both with one --size",
-            options.reference, reference.width, reference.height, path, picture.width, picture.height));
+        throw Failure(
+            fmt::format("{} has {} x {} pixels, {} has {} x {}: only pictures of the same size can be compared; "
+                        "render both with the same --size",
+                options.reference, reference.width, reference.height, path, picture.width, picture.height));
     if (picture.is_display != reference.is_display)
-        throw Failure(fmt::format("{} holds linear radiance, {} a picture as shown: the exposure and the tone curve "
+        throw Failure(fmt::format("{} has linear radiance, {} a picture as shown: the exposure and the tone curve "
                                   "between them are not known; write both as .pfm or .exr, or both as .png",
             picture.is_display ? options.reference : path, picture.is_display ? path : options.reference));
 }
@@ -85,7 +86,7 @@ void run_diff(const DiffOptions& options)
     if (!options.heat_map.empty() && !options.heat_map.ends_with(".png"))
         throw WrongUse(fmt::format("-o {}: the heat map is a PNG; name FILE.png", options.heat_map));
     if (!options.heat_map.empty() && options.pictures.size() > 1)
-        throw WrongUse("-o: a heat map is made of one picture; name only one beside the reference");
+        throw WrongUse("-o: a heat map needs exactly one picture beside the reference");
     std::optional<OutputFile> output;
     if (!options.heat_map.empty())
         output.emplace(options.heat_map);
@@ -108,14 +109,14 @@ void run_diff(const DiffOptions& options)
 void add_diff_command(CLI::App& program)
 {
     const auto options = std::make_shared<DiffOptions>();
-    CLI::App* command
-        = program.add_subcommand("diff", "Error figures of pictures against a reference, and a heat map of one");
-    command->add_option("REFERENCE", options->reference, "What counts as right: .png, .pfm or .exr")->required();
-    command->add_option("PICTURE", options->pictures, "What is compared with it, of the same size and kind")
+    CLI::App* command = program.add_subcommand(
+        "diff", "Measure the error of pictures against a reference, and draw a heat map of one");
+    command->add_option("REFERENCE", options->reference, "The reference: .png, .pfm or .exr")->required();
+    command->add_option("PICTURE", options->pictures, "Pictures to compare with it, of the same size and kind")
         ->required();
     command
-        ->add_option(
-            "-o,--output", options->heat_map, "Heat map of the perceived difference: black none, pale yellow the most")
+        ->add_option("-o,--output", options->heat_map,
+            "Heat map of the perceived difference: from black (none) to pale yellow (most)")
         ->type_name("FILE.png");
     command
         ->add_option("--exposure", options->exposure,
@@ -123,7 +124,8 @@ void add_diff_command(CLI::App& program)
             "middle grey)")
         ->type_name("FACTOR")
         ->check(CLI::PositiveNumber);
-    command->add_option("--ppd", options->pixels_per_degree, "Pixels per degree of the viewer's sight, for flip")
+    command
+        ->add_option("--ppd", options->pixels_per_degree, "Pixels per degree of the viewer's field of view, for flip")
         ->type_name("N")
         ->check(CLI::Range(1.0, 1000.0))
         ->capture_default_str();
@@ -132,7 +134,7 @@ void add_diff_command(CLI::App& program)
                     "rel_mse   mean of error^2 / reference^2, pixel by pixel\n"
                     "mean_diff difference of the means / mean of the reference\n"
                     "flip      0 equal .. 1, what a viewer sees flipping between the two (Andersson et al. 2020)\n"
-                    "low/high  power of the error below 1/8 cycle per pixel by that above; white noise has 1\n"
+                    "low/high  power of the error below 1/8 cycle per pixel divided by that above; white noise has 1\n"
                     "Example: vkpt diff reference.pfm picture.pfm -o heat.png");
     command->callback([options] { run_diff(*options); });
 }

@@ -131,9 +131,9 @@ void add_info_command(CLI::App& program)
 {
     const auto options = std::make_shared<InfoOptions>();
     CLI::App* command = program.add_subcommand(
-        "info", "Show device, driver, ray backends, light samplers and limits; or what a trace holds");
+        "info", "Show device, driver, ray backends, light samplers and limits; or the contents of a trace");
     command->add_option("TRACE", options->trace, "A FILE.rtrace");
-    command->add_flag("--json", options->json, "Machine readable, with a schema number");
+    command->add_flag("--json", options->json, "Machine-readable, with a schema number");
     command->add_flag(
         "--cvars", options->cvars, "List the console variables (Markdown; with --json added to the rest)");
     command->add_flag("--passes", options->passes, "List the passes of a frame (Markdown)");

@@ -36,7 +36,7 @@ int report(ExitStatus status, const char* text)
 int main(int argc, char** argv)
 {
     CLI::App program(
-        "Path tracing for Quake II, without the engine: pictures and figures of maps and recorded games.", "vkpt");
+        "Path tracing for Quake II without the engine: pictures and measurements of maps and recorded games.", "vkpt");
     program.footer("Exit status: 0 done, 1 failed, 2 wrong use.");
     program.require_subcommand(1);
     vkpt::client::add_info_command(program);

@@ -72,10 +72,10 @@ std::string make_man_page(CLI::App& program)
             page += fmt::format(".PP\n.nf\n{}\n.fi\n", escape(command->get_footer()));
     }
     page += ".SH EXIT STATUS\n0 done, 1 failed, 2 wrong use.\n"
-            ".SH ENVIRONMENT\n.TP\n.B VKPT_MODULE\nThe refresh module to host.\n"
-            ".TP\n.B VKPT_BASEDIR\nThe folder that holds baseq2.\n"
-            ".TP\n.B VKPT_ENGINE\nThe engine that records.\n"
-            ".TP\n.B VKPT_CACHE_DIR\nWhere driver and module keep what they compiled.\n";
+            ".SH ENVIRONMENT\n.TP\n.B VKPT_MODULE\nThe refresh module to load.\n"
+            ".TP\n.B VKPT_BASEDIR\nThe folder that contains baseq2.\n"
+            ".TP\n.B VKPT_ENGINE\nThe engine to record with.\n"
+            ".TP\n.B VKPT_CACHE_DIR\nWhere driver and module keep compiled shaders.\n";
     return page;
 }
 
@@ -121,8 +121,8 @@ void add_manual_options(CLI::App& program)
             },
             help);
     };
-    add("--man-page", make_man_page, "Print the manual for man(1)");
-    add("--completion", make_bash_completion, "Print bash's completion of this program: source <(vkpt --completion)");
+    add("--man-page", make_man_page, "Print the manual page for man(1)");
+    add("--completion", make_bash_completion, "Print the bash completion: source <(vkpt --completion)");
 }
 
 } // namespace vkpt::client

@@ -15,18 +15,20 @@ void add_module_options(CLI::App& command, ModuleOptions& options)
         .add_option(
             "--module", options.module, "The ref_vkpt.so to use (default: $VKPT_MODULE, then beside this program)")
         ->type_name("PATH");
-    command.add_option("--set", options.settings, "A console variable's value; may be repeated (`vkpt info --cvars`)")
+    command
+        .add_option(
+            "--set", options.settings, "Set a console variable; may be repeated (`vkpt info --cvars` lists them)")
         ->type_name("NAME=VALUE")
         ->take_all()
         ->expected(1);
-    command.add_flag("--verbose", options.verbose, "Show the module's console on stderr");
+    command.add_flag("--verbose", options.verbose, "Print the module's console output on stderr");
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& options)
 {
     command
         .add_option("SCENE", options.scene,
-            "maps/NAME.bsp[@x,y,z,pitch,yaw], without a camera: the first player start; or FILE.rtrace[@frame]")
+            "maps/NAME.bsp[@x,y,z,pitch,yaw] (default camera: the first player start) or FILE.rtrace[@frame]")
         ->required();
     command.add_option("--size", options.size, "Picture size in pixels")->type_name("WxH")->capture_default_str();
     command.add_option("--seed", options.seed, "Seed of the random numbers; 0: a new one each frame")
@@ -37,9 +39,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options)
 
 void add_data_options(CLI::App& command, std::string& base_folder, std::string& game)
 {
-    command.add_option("--basedir", base_folder, "The folder that holds \"baseq2\" (default: the usual places)")
+    command.add_option("--basedir", base_folder, "The folder that contains \"baseq2\" (default: the usual places)")
         ->type_name("DIR");
-    command.add_option("--game", game, "A game's folder beside baseq2, searched before it")->type_name("NAME");
+    command.add_option("--game", game, "A game folder beside baseq2, searched first")->type_name("NAME");
 }
 
 void add_examples(CLI::App& command, std::initializer_list<const char*> lines)

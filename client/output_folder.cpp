@@ -15,7 +15,7 @@ OutputFolder::OutputFolder(const fs::path& path, const std::vector<std::string>&
     std::error_code error;
     is_new_ = fs::create_directories(path, error);
     if (error || !fs::is_directory(path, error))
-        throw Failure(fmt::format("-o {}: cannot make this folder: {}; name one that may be written to", path.string(),
+        throw Failure(fmt::format("-o {}: cannot make this folder: {}; name a writable one", path.string(),
             error ? error.message() : "a file has that name"));
     if (is_new_)
         unfinished_.emplace(path);

@@ -35,7 +35,7 @@ PictureKind picture_kind(const std::string& path)
     if (path.ends_with(".exr"))
         return PictureKind::exr;
     throw WrongUse(
-        fmt::format("-o {}: the ending says the format: .png (as shown), .pfm or .exr (linear radiance)", path));
+        fmt::format("-o {}: the file name must end in .png (as shown), .pfm or .exr (linear radiance)", path));
 }
 
 void write_display(const Extension& extension, OutputFile& output)
@@ -121,7 +121,7 @@ void add_render_command(CLI::App& program)
               ->capture_default_str();
     command
         ->add_option(
-            "--frames", options->frames, "Instead: live frames at 60 a second as in the game; the last is written")
+            "--frames", options->frames, "Draw live frames at 60 a second as in the game instead, and write the last")
         ->type_name("N")
         ->check(CLI::Range(1, 1 << 20))
         ->excludes(samples);

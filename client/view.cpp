@@ -42,8 +42,8 @@ void run_view(const ViewOptions& options)
     for (const auto& [name, value] : parse_settings(options.settings_of_b, "--b")) {
         if (!view::find_setting(live, name))
             throw WrongUse(fmt::format(
-                "--b {}={}: no setting that can change while the renderer runs; `vkpt info --cvars` lists them", name,
-                value));
+                "--b {}={}: not a setting that can change while the renderer runs; `vkpt info --cvars` lists them",
+                name, value));
         viewer.b[name] = value;
     }
     FileSystem files(options.scene.base_folder, options.scene.game);
@@ -60,11 +60,11 @@ void add_view_command(CLI::App& program)
     const auto options = std::make_shared<ViewOptions>();
     options->scene.size = "960x540";
     CLI::App* command
-        = program.add_subcommand("view", "A window on a scene: fly, compare settings, see error, cost and lights");
+        = program.add_subcommand("view", "Show a scene in a window: fly, compare settings, see error, cost and lights");
     add_scene_options(*command, options->scene);
     command
-        ->add_option("--b", options->settings_of_b,
-            "Splits the picture and sets a variable of its right side, B; may be repeated")
+        ->add_option(
+            "--b", options->settings_of_b, "Split the picture and set a variable of its right side, B; may be repeated")
         ->type_name("NAME=VALUE")
         ->take_all()
         ->expected(1);

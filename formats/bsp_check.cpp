@@ -263,7 +263,7 @@ private:
             }
         }
         if (visited != bsp_.nodes.size())
-            fail(Nodes, 0, 0, "some nodes form a ring");
+            fail(Nodes, 0, 0, "some nodes form a cycle");
     }
 
     void check_models() const

@@ -26,8 +26,8 @@ void ByteReader::seek(size_t offset)
 Bytes ByteReader::take(size_t count)
 {
     if (count > remaining())
-        fail(
-            "the file ends here: " + std::to_string(count) + " bytes wanted, " + std::to_string(remaining()) + " left");
+        fail("the file ends here: " + std::to_string(count) + " bytes expected, " + std::to_string(remaining())
+            + " left");
     const Bytes view = bytes_.subspan(position_, count);
     position_ += count;
     return view;

@@ -114,7 +114,7 @@ Image read_jpg(Bytes file, std::string_view name)
     if (!decoder.open(file))
         fail(decoder.reason());
     if (decoder.is_arithmetic()) // takes seconds for a picture without data, and no program writes it
-        fail("arithmetic coding is not supported; save it as an ordinary JPG");
+        fail("arithmetic coding is not supported; save it as a baseline or progressive JPG");
     check_image_size(reader, 0, decoder.width(), decoder.height());
     check_pixel_budget(reader, decoder.width(), decoder.height());
     if (size_t(decoder.width() * decoder.height()) / density_limit > file.size())

@@ -36,7 +36,7 @@ Header read_header(ByteReader& reader)
     const auto header = reader.read<Header>();
     if (header.skin_width < 1 || header.skin_height < 1 || header.skin_width > max_image_size
         || header.skin_height > max_image_size)
-        reader.fail_at(start, "the skin has no sensible size");
+        reader.fail_at(start, "the size of the skin is invalid");
     if (header.frame_count == 0 || header.triangle_count == 0)
         reader.fail_at(start, "a model without frames or triangles");
     if (header.frame_size < sizeof(FrameHeader) + uint64_t(header.vertex_count) * sizeof(Vertex))
@@ -60,7 +60,7 @@ Sources join_corners(ByteReader& reader, const Header& header, Md2Model& model)
             const uint16_t vertex = triangle.vertices[corner], coordinate = triangle.coordinates[corner];
             if (vertex >= header.vertex_count || coordinate >= coordinates.size())
                 reader.fail_at(header.triangles + size_t(&triangle - triangles.data()) * sizeof(Triangle),
-                    "a triangle's corner does not exist");
+                    "a triangle refers to a vertex that does not exist");
             const auto [entry, is_new]
                 = known.try_emplace(uint32_t(vertex) << 16 | coordinate, uint32_t(sources.size()));
             if (is_new) {
@@ -84,7 +84,7 @@ Md2Model::Frame read_frame(ByteReader& reader, const Header& header, size_t offs
     frame.mins = translate;
     frame.maxs = translate + scale * 255.f;
     if (!is_sane(frame.mins) || !is_sane(frame.maxs))
-        reader.fail_at(offset, "the frame's scale or position is not a sensible number");
+        reader.fail_at(offset, "the frame's scale or position is invalid");
     const auto vertices
         = reader.read_array<Vertex>(offset + sizeof(FrameHeader), header.vertex_count, "frame vertices");
     const auto directions = normal_directions();

@@ -44,7 +44,7 @@ Sp2Sprite read_sp2(Bytes file, std::string_view name)
         frame.picture = reader.read_string(picture_name_size);
         for (const int size : { frame.width, frame.height, frame.origin_x, frame.origin_y })
             if (size < -32768 || size > 32768)
-                reader.fail_at(start, "frame " + std::to_string(i) + " has no sensible size or origin");
+                reader.fail_at(start, "frame " + std::to_string(i) + " has an invalid size or origin");
         if (frame.width < 0 || frame.height < 0)
             reader.fail_at(start, "frame " + std::to_string(i) + " has a negative size");
         sprite.frames.push_back(std::move(frame));

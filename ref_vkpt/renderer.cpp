@@ -35,7 +35,7 @@ std::string cache_directory()
 {
     const CacheFolder folder = find_cache_folder();
     if (folder.path.empty())
-        engine::print("ref_vkpt: nothing that is compiled is kept for the next start: {}", folder.reason);
+        engine::print("ref_vkpt: compiled shaders are not kept for the next start: {}", folder.reason);
     return folder.path;
 }
 
@@ -63,7 +63,7 @@ void check_light_sampler()
     std::string known;
     for (std::string_view sampler : names)
         known += known.empty() ? std::string(sampler) : ", " + std::string(sampler);
-    engine::print("vkpt: pt_light_sampler \"{}\" is unknown; there are: {}", name, known);
+    engine::print("vkpt: there is no pt_light_sampler \"{}\"; there are: {}", name, known);
     cvars::set("pt_light_sampler", find_cvar_row("pt_light_sampler")->initial);
     cvars::update();
 }
@@ -127,7 +127,7 @@ void write_bench_report(const Module& m)
     if (name.empty() || m.pass_statistics.empty())
         return;
     if (!is_plain_name(name)) {
-        engine::print("ref_vkpt: pt_bench_json \"{}\" is no name of letters, digits, _ and -", name);
+        engine::print("ref_vkpt: pt_bench_json \"{}\" may have only letters, digits, _ and -", name);
         return;
     }
     BenchFacts facts;
@@ -176,7 +176,7 @@ void close_module()
 void measure_trace_backends(Module& m)
 {
     if (!m.snapshot || m.graphics.is_recording()) {
-        engine::print("ref_vkpt: rays are measured in a view of a map: start one first");
+        engine::print("ref_vkpt: rays are measured in a map: start one first");
         return;
     }
     m.trace_choice.measure(
@@ -256,7 +256,7 @@ bool init()
     if (!size || !running) {
         if (!start_failed)
             engine::print("ref_vkpt: the engine could not open a window of {} x {} for Vulkan; is a Vulkan driver "
-                          "installed (vulkaninfo tells)? On a machine without GPU: mesa-vulkan-drivers",
+                          "installed (see vulkaninfo)? Without a GPU, install mesa-vulkan-drivers",
                 wanted.width, wanted.height);
         return false;
     }
@@ -373,7 +373,7 @@ void render_view(const engine::RefDef& refdef)
         return;
     const bool has_world = !(refdef.flags & engine::RDF_NOWORLDMODEL);
     if (has_world && !m.scene.world())
-        throw LevelError("a view of a world was asked for before any map was registered");
+        throw LevelError("a view of the world was requested before a map was registered");
     m.frame_has_view = true;
     if (m.warm_up)
         m.warm_up->wait();

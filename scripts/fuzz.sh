@@ -9,16 +9,16 @@ print_help() {
     cat <<'HELP'
 Usage: scripts/fuzz.sh [OPTION]... [HOURS]
 
-Builds the fuzz harnesses with clang and runs them by turns for HOURS (1; fractions too), each from the corpus that it has made so
-far. At the end it keeps what is new: a small corpus in fuzz/corpus, findings in fuzz/findings, and
-prints how often each harness ran. Without a finding the exit status is 0; with one, 1.
+Builds the fuzz harnesses with clang and runs them in turns for HOURS (default 1; fractions too), each from its existing
+corpus. At the end it stores what is new, a small corpus in fuzz/corpus and findings in fuzz/findings, and prints how
+often each harness ran. The exit status is 0 without a finding, 1 with one.
 
-  --only NAME,...  these harnesses alone; the names are those of fuzz/*_fuzzer.cpp and of the picture formats
-  --jobs N         so many processes at once (1)
-  --keep           go on with the corpus in build/fuzz-work, but leave fuzz/corpus as it is
+  --only NAME,...  only these harnesses; the names are those of fuzz/*_fuzzer.cpp and of the picture formats
+  --jobs N         this many processes at once (1)
+  --keep           continue with the corpus in build/fuzz-work, but leave fuzz/corpus as it is
   -h, --help       this text
 
-Wants the Debian package clang. Everything else is installed by ./test --setup-only.
+Needs the Debian package clang. Everything else is installed by ./test --setup-only.
 HELP
 }
 
@@ -35,7 +35,7 @@ while (($#)); do
     shift
 done
 [[ $hours =~ ^[0-9]*\.?[0-9]+$ ]] || die_usage "HOURS is a number, not '$hours'"
-[[ $jobs =~ ^[1-9][0-9]*$ ]] || die_usage "--jobs wants a number, not '$jobs'"
+[[ $jobs =~ ^[1-9][0-9]*$ ]] || die_usage "--jobs needs a number, not '$jobs'"
 has clang++ || die "clang++ is not installed: sudo apt install clang"
 
 work=$root/build/fuzz-work

@@ -22,7 +22,7 @@ package=$(find "$root/out/packages" -name 'ref-vkpt_*.deb' | head -n 1)
 say "${package#"$root"/}"
 if has lintian; then
     lintian --allow-root --fail-on error,warning "$package" || die "lintian found the above"
-    say "lintian: nothing to say"
+    say "lintian: no remarks"
 else
     note "lintian is not installed: not checked"
 fi

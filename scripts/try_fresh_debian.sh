@@ -9,7 +9,8 @@ print_help() {
     cat <<'HELP'
 Usage: scripts/try_fresh_debian.sh [OPTION]... SUITE
 
-Makes a bare Debian of SUITE (bookworm or trixie) by debootstrap, clones what is committed here into it, and tries there, in this order:
+Makes a bare Debian of SUITE (bookworm or trixie) with debootstrap, clones what is committed here into it, and tries there, in
+this order:
 
   refuse    ./play and ./test without a terminal and without --yes: they end with 1, say what to do, and install nothing
   root      ./test and ./play as root, cloned into /root, without a terminal
@@ -17,14 +18,14 @@ Makes a bare Debian of SUITE (bookworm or trixie) by debootstrap, clones what is
   package   scripts/make_package.sh; in a second bare system the package is installed, played by an ordinary user, and removed
   uninstall ./play --uninstall: the packages are those of before
 
-  --only PART,...     these parts alone; each wants what the parts before it have installed
+  --only PART,...     only these parts; each needs what the parts before it have installed
   --tests REGEX       of ./test, only the suites whose name matches (all)
-  --folder DIR        where the systems are made (build/fresh/SUITE), some 12 GB; used again where they are there already
+  --folder DIR        where the systems are made (build/fresh/SUITE), some 12 GB; existing ones are used again
   --mirror URL        Debian's mirror (http://deb.debian.org/debian)
   -h, --help          this text
 
-Wants root and the package debootstrap; nothing outside DIR is changed. What the commands said is in DIR/log.
-Exit status: 0 all as it should be, 1 something was not, 2 wrong use.
+Needs root and the package debootstrap; nothing outside DIR is changed. The output of the commands is in DIR/log.
+Exit status: 0 everything was as expected, 1 something was not, 2 wrong use.
 HELP
 }
 
@@ -52,7 +53,7 @@ for part in ${only//,/ }; do
     *) die_usage "there is no part '$part'" ;;
     esac
 done
-is_root || die "debootstrap and chroot want root: sudo scripts/try_fresh_debian.sh $suite"
+is_root || die "debootstrap and chroot need root: sudo scripts/try_fresh_debian.sh $suite"
 has debootstrap || die "debootstrap is not installed: apt install debootstrap"
 folder=${folder:-$root/build/fresh/$suite}
 mkdir -p "$folder/log" || die "cannot make $folder"

@@ -82,7 +82,7 @@ public:
             throw WrongUse(
                 fmt::format("--frames {}: from frame {} on, {} has {}", frames_, first_, options.scene.scene, left));
         if (frames_ < shortest_turn)
-            throw WrongUse(fmt::format("{} has no second frame to measure: choose another scene", options.scene.scene));
+            throw WrongUse(fmt::format("{} has only one frame: choose another scene", options.scene.scene));
         source_->register_with(host_);
         for (const std::string& note : source_->notes())
             std::fprintf(stderr, "vkpt: %s\n", note.c_str());
@@ -224,8 +224,8 @@ HostOptions make_bench_host(const BenchOptions& options)
 void check_same_scene(const BenchResult& before, const BenchResult& now, const std::string& file)
 {
     if (before.scene != now.scene || before.width != now.width || before.height != now.height)
-        throw Failure(fmt::format("--against {}: it is about {} at {} x {}, this run about {} at {} x {}", file,
-            before.scene, before.width, before.height, now.scene, now.width, now.height));
+        throw Failure(fmt::format("--against {}: it measured {} at {} x {}, this run {} at {} x {}", file, before.scene,
+            before.width, before.height, now.scene, now.width, now.height));
 }
 
 void run_bench(const BenchOptions& options)
@@ -270,17 +270,17 @@ void add_bench_command(CLI::App& program)
     CLI::App* command = program.add_subcommand("bench", "Time each pass, count rays and memory");
     add_scene_options(*command, options->scene);
     command
-        ->add_option(
-            "--frames", options->frames, "Measured frames, from the scene's on (default: 200, or what the trace has)")
+        ->add_option("--frames", options->frames,
+            "Frames to measure, from the scene's frame on (default: 200, or as many as the trace has)")
         ->type_name("N")
         ->check(CLI::Range(shortest_turn, 1 << 20));
-    command->add_option("--warmup", options->warmup, "Frames before that do not count")
+    command->add_option("--warmup", options->warmup, "Frames before these that are not measured")
         ->type_name("N")
         ->check(CLI::Range(0, 1 << 20))
         ->capture_default_str();
-    command->add_option("--json", options->json, "Write all figures to FILE, too")->type_name("FILE");
+    command->add_option("--json", options->json, "Also write all figures to FILE")->type_name("FILE");
     command->add_option("--against", options->against, "Compare with an earlier run's --json")->type_name("FILE");
-    command->add_option("--ab", options->ab, "Measure two values of a variable in turns, and compare them")
+    command->add_option("--ab", options->ab, "Measure two values of a variable in turns and compare them")
         ->type_name("NAME=VALUE,VALUE");
     add_module_options(*command, options->module);
     add_examples(*command,

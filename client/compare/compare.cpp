@@ -227,10 +227,10 @@ void add_compare_command(CLI::App& program)
         ->required()
         ->type_name("DIR");
     command
-        ->add_option("--basedir", options->base_folder, "The folder that holds \"baseq2\" (default: the usual places)")
+        ->add_option(
+            "--basedir", options->base_folder, "The folder that contains \"baseq2\" (default: the usual places)")
         ->type_name("DIR");
-    command->add_option("--game", options->game, "A game's folder beside baseq2, searched before it")
-        ->type_name("NAME");
+    command->add_option("--game", options->game, "A game folder beside baseq2, searched first")->type_name("NAME");
     add_module_options(*command, options->module);
     command->footer(
         "Example: vkpt compare maps/vkpt1.bsp --samplers subset,subset_mis --subsets 1,8,64 --noise blue,white "

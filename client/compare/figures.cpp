@@ -50,7 +50,7 @@ public:
                 row.push_back(use(figure.scene, column.sampler, column.subset, denoiser,
                     column.caption + (denoiser == std::string_view("off") ? "" : ", filtered")));
             const bool is_filtered = denoiser != std::string_view("off");
-            row.push_back({ "", is_filtered ? "reference of pixels' centres" : "reference", is_filtered });
+            row.push_back({ "", is_filtered ? "reference (pixel centres)" : "reference", is_filtered });
             figure.rows.push_back(std::move(row));
         }
         plan_.figures.push_back(std::move(figure));
@@ -79,13 +79,14 @@ FigurePlan plan_chapter_figures(const ModuleInfo& module)
 {
     Plan plan;
     plan.add({ "Figure 47-1: one sample per pixel, without and with the filter",
-                 "All lights alike, importance sampling in a stochastic subset of 8, and the converged picture. Above "
-                 "as sampled, below filtered by A-SVGF.",
+                 "Uniform sampling, importance sampling in a stochastic subset of 8, and the converged picture. Above "
+                 "unfiltered, below filtered by A-SVGF.",
                  0, {}, 0.5, 0.5, 1 },
         many_lights, { { "uniform", 1, "uniform" }, { "subset", 8, "subset of 8" } }, { "off", filter });
-    plan.add({ "Figure 47-4: the length of the subset",
-                 "The longer the subset, the better its lights stand for all; the filter makes less of bad samples.", 0,
-                 {}, 0.5, 0.5, 1 },
+    plan.add(
+        { "Figure 47-4: the length of the subset",
+            "The longer the subset, the better it represents all lights; the filter recovers less from bad samples.", 0,
+            {}, 0.5, 0.5, 1 },
         many_lights,
         { { "uniform", 1, "uniform" }, { "subset", 1, "1" }, { "subset", 8, "8" }, { "subset", 16, "16" },
             { "subset", 32, "32" }, { "subset", 64, "64" } },
@@ -93,12 +94,12 @@ FigurePlan plan_chapter_figures(const ModuleInfo& module)
     const std::vector<Plan::Column> mis { { "subset", 8, "no MIS" }, { "subset_mis", 8, "MIS" },
         { "subset_mis_blue", 8, "MIS, blue offsets (ours)" } };
     plan.add({ "Figure 47-5: with and without multiple importance sampling, beside lamps",
-                 "Close to an emitter its points contribute very differently, which light sampling cannot foresee and "
-                 "rays of the BSDF do.",
+                 "Close to an emitter its points contribute very differently, which light sampling cannot predict, but "
+                 "BSDF sampling can.",
                  0, {}, 0.5, 0.5, 1 },
         beside_lamps, mis, { "off", filter });
     plan.add({ "Figure 47-6: with and without multiple importance sampling, glossy surfaces",
-                 "In highlights rays of the BSDF find the emitter; the pseudo-marginal weights keep the mean right.", 0,
+                 "In highlights BSDF sampling finds the emitter; the pseudo-marginal weights keep the mean right.", 0,
                  {}, 0.5, 0.5, 1 },
         glossy_floor, mis, { "off", filter });
     plan.add({ "Figure 47-7: how the error is spread over the pixels",
@@ -122,7 +123,7 @@ std::vector<Figure> plan_plain_figures(const std::vector<FigureScene>& scenes)
         Figure figure;
         figure.is_free = true;
         figure.title = scenes[i].scene;
-        figure.text = "Choose what stands side by side in the table below.";
+        figure.text = "Select the pictures to compare in the table below.";
         figure.scene = i;
         figure.rows.emplace_back();
         for (size_t v = 0; v < std::min(scenes[i].variants.size(), plain_columns); v++)

@@ -147,54 +147,53 @@ const Column columns[] = {
     { "frame", "", false, [](const SceneResult& s, const VariantResult&) { return Cell { std::to_string(s.frame) }; } },
     { "sampler", "pt_light_sampler", true,
         [](const SceneResult&, const VariantResult& r) { return Cell { r.variant.sampler }; } },
-    { "subset", "pt_light_subset; empty: the sampler has none", false,
+    { "subset", "pt_light_subset; empty: the sampler does not use it", false,
         [](const SceneResult&, const VariantResult& r) {
             return Cell { r.variant.subset ? std::to_string(*r.variant.subset) : "" };
         } },
     { "noise", "pt_noise", true, [](const SceneResult&, const VariantResult& r) { return Cell { r.variant.noise }; } },
     { "denoiser", "flt_denoiser", true,
         [](const SceneResult&, const VariantResult& r) { return Cell { r.variant.denoiser }; } },
-    { "spp", "Samples per pixel of each picture; filtered ones: of each frame, with the frames before", false,
+    { "spp", "Samples per pixel of each picture; for filtered ones, of each frame after the warm-up frames", false,
         [](const SceneResult&, const VariantResult& r) { return Cell { std::to_string(r.samples) }; } },
-    { "RMSE", "Root mean square error of luminance by the mean of the reference", false,
+    { "RMSE", "Root mean square error of luminance, divided by the mean of the reference", false,
         [](const SceneResult&, const VariantResult& r) { return number_cell(r.error.rmse, 4); }, true },
     { "rel. MSE", "Mean of error^2 / (reference^2 + 1e-4 mean^2), pixel by pixel", false,
         [](const SceneResult&, const VariantResult& r) { return number_cell(r.error.relative_mse, 3); }, true },
-    { "FLIP",
-        "What a viewer sees flipping between picture and reference (Andersson et al. 2020): 0 nothing, 1 the most",
+    { "FLIP", "Difference seen when flipping between picture and reference (Andersson et al. 2020): 0 none, 1 the most",
         false, [](const SceneResult&, const VariantResult& r) { return number_cell(r.flip, 4); }, true },
     { "bias %",
-        "Difference of the means. Marked: beyond its 95 % confidence interval, as one of twenty without bias is", false,
-        [](const SceneResult&, const VariantResult& r) { return bias_cell(r); } },
+        "Difference of the means. Marked: outside its 95 % confidence interval, as one in twenty unbiased variants is",
+        false, [](const SceneResult&, const VariantResult& r) { return bias_cell(r); } },
     { "± %", "Half of that interval, from the runs and the reference", false,
         [](const SceneResult&, const VariantResult& r) { return number_cell(100 * r.bias.interval, 2); } },
     { "local bias %",
-        "Root mean square of what is systematic in blocks of 16 x 16 pixels, by the mean of the reference. Marked: "
+        "Root mean square of the systematic error in blocks of 16 x 16 pixels, divided by the mean of the reference. "
+        "Marked: "
         "more than twice the mean square that chance explains",
         false, [](const SceneResult&, const VariantResult& r) { return local_bias_cell(r); } },
-    { "low/high", "Power of the relative error below 1/8 cycle per pixel by that above: white noise 1, blue noise less",
+    { "low/high",
+        "Power of the relative error below 1/8 cycle per pixel divided by that above: white noise 1, blue noise less",
         false,
         [](const SceneResult&, const VariantResult& r) {
             return r.spectrum.power.empty() ? Cell() : number_cell(r.spectrum.low_to_high(), 3);
         } },
-    { "flicker",
-        "Root mean square change from frame to frame that is not the reference's, by the mean of the reference", false,
+    { "flicker", "Root mean square change between frames that the reference does not have, divided by its mean", false,
         [](const SceneResult&, const VariantResult& r) { return number_cell(r.flicker, 4); }, true },
     { "ms", "Time of a frame's passes on the device: median", false,
         [](const SceneResult&, const VariantResult& r) { return r.ms > 0 ? number_cell(r.ms, 1) : Cell(); }, true },
     { "light ms", "direct_light and indirect_light alone: median", false,
         [](const SceneResult&, const VariantResult& r) { return r.light_ms > 0 ? number_cell(r.light_ms, 1) : Cell(); },
         true },
-    { "ratio", "The same, to the scene's first row: median over runs, which take turns", false,
+    { "ratio", "The same relative to the scene's first row: median over runs, which take turns", false,
         [](const SceneResult&, const VariantResult& r) {
             return r.light_ms > 0 ? number_cell(r.light_ratio, 3) : Cell();
         } },
-    { "equal-time spp", "Samples that fit the time which the slowest unfiltered variant of the scene needs for its own",
-        false,
+    { "equal-time spp", "Samples that take as long as those of the scene's slowest unfiltered variant", false,
         [](const SceneResult&, const VariantResult& r) {
             return r.equal_time_samples ? number_cell(*r.equal_time_samples, 2) : Cell();
         } },
-    { "equal-time RMSE", "RMSE by then, from the measured curve", false,
+    { "equal-time RMSE", "RMSE with that many samples, from the measured curve", false,
         [](const SceneResult&, const VariantResult& r) {
             return r.equal_time_rmse ? number_cell(*r.equal_time_rmse, 4) : Cell();
         },
@@ -288,7 +287,7 @@ std::string make_plots(const SceneResult& scene)
 
 std::string make_references(const Report& report)
 {
-    std::string text = "<section id=\"references\"><h2>What is compared with</h2>\n";
+    std::string text = "<section id=\"references\"><h2>References</h2>\n";
     for (const SceneResult& scene : report.scenes) {
         const Reference& reference = scene.reference;
         text += fmt::format(
@@ -298,8 +297,9 @@ std::string make_references(const Report& report)
             reference.rmse, 100 * reference.mean_interval, escape_markup(scene.device), escape_markup(scene.driver),
             escape_markup(scene.trace_backend));
         if (scene.centre_reference)
-            text += fmt::format("<p>Filtered pictures are compared with one of the pixels' centres, which filters see: "
-                                "{} samples, its own RMSE {:.4f}.</p>\n",
+            text += fmt::format(
+                "<p>Filtered pictures are compared with a reference of the pixels' centres, as filters see them: "
+                "{} samples, its own RMSE {:.4f}.</p>\n",
                 scene.centre_reference->samples, scene.centre_reference->rmse);
         for (const std::string& note : scene.notes)
             text += "<p class=\"hint\">" + escape_markup(note) + "</p>\n";
@@ -312,7 +312,7 @@ std::string make_figures(const Report& report)
     std::string text;
     for (size_t i = 0; i < report.figures.size(); i++)
         text += fmt::format(R"(<div class="viewer" data-figure="{}"><h3>{}</h3><p class="text">{}</p>
-<p class="controls"><label><input type="checkbox" class="difference"> difference to the reference, 4 times as large</label></p>
+<p class="controls"><label><input type="checkbox" class="difference"> difference to the reference, 4 times amplified</label></p>
 <div class="grid-of-pictures" tabindex="0" role="group" aria-label="{}"></div></div>
 )",
             i, escape_markup(report.figures[i].title), escape_markup(report.figures[i].text),
@@ -323,8 +323,8 @@ std::string make_figures(const Report& report)
 std::string make_summary(const Report& report)
 {
     return fmt::format(
-        "{} x {} pixels; {} independent runs of every variant, which took turns; flicker over {} frames, {} "
-        "frames before for the filters.{} Pictures are shown with one exposure a scene; figures are of linear "
+        "{} x {} pixels; {} independent runs of every variant, in turns; flicker over {} frames, after {} "
+        "warm-up frames for the filters.{} Pictures are shown with one exposure per scene; figures are of linear "
         "radiance.",
         report.size.width, report.size.height, report.options.runs, report.options.frames, report.options.warmup,
         report.settings.empty() ? "" : escape_markup(fmt::format(" Settings: {}.", fmt::join(report.settings, ", "))));

@@ -43,8 +43,7 @@ std::string choose_sampler(const std::string& wanted, const ModuleInfo& module)
             first = known;
     }
     if (!wanted.empty())
-        throw WrongUse(
-            fmt::format("--reference-sampler {}: the module has none of that name; `vkpt info` lists them", wanted));
+        throw WrongUse(fmt::format("--reference-sampler {}: there is no such sampler; `vkpt info` lists them", wanted));
     return first;
 }
 
@@ -175,7 +174,7 @@ try {
     file.write(std::as_bytes(std::span(text)));
     file.commit();
 } catch (const Failure& failure) {
-    fmt::print(stderr, "vkpt: the converged picture is not kept: {}\n", failure.what());
+    fmt::print(stderr, "vkpt: the reference is not cached: {}\n", failure.what());
 }
 
 } // namespace
@@ -186,7 +185,7 @@ fs::path find_reference_folder()
     const PrivateFolder folder
         = cache.path.empty() ? cache : open_private_folder(cache.path / "references");
     if (folder.path.empty())
-        fmt::print(stderr, "vkpt: converged pictures are not kept: {}\n", folder.problem);
+        fmt::print(stderr, "vkpt: references are not cached: {}\n", folder.problem);
     return folder.path;
 }
 

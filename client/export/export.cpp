@@ -67,7 +67,7 @@ void run_export(const ExportOptions& options)
     print_notes(source->notes());
     SceneContents contents {};
     if (!host.extension().read_scene(&contents))
-        throw Failure(fmt::format("{}: the module has no map to give out", options.scene.scene));
+        throw Failure(fmt::format("{}: the module has no map to export", options.scene.scene));
     const MergedScene merged(contents);
     const SceneContents& scene = merged.contents;
     ScenePictures pictures(files);
@@ -100,7 +100,7 @@ void add_export_command(CLI::App& program)
         ->type_name("DIR");
     add_module_options(*command, options->module);
     command->footer("Example: vkpt export maps/vkpt1.bsp -o scene\n"
-                    "Spheres (point lights) are in scene.json alone. How to check us with it: docs/truth.md");
+                    "Spheres (point lights) are in scene.json only. How to check pictures with it: docs/truth.md");
     command->callback([options] { run_export(*options); });
 }
 

@@ -96,9 +96,9 @@ const formats::Image* ScenePictures::find(const std::string& picture)
             if (const auto bytes = files_.read(picture))
                 entry->second = formats::read_image(*bytes, picture, palette_);
             else
-                notes_.push_back(fmt::format("{}: not found; its average colour stands for it", picture));
+                notes_.push_back(fmt::format("{}: not found; its average colour is used instead", picture));
         } catch (const formats::FormatError& error) {
-            notes_.push_back(fmt::format("{}; its average colour stands for it", error.what()));
+            notes_.push_back(fmt::format("{}; its average colour is used instead", error.what()));
         }
     }
     return entry->second.pixels.empty() ? nullptr : &entry->second;

@@ -110,7 +110,7 @@ std::string check_zip(Archive& archive)
     if (!end)
         return "it is neither PAK nor ZIP, or its end is missing";
     if (*end >= zip_locator_bytes && number_at(tail, *end - zip_locator_bytes) == zip64_locator)
-        return "it is a ZIP of the 64-bit kind, which is not supported";
+        return "it is a ZIP64 archive, which is not supported";
     formats::ByteReader reader(tail, archive.name());
     reader.seek(*end + 8);
     reader.take(2);

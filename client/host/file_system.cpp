@@ -69,7 +69,7 @@ fs::path find_base()
         looked += "\n  " + (place / "baseq2").string();
     }
     throw Failure(
-        "no game data found; looked for" + looked + "\nName the folder that holds \"baseq2\" with --basedir DIR.");
+        "no game data found; looked for" + looked + "\nName the folder that contains \"baseq2\" with --basedir DIR.");
 }
 
 bool is_archive(const fs::path& file)
@@ -123,8 +123,9 @@ FileSystem::~FileSystem() { PHYSFS_deinit(); }
 void FileSystem::mount(const fs::path& folder)
 {
     if (!fs::is_directory(folder))
-        throw Failure(fmt::format(
-            "no folder {}: name the folder that holds \"baseq2\" (and the game) with --basedir DIR", folder.string()));
+        throw Failure(
+            fmt::format("no folder {}: name the folder that contains \"baseq2\" (and the game) with --basedir DIR",
+                folder.string()));
     for (const fs::path& archive : find_archives(folder))
         mount_archive(archive);
     mount_place(folder);
@@ -137,8 +138,8 @@ void FileSystem::mount_archive(const fs::path& archive)
             throw Failure(fault);
         mount_place(archive);
     } catch (const Failure& failure) {
-        warn_(fmt::format(
-            "{} is left out: {}; get it again, or move it away from the game's files", archive.string(), failure.what()));
+        warn_(fmt::format("{} is left out: {}; download it again, or move it out of the game's folder",
+            archive.string(), failure.what()));
     }
 }
 
@@ -190,7 +191,7 @@ void FileSystem::index_files()
         const std::string folder = std::move(folders.back());
         folders.pop_back();
         if (++entered > max_folders) {
-            warn_(fmt::format("only the first {} folders of {} are searched: do links lead round in circles?", max_folders,
+            warn_(fmt::format("only the first {} folders of {} are searched: do links form a loop?", max_folders,
                 base_folder_.string()));
             return;
         }
@@ -284,14 +285,15 @@ std::optional<std::vector<std::byte>> FileSystem::read_mounted(
     std::error_code no_file;
     const uintmax_t archive_bytes = place && !fs::is_directory(place, no_file) ? fs::file_size(place, no_file) : 0;
     if (archive_bytes && !no_file && size > PHYSFS_sint64(std::max(max_unpacked_bytes, archive_bytes * max_unpacked_ratio)))
-        return refuse(fmt::format("it is said to have {} bytes, in an archive of {}", size, archive_bytes));
+        return refuse(fmt::format("its directory claims {} bytes, but the archive has {}", size, archive_bytes));
     constexpr size_t piece_bytes = size_t(1) << 20;
     std::vector<std::byte> bytes;
     for (size_t done = 0; PHYSFS_sint64(done) < size;) {
         const size_t wanted = std::min(piece_bytes, size_t(size) - done);
         bytes.resize(done + wanted);
         if (PHYSFS_readBytes(file.get(), bytes.data() + done, wanted) != PHYSFS_sint64(wanted))
-            return refuse(fmt::format("it ends before the {} bytes that it is said to have ({})", size, last_error()));
+            return refuse(
+                fmt::format("it ends before the {} bytes that its directory claims ({})", size, last_error()));
         done += wanted;
     }
     return bytes;

@@ -49,7 +49,7 @@ int parse_frame(std::string_view text, std::string_view whole)
     const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), frame);
     if (error != std::errc() || end != text.data() + text.size() || frame < 0)
         throw WrongUse(fmt::format(
-            "\"{}\": \"{}\" is no frame's number; write FILE.rtrace@0 for the first", whole, text.substr(1)));
+            "\"{}\": \"{}\" is not a frame number; write FILE.rtrace@0 for the first", whole, text.substr(1)));
     return frame;
 }
 
@@ -70,7 +70,7 @@ std::unique_ptr<FrameSource> open_frame_source(FileSystem& files, std::string_vi
     if (file.ends_with(".bsp"))
         return std::make_unique<MapFrames>(files, scene);
     throw WrongUse(fmt::format(
-        "\"{}\" is no scene: write maps/NAME.bsp, maps/NAME.bsp@x,y,z,pitch,yaw, FILE.rtrace or FILE.rtrace@FRAME",
+        "\"{}\" is not a scene: write maps/NAME.bsp, maps/NAME.bsp@x,y,z,pitch,yaw, FILE.rtrace or FILE.rtrace@FRAME",
         scene));
 }
 

@@ -69,7 +69,7 @@ Host::~Host()
     try {
         exports_.shutdown();
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "vkpt: while the module shut down: %s\n", error.what());
+        std::fprintf(stderr, "vkpt: while shutting down the module: %s\n", error.what());
     }
     HostImports::bind(nullptr);
 }
@@ -79,7 +79,7 @@ void Host::choose_write_folder()
 {
     const PrivateFolder cache = open_cache_folder();
     if (cache.path.empty()) {
-        std::fprintf(stderr, "vkpt: nothing is kept for the next run: %s\n", cache.problem.c_str());
+        std::fprintf(stderr, "vkpt: nothing is cached for the next run: %s\n", cache.problem.c_str());
         temporary_folder_ = std::make_unique<TemporaryFolder>("vkpt-run-");
     }
     write_folder_ = temporary_folder_ ? temporary_folder_->path() : cache.path;
@@ -100,11 +100,11 @@ void Host::load_module(const fs::path& wanted)
     using GetRefApi = engine::Exports8 (*)(engine::Imports);
     const auto get_ref_api = reinterpret_cast<GetRefApi>(dlsym(library_, "GetRefAPI"));
     if (!get_ref_api)
-        throw Failure(fmt::format("{} has no GetRefAPI: it is no refresh module", module_path_.string()));
+        throw Failure(fmt::format("{} has no GetRefAPI: it is not a refresh module", module_path_.string()));
     cvars_.set("version", played_version);
     exports_ = get_ref_api(HostImports::table());
     if (exports_.api != 8)
-        throw Failure(fmt::format("{} answered API {} to an engine of API 8", module_path_.string(), exports_.api));
+        throw Failure(fmt::format("{} speaks API {}, and vkpt needs API 8", module_path_.string(), exports_.api));
 }
 
 void Host::start_module()

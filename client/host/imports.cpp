@@ -136,7 +136,7 @@ engine::Imports HostImports::table()
     };
     imports.request_restart = [](int kind) {
         if (engine::Restart(kind) == engine::Restart::full || engine::Restart(kind) == engine::Restart::partial)
-            host->add_console_text("this setting counts from the next start on\n");
+            host->add_console_text("this setting takes effect at the next start\n");
     };
     return imports;
 }

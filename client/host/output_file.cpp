@@ -168,8 +168,7 @@ void OutputFile::fail(int error) const
 {
     const bool is_full = error == ENOSPC || error == EDQUOT || error == EFBIG;
     throw Failure(fmt::format("cannot write {}: {}; {}", path_.string(), error ? std::strerror(error) : "unknown error",
-        is_full ? "make room, or name a file in another place"
-                : "name a file in a folder that exists and may be written to"));
+        is_full ? "free some space, or name a file in another place" : "name a file in an existing, writable folder"));
 }
 
 } // namespace vkpt::client

@@ -36,7 +36,7 @@ std::string find_problem_around(const fs::path& parent)
     if (found.st_uid != geteuid() && found.st_uid != 0)
         return describe_owner(parent, found);
     if ((found.st_mode & S_IWOTH) && !(found.st_mode & S_ISVTX))
-        return parent.string() + " may be written to by everybody (chmod o-w)";
+        return parent.string() + " is writable by everybody (chmod o-w)";
     return "";
 }
 
@@ -52,14 +52,11 @@ std::string find_problem(const fs::path& path)
     if (found.st_uid != geteuid())
         return describe_owner(path, found);
     if (found.st_mode & (S_IWGRP | S_IWOTH))
-        return path.string() + " may be written to by others (chmod go-w)";
+        return path.string() + " is writable by others (chmod go-w)";
     return "";
 }
 
-PrivateFolder refuse(const std::string& reason)
-{
-    return { {}, reason + "; XDG_CACHE_HOME names another place" };
-}
+PrivateFolder refuse(const std::string& reason) { return { {}, reason + "; set XDG_CACHE_HOME to use another place" }; }
 
 } // namespace
 

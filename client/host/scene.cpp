@@ -36,7 +36,7 @@ formats::Bsp read_map(FileSystem& files, const std::string& map)
     const size_t count = others.size();
     others.resize(std::min<size_t>(count, 20));
     throw Failure(fmt::format("no map {}; looked in\n  {}\n{}", map, fmt::join(files.search_path(), "\n  "),
-        count == 0 ? std::string("There is no map at all: name the folder that holds \"baseq2\" with --basedir DIR.")
+        count == 0 ? std::string("There is no map at all: name the folder that contains \"baseq2\" with --basedir DIR.")
                    : fmt::format(
                        "There {}: {}{}", count == 1 ? "is" : "are", fmt::join(others, " "), count > 20 ? " ..." : "")));
 }
@@ -126,9 +126,9 @@ void Scene::place_brush_models()
             { entity, distance_to_box(camera_.position, box.mins + placement->origin, box.maxs + placement->origin) });
     }
     if (candidates.size() > size_t(engine::max_entities)) {
-        notes_.push_back(
-            fmt::format("{} brush models are visible at the start, the refresh API takes {}: the nearest are shown",
-                candidates.size(), engine::max_entities));
+        notes_.push_back(fmt::format(
+            "{} brush models are visible at the start, but the refresh API takes {}: only the nearest are shown",
+            candidates.size(), engine::max_entities));
         std::ranges::stable_sort(candidates, {}, &Candidate::distance);
         candidates.resize(size_t(engine::max_entities));
     }

@@ -46,7 +46,8 @@ SceneName parse_scene_name(std::string_view text)
     SceneName scene;
     scene.map = text.substr(0, at);
     if (!scene.map.ends_with(".bsp"))
-        throw WrongUse(fmt::format("\"{}\" is no scene: write maps/NAME.bsp or maps/NAME.bsp@x,y,z,pitch,yaw", text));
+        throw WrongUse(
+            fmt::format("\"{}\" is not a scene: write maps/NAME.bsp or maps/NAME.bsp@x,y,z,pitch,yaw", text));
     if (at != std::string_view::npos)
         scene.camera = parse_camera(text.substr(at + 1), text);
     std::error_code ignored;

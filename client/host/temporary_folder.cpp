@@ -22,7 +22,8 @@ namespace {
 
 [[noreturn]] void fail(const std::string& name)
 {
-    throw Failure(fmt::format("cannot make a folder {}: {}; $TMPDIR names another place", name, std::strerror(errno)));
+    throw Failure(
+        fmt::format("cannot make a folder {}: {}; set $TMPDIR to use another place", name, std::strerror(errno)));
 }
 
 // A process of its own removes the folder when the pipe's other end is closed: by the owner, or by the kernel once the

@@ -74,10 +74,10 @@ TraceFrames::TraceFrames(FileSystem& files, std::string_view path, int chosen_fr
 {
     const size_t count = reader_.frame_count();
     if (count == 0)
-        throw Failure(fmt::format("{} holds no frame{}: record it anew", path,
+        throw Failure(fmt::format("{} has no frames{}: record it again", path,
             reader_.cut_at() ? fmt::format(", it was cut off at byte {}", reader_.cut_at()) : ""));
     if (size_t(chosen_frame) >= count)
-        throw WrongUse(fmt::format("{} has the frames 0 to {}, not {}", path, count - 1, chosen_frame));
+        throw WrongUse(fmt::format("{} has frames 0 to {}, not {}", path, count - 1, chosen_frame));
     if (reader_.cut_at())
         notes_.push_back(
             fmt::format("{} was cut off at byte {}: it has {} frames, the last {:.1f} seconds after the first", path,
@@ -111,7 +111,7 @@ void TraceFrames::check_files(FileSystem& files)
     constexpr size_t named = 5;
     const size_t count = others.size();
     others.resize(std::min(count, named));
-    notes_.push_back(fmt::format("{} of the files that {} was recorded with are not the same here: {}{}", count, path_,
+    notes_.push_back(fmt::format("{} of the files that {} was recorded with differ here: {}{}", count, path_,
         fmt::join(others, ", "), count > named ? " ..." : ""));
 }
 

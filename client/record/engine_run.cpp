@@ -131,7 +131,8 @@ EngineRun::EngineRun(const EngineRunOptions& options)
         make_folder(options);
         watch(start(options), options);
     } catch (const fs::filesystem_error& error) {
-        throw Failure(fmt::format("cannot prepare the engine's folder: {}; $TMPDIR names another place", error.what()));
+        throw Failure(
+            fmt::format("cannot prepare the engine's folder: {}; set $TMPDIR to use another place", error.what()));
     }
 }
 
@@ -171,7 +172,7 @@ void EngineRun::make_folder(const EngineRunOptions& options)
 {
     fs::permissions(folder_, fs::perms(0755));
     if (!can_user_read(folder_))
-        throw Failure(fmt::format("the engine refuses to run as root, and user {} cannot reach {}; $TMPDIR names "
+        throw Failure(fmt::format("the engine refuses to run as root, and user {} cannot reach {}; set $TMPDIR to "
                                   "another place",
             user_.id, folder_.string()));
     home_ = folder_ / "home";
@@ -179,7 +180,7 @@ void EngineRun::make_folder(const EngineRunOptions& options)
     fs::copy_file(engine_, folder_ / "quake2");
     fs::permissions(folder_ / "quake2", fs::perms(0755));
     for (const char* file : { record_module, clock_library })
-        fs::copy_file(find_companion(file, "Build the target vkpt, or install again."), folder_ / file);
+        fs::copy_file(find_companion(file, "Build the target vkpt, or reinstall."), folder_ / file);
     for (const std::string& game : { std::string("baseq2"), options.game }) {
         if (game.empty() || fs::exists(folder_ / game))
             continue;
@@ -271,7 +272,7 @@ void EngineRun::watch(int process, const EngineRunOptions& options) const
         const std::string error = find_error(read_text(console));
         if (!error.empty() || now - last_change > patience) {
             end_process(process);
-            fail(error.empty() ? "it has recorded nothing for a minute" : error);
+            fail(error.empty() ? "nothing was recorded for a minute" : error);
         }
     }
     if (const std::string error = find_error(read_text(console)); !error.empty())
@@ -283,8 +284,8 @@ void EngineRun::watch(int process, const EngineRunOptions& options) const
 
 void EngineRun::fail(const std::string& reason) const
 {
-    throw Failure(fmt::format("{} did not play the demo to its end: {}\nIts last words:\n{}", engine_.string(), reason,
-        last_lines(read_text(home_ / "output.txt"), 8)));
+    throw Failure(fmt::format("{} did not play the demo to its end: {}\nThe last lines of its output:\n{}",
+        engine_.string(), reason, last_lines(read_text(home_ / "output.txt"), 8)));
 }
 
 } // namespace vkpt::client

@@ -99,7 +99,7 @@ EngineRunOptions make_run(const RecordOptions& options, const FileSystem& files,
         options.timedemo ? 1000000 / server_messages_per_second : (1000000 + options.rate / 2) / options.rate);
     for (const auto& setting : parse_settings(options.settings, "--set")) {
         if ((setting.first + setting.second).find_first_of("\"\n") != std::string::npos)
-            throw WrongUse(fmt::format("--set {}: no quotation marks or line ends", setting.first));
+            throw WrongUse(fmt::format("--set {}: no quotation marks or line breaks", setting.first));
         run.settings.push_back(setting);
     }
     return run;
@@ -123,7 +123,7 @@ void run_record(const RecordOptions& options)
     const trace::TraceReader reader(run.trace());
     const size_t frames = reader.frame_count();
     if (frames == 0 || reader.cut_at())
-        throw Failure(fmt::format("the engine showed no frame of {}", options.demo));
+        throw Failure(fmt::format("the engine drew no frame of {}", options.demo));
     output.take(run.trace());
     output.commit();
     const double shown = reader.seconds(frames - 1);
@@ -138,25 +138,25 @@ void add_record_command(CLI::App& program)
 {
     const auto options = std::make_shared<RecordOptions>();
     CLI::App* command
-        = program.add_subcommand("record", "Play a demo in the engine and record what it shows as a trace");
+        = program.add_subcommand("record", "Play a demo in the engine and record what it draws as a trace");
     command->add_option("DEMO", options->demo, "A .dm2 file, or the name of one in the game data")->required();
     command->add_option("-o,--output", options->output, "FILE.rtrace")->required()->type_name("FILE");
     CLI::Option* rate
-        = command->add_option("--rate", options->rate, "Frames a second, interpolated between the server's messages")
+        = command->add_option("--rate", options->rate, "Frames per second, interpolated between the server's messages")
               ->type_name("N")
               ->check(CLI::Range(10, 1000))
               ->capture_default_str();
-    command->add_flag("--timedemo", options->timedemo, "Instead: one frame for each message, ten a second")
+    command->add_flag("--timedemo", options->timedemo, "One frame per server message instead, ten a second")
         ->excludes(rate);
-    command->add_option("--size", options->size, "The window that 2D is laid out for")
+    command->add_option("--size", options->size, "The window size that 2D is laid out for")
         ->type_name("WxH")
         ->capture_default_str();
     add_data_options(*command, options->base_folder, options->game);
     command
-        ->add_option(
-            "--engine", options->engine, "Yamagi Quake II's program (default: $VKPT_ENGINE, then the usual places)")
+        ->add_option("--engine", options->engine,
+            "The Yamagi Quake II executable (default: $VKPT_ENGINE, then the usual places)")
         ->type_name("PATH");
-    command->add_option("--set", options->settings, "A console variable of the engine; may be repeated")
+    command->add_option("--set", options->settings, "Set a console variable of the engine; may be repeated")
         ->type_name("NAME=VALUE")
         ->take_all()
         ->expected(1);

@@ -79,7 +79,7 @@ bool init()
     if (!path || !*path)
         throw FatalError("$VKPT_TRACE does not name the file to record into; `vkpt record` sets it");
     if (recorder)
-        throw FatalError("one run of the engine makes one trace: restart the engine for another");
+        throw FatalError("one run of the engine makes one trace: restart the engine to make another");
     engine::init_video_menu();
     const auto size = engine::init_graphics(0, wanted_size());
     if (!size)

@@ -154,7 +154,7 @@ void Recorder::begin_registration(std::string_view map)
     noted_files_.erase(map_); // another map of the same name may have come
     const auto file = load_file(map_);
     if (!file)
-        throw LevelError(map_ + " is not there: is the map's package installed?");
+        throw LevelError(map_ + " does not exist: is the map's package installed?");
     const formats::Bsp bsp = formats::read_bsp(*file, map_);
     brush_models_ = bsp.models.size();
     for (const formats::BspTexinfo& info : bsp.texinfos)

@@ -19,7 +19,7 @@ public:
         coder.number(kind);
         if constexpr (!Coder::is_encoder) {
             if (kind >= uint32_t(CallKind::count))
-                coder.fail("a call that there is not");
+                coder.fail("a call that does not exist");
             call = {};
             call.kind = CallKind(kind);
         }
@@ -52,7 +52,7 @@ private:
             if (const auto known = numbers_.find(name); known != numbers_.end())
                 number = known->second;
         coder.number(number);
-        coder.check(number <= names_.size(), "a name that was not spelt out");
+        coder.check(number <= names_.size(), "a name that was not defined");
         if (number < names_.size()) {
             name = names_[number];
             return;

@@ -69,13 +69,13 @@ void TraceReader::read_header()
     file_.seekg(0);
     file_.read(reinterpret_cast<char*>(&header), sizeof header);
     if (!file_ || header.magic != file_magic)
-        fail(0, "this is no trace; `vkpt record` makes one from a demo");
+        fail(0, "not a trace; `vkpt record` makes one from a demo");
     if (header.crc != header_crc(header))
         fail(0, "the header is damaged");
     if (header.version > file_version)
         fail(8,
             "the trace has version " + std::to_string(header.version) + ", this program reads up to "
-                + std::to_string(file_version) + ": use a newer vkpt, or record it anew");
+                + std::to_string(file_version) + ": use a newer vkpt, or record it again");
 }
 
 // False: the file ends before the chunk does.
@@ -87,7 +87,7 @@ bool TraceReader::read_chunk_header(uint64_t offset, ChunkHeader& header)
     file_.seekg(std::streamoff(offset));
     file_.read(reinterpret_cast<char*>(&header), sizeof header);
     if (!file_ || header.crc != header_crc(header))
-        fail(offset, "the file is damaged here; record it anew");
+        fail(offset, "the file is damaged here; record it again");
     if (header.raw_bytes > max_chunk_bytes || header.raw_bytes > max_ratio * (uint64_t(header.packed_bytes) + 1)
         || header.packed_bytes > compressBound(header.raw_bytes))
         fail(offset, "a chunk of impossible size");
@@ -106,7 +106,7 @@ std::vector<std::byte> TraceReader::read_payload(const Chunk& chunk)
                uLong(packed.size()))
             != Z_OK
         || size != raw.size())
-        fail(chunk.offset, "the file is damaged here; record it anew");
+        fail(chunk.offset, "the file is damaged here; record it again");
     return raw;
 }
 
@@ -143,7 +143,7 @@ uint64_t TraceReader::decode(const Chunk& chunk, OnCall on_call, OnFrame on_fram
         call_codec.code(decoder, call);
         count(memory_of(call));
         if (call.kind == CallKind::setting)
-            decoder.check(is_recorded(call.name), "a setting that no recorder writes; record it anew");
+            decoder.check(is_recorded(call.name), "a setting that no recorder writes; record it again");
         if (call.kind == CallKind::begin_frame) {
             close(false);
             is_open = true;
@@ -183,13 +183,13 @@ void TraceReader::index_chunks()
         if (chunk.header.tag == tag_end) {
             check_totals(chunk);
             if (offset != file_bytes_)
-                fail(offset, "more follows after the end");
+                fail(offset, "there is more data after the end");
             return;
         }
         if (chunk.header.tag == tag_calls)
             index_chunk(chunk);
         else
-            fail(chunk.offset, "a chunk of unknown kind");
+            fail(chunk.offset, "a chunk of an unknown type");
     }
 }
 
@@ -198,7 +198,7 @@ void TraceReader::index_chunk(const Chunk& chunk)
     const uint64_t size = std::max<uint64_t>(file_bytes_, 1 << 20);
     unpacked_ += chunk.header.raw_bytes;
     if (unpacked_ > max_unpacked_ratio * size)
-        fail(chunk.offset, "it unpacks to more than " + std::to_string(max_unpacked_ratio) + " times its size");
+        fail(chunk.offset, "it decompresses to more than " + std::to_string(max_unpacked_ratio) + " times its size");
     memory_ += decode(
         chunk,
         [&](const Call& call, size_t frame, bool is_inside) {
@@ -211,7 +211,7 @@ void TraceReader::index_chunk(const Chunk& chunk)
         },
         [&](const Frame& frame) { index_frame(frame); });
     if (memory_ > max_memory_ratio * size)
-        fail(chunk.offset, "it holds more calls than any recorder puts into its size");
+        fail(chunk.offset, "it has more calls than any recorder fits into its size");
     if (times_.size() > chunk.first_frame)
         chunks_.push_back(chunk);
 }
@@ -244,10 +244,10 @@ void TraceReader::check_totals(const Chunk& chunk)
     const std::vector<std::byte> raw = read_payload(chunk);
     TraceTotals written;
     if (raw.size() != sizeof written)
-        fail(chunk.offset, "the end is damaged; record it anew");
+        fail(chunk.offset, "the end is damaged; record it again");
     std::memcpy(&written, raw.data(), sizeof written);
     if (written.calls != totals_.calls || written.frames != totals_.frames || written.views != totals_.views)
-        fail(chunk.offset, "calls are missing; record it anew");
+        fail(chunk.offset, "calls are missing; record it again");
 }
 
 uint32_t count_views(const std::filesystem::path& path)

@@ -106,7 +106,7 @@ void ViewCodec::code_list(
     coder.number(size);
     if constexpr (!Coder::is_encoder) {
         if (size > uint32_t(engine::max_particles)) // the largest of the lists
-            coder.fail("a view of more things than an engine shows");
+            coder.fail("a view with more things than the engine can show");
         items.resize(size);
     }
     List<count> now(size);
@@ -115,7 +115,7 @@ void ViewCodec::code_list(
     for (size_t i = 0; i < size; i++) {
         uint32_t place = matches[i] == not_found ? 0 : uint32_t(matches[i]) + 1;
         coder.near_number(place, expected);
-        coder.check(place <= last.size(), "a thing that goes on from one that was not there");
+        coder.check(place <= last.size(), "a thing that continues one that does not exist");
         if (place > 0) {
             now[i].history = last[place - 1].history;
             expected = place + 1;
@@ -149,7 +149,7 @@ template <class Coder> void ViewCodec::code_lightstyles(Coder& coder, View& view
             while (std::memcmp(&view.lightstyles[place], &lightstyles_[place], sizeof(engine::Lightstyle)) == 0)
                 place++;
         coder.number(place);
-        coder.check(place < lightstyles_.size(), "a light style that there is not");
+        coder.check(place < lightstyles_.size(), "a lightstyle that does not exist");
         auto words = std::bit_cast<std::array<uint32_t, 4>>(view.lightstyles[place]);
         const auto before = std::bit_cast<std::array<uint32_t, 4>>(lightstyles_[place]);
         for (size_t i = 0; i < words.size(); i++)
@@ -237,7 +237,7 @@ template <class Coder> void ViewCodec::code(Coder& coder, View& view)
     if constexpr (!Coder::is_encoder) {
         std::memcpy(&view.refdef, head.data(), sizeof head);
         if (entities.size() > size_t(engine::max_entities) || lights.size() > size_t(engine::max_dlights))
-            coder.fail("a view of more things than an engine shows");
+            coder.fail("a view with more things than the engine can show");
         for (const auto& words : entities)
             view.entities.push_back(unpack(words));
         for (const auto& words : lights)

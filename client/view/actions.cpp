@@ -71,7 +71,7 @@ void toggle_split(State& state)
     state.split.is_on = !state.split.is_on;
     state.active = state.split.is_on ? Side::b : Side::a;
     if (state.split.is_on)
-        show_notice(state, "B is what keys and panel change now (1 and 2 choose)");
+        show_notice(state, "keys and panel now change side B (1 and 2 select)");
 }
 
 template <Side side> void activate(State& state)
@@ -127,7 +127,7 @@ void leave(State& state)
 }
 
 constexpr Modifier plain = Modifier::none, shift = Modifier::shift, control = Modifier::control;
-constexpr const char *settings_group = "Settings of the chosen side", *compare_group = "Comparing",
+constexpr const char *settings_group = "Settings of the selected side", *compare_group = "Comparing",
                      *time_group = "Time and place", *window_group = "Window";
 
 constexpr Action table[] = {

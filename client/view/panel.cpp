@@ -29,7 +29,7 @@ void draw_time(State& state)
     if (state.is_endless()) {
         ImGui::AlignTextToFramePadding();
         ImGui::Text(
-            "%.2f s%s", state.frame / 60.0, state.plays && !does_time_pass(state) ? "  (stands while averaging)" : "");
+            "%.2f s%s", state.frame / 60.0, state.plays && !does_time_pass(state) ? "  (stopped while averaging)" : "");
         return;
     }
     int frame = state.frame;
@@ -50,7 +50,7 @@ void draw_camera(State& state)
     ImGui::SameLine();
     if (ImGui::SmallButton("Copy")) {
         ImGui::SetClipboardText((state.is_endless() ? state.scene + place : place).c_str());
-        show_notice(state, "copied: vkpt render and vkpt view take it as SCENE");
+        show_notice(state, "copied: use it as SCENE of vkpt render and vkpt view");
     }
     if (state.has_flown) {
         ImGui::SameLine();

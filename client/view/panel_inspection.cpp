@@ -88,7 +88,7 @@ void draw_lights(const Inspection& inspection, ImU32 colour)
     for (const InspectedLight& light : inspection.lights)
         sum += light.probability;
     ImGui::Text("%u lights, sampler %s", inspection.surface.light_count, inspection.sampler.c_str());
-    ImGui::TextDisabled("probabilities add up to %.1f %%", 100 * sum);
+    ImGui::TextDisabled("probabilities sum to %.1f %%", 100 * sum);
     constexpr ImGuiTableFlags flags
         = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingStretchProp;
     if (!ImGui::BeginTable("lights", 4, flags, { 0, std::max(ImGui::GetContentRegionAvail().y - 4, 180.0f) }))
@@ -110,7 +110,7 @@ void draw_lights(const Inspection& inspection, ImU32 colour)
 void draw_marked_surface(const State& state)
 {
     if (!state.inspection) {
-        ImGui::TextDisabled("Click into the picture, or press P.");
+        ImGui::TextDisabled("Click the picture, or press P.");
         return;
     }
     const Inspection& inspection = *state.inspection;
@@ -122,7 +122,7 @@ void draw_marked_surface(const State& state)
         return;
     }
     ImGui::SameLine();
-    ImGui::TextUnformatted("sky, or a picture that is not lit");
+    ImGui::TextUnformatted("sky, or an unlit texture");
     draw_row("emitted", show_vector(inspection.surface.emitted, "{:.3f}"));
 }
 

@@ -56,7 +56,7 @@ std::string find_fault(const std::string& folder)
     if (status.st_uid != geteuid())
         return fmt::format("it belongs to another user ({})", status.st_uid);
     if (status.st_mode & (S_IWGRP | S_IWOTH))
-        return "others may write to it; chmod go-w mends that";
+        return "it is writable by others; fix that with chmod go-w";
     return "";
 }
 
@@ -68,14 +68,14 @@ CacheFolder find_cache_folder()
     if (folder.empty())
         folder = default_folder();
     if (folder.empty())
-        return { "", "neither VKPT_CACHE_DIR nor XDG_CACHE_HOME nor HOME says where" };
+        return { "", "none of VKPT_CACHE_DIR, XDG_CACHE_HOME and HOME is set" };
     if (!folder.has_filename()) // "DIR/": a link would be followed
         folder = folder.parent_path();
     make_folders(folder);
     const std::string fault = find_fault(folder.string());
     if (fault.empty())
         return { folder.string(), "" };
-    return { "", fmt::format("{}: {}; VKPT_CACHE_DIR=DIR names another folder", folder.string(), fault) };
+    return { "", fmt::format("{}: {}; set VKPT_CACHE_DIR to use another folder", folder.string(), fault) };
 }
 
 } // namespace vkpt

@@ -23,7 +23,7 @@ constexpr mode_t folder_mode = 0755, file_mode = 0644;
 std::string describe_errno()
 {
     if (errno == ELOOP || errno == ENOTDIR) // links are not followed
-        return "a link or a file stands in its place";
+        return "there is a link or a file in its place";
     return std::error_code(errno, std::generic_category()).message();
 }
 

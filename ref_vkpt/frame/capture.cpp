@@ -28,9 +28,9 @@ void FrameCapture::open_folder()
 {
     const std::string& name = cvars::values().pt_capture_dir;
     if (name.empty())
-        throw FileError("pt_capture_dir does not say where to; set it at the start, as +set pt_capture_dir NAME");
+        throw FileError("pt_capture_dir is empty; set it at the start: +set pt_capture_dir NAME");
     if (!is_plain_name(name))
-        throw FileError(fmt::format("pt_capture_dir \"{}\" is no name of letters, digits, _ and -", name));
+        throw FileError(fmt::format("pt_capture_dir \"{}\" may have only letters, digits, _ and -", name));
     const OutputFolder captures(engine::game_directory(), { "vkpt", "captures" });
     captured_bytes_ = captures.bytes();
     folder_.emplace(captures.make_new(name));
@@ -51,7 +51,7 @@ void FrameCapture::take_from_budget(uint64_t bytes)
                                     "pt_capture_mib and a larger number",
             folder_->path().parent_path().string(), most / mebibyte));
     if (folder_->free_bytes() < left_on_disk + bytes)
-        throw FileError(fmt::format("the disk of {} is nearly full", folder_->path().string()));
+        throw FileError(fmt::format("the disk that holds {} is nearly full", folder_->path().string()));
     captured_bytes_ += bytes;
 }
 

@@ -83,8 +83,9 @@ void Frame::read_statistics()
     std::memcpy(&statistics, mapped, sizeof(statistics));
     std::memset(mapped, 0, sizeof(statistics));
     if (statistics.broken_pixels > 0 && broken_pixels_ == 0)
-        engine::print("ref_vkpt: the light of {} pixels is not a number and shown black; pt_info counts them. Please "
-                      "report map, place and settings",
+        engine::print(
+            "ref_vkpt: the light of {} pixels is not finite, they are shown black; pt_info counts them. Please "
+            "report the map, the position and the settings",
             statistics.broken_pixels);
     broken_pixels_ += statistics.broken_pixels;
 }
@@ -194,7 +195,7 @@ void Frame::prepare_menu(shared::FrameUniforms& uniforms) const
 void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* gpu_world, bool average)
 {
     if (views_this_frame_ == max_views) {
-        engine::print("vkpt: more than {} 3D views in one frame; the rest is not shown", max_views);
+        engine::print("vkpt: more than {} 3D views in one frame; the others are not shown", max_views);
         return;
     }
     // Averaged pictures and menus are complete.

@@ -121,7 +121,7 @@ void report_unused(const Bsp& bsp, const AverageColour& colour, std::vector<std:
             fmt::format("{}: {} light faces of {} are not drawn and emit nothing", bsp.name, count, texture));
     for (const auto& [texture, count] : black)
         messages.push_back(
-            fmt::format("{}: the picture of {} is black: its {} light faces emit nothing", bsp.name, texture, count));
+            fmt::format("{}: the texture {} is black: its {} light faces emit nothing", bsp.name, texture, count));
 }
 
 } // namespace

@@ -180,7 +180,7 @@ void LightLists::build_cluster_bounds(const Bsp& bsp)
 void LightLists::build_static_lists(std::span<const shared::Emitter> emitters)
 {
     WorkLimit entries(*bsp_, most_entries, "entries in its light lists"),
-        work(*bsp_, most_steps, "steps to find what its lights may light");
+        work(*bsp_, most_steps, "steps to find what its lights can reach");
     std::vector<std::vector<uint32_t>> members(cluster_count_);
     ClusterSet receivers;
     for (uint32_t i = 0; i < emitters.size(); i++) {

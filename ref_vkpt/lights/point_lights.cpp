@@ -99,7 +99,7 @@ std::vector<EntityText> read_entities(const Bsp& bsp, std::vector<std::string>& 
         return formats::parse_entities(bsp.entity_text, bsp.name);
     } catch (const formats::FormatError& error) {
         messages.push_back(
-            fmt::format("{}: no point lights, for the entity text cannot be read: {}", bsp.name, error.what()));
+            fmt::format("{}: no point lights: the entity text cannot be read: {}", bsp.name, error.what()));
         return {};
     }
 }
@@ -120,13 +120,13 @@ std::vector<shared::Emitter> extract_point_lights(
         number++;
         const std::optional<glm::vec3> origin = entity.vector("origin");
         if (!origin || !std::isfinite(glm::dot(*origin, *origin))) {
-            messages.push_back(fmt::format("{}: a light entity has no usable origin and is left out", bsp.name));
+            messages.push_back(fmt::format("{}: a light entity without a usable origin is ignored", bsp.name));
             continue;
         }
         const float value = read_value(entity);
         if (!(value > 0) || !std::isfinite(value)) {
             messages.push_back(
-                fmt::format("{}: the light at {} has the value {} and is left out: only positive lights emit", bsp.name,
+                fmt::format("{}: the light at {} has the value {} and is ignored: only positive lights emit", bsp.name,
                     describe(*origin), value));
             continue;
         }
@@ -135,9 +135,8 @@ std::vector<shared::Emitter> extract_point_lights(
         const float radius = place ? fit_radius(bsp, *place, scales.point_light_radius, steps) : 0;
         work.spend(steps, "light entity", number);
         if (!place) {
-            messages.push_back(
-                fmt::format("{}: the light at {} is inside a wall and is left out: move it into the room", bsp.name,
-                    describe(*origin)));
+            messages.push_back(fmt::format("{}: the light at {} is inside a wall and is ignored: move it into the room",
+                bsp.name, describe(*origin)));
             continue;
         }
         if (!entity.get("target").empty() || !entity.get("_cone").empty())

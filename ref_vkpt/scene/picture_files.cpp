@@ -108,7 +108,7 @@ PictureFiles::PictureFiles(LoadFile load_file, Report report)
 void PictureFiles::load_palette()
 {
     palette_ = make_neutral_palette();
-    constexpr const char* consequence = "8-bit pictures get a stand-in palette and show wrong colours";
+    constexpr const char* consequence = "8-bit textures use a substitute palette and have wrong colours";
     const std::optional<std::vector<std::byte>> file = load_file_(colormap_path);
     if (!file) {
         report_(fmt::format("{} is missing: {}; add the game's data", colormap_path, consequence));

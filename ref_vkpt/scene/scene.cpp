@@ -62,7 +62,7 @@ void Scene::begin_registration(std::string_view map)
     map_path_ = path;
     const std::optional<engine::FileData> file = engine::load_file(path);
     if (!file)
-        throw LevelError(path + " is not there: is the map's package installed?");
+        throw LevelError(path + " does not exist: is the map's package installed?");
     EmissionScales scales;
     scales.point_light_radius = cvars::values().pt_point_light_radius;
     const FindWorldPicture find
@@ -169,7 +169,7 @@ void Scene::set_sky(std::string_view name, float degrees_per_second, glm::vec3 a
         sky_.average += (picture ? picture->average : glm::vec3(0)) / 6.0f;
     }
     if (!sky_.present) {
-        engine::print("vkpt: no picture of the sky \"{}\" in env/; a plain one is shown", name);
+        engine::print("vkpt: no texture of the sky \"{}\" in env/; a plain one is shown", name);
         sky_.average = glm::vec3(0.25f, 0.3f, 0.4f);
     }
 }

@@ -91,7 +91,7 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
     const std::optional<LoadedPicture> picture = files_.load(name, use, cvars::values().r_retexturing != 0);
     if (!picture) {
         const std::vector<std::string> paths = PictureFiles::original_paths(name, use);
-        const std::string line = fmt::format("picture {} is missing or cannot be used", paths.front());
+        const std::string line = fmt::format("texture {} is missing or unusable", paths.front());
         if (use == TextureUse::wall)
             engine::print("{}: shown grey", line);
         else if (use == TextureUse::sky)
@@ -143,8 +143,7 @@ Texture* TextureStore::take_entry()
     if (free_entries_.empty()) {
         if (!said_full_)
             engine::print(
-                "more than {} pictures at once: this device serves no more, the rest stays grey or is left out",
-                capacity_);
+                "more than {} textures at once, this device's limit: the others are grey or not shown", capacity_);
         said_full_ = true;
         return nullptr;
     }

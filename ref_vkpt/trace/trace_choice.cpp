@@ -59,7 +59,7 @@ TraceBackend TraceChoice::fall_back(const std::string& wanted)
     std::string known;
     for (const TraceBackend backend : offered_)
         known += fmt::format("{}{}", known.empty() ? "" : ", ", name_of(backend));
-    engine::print("ref_vkpt: {} cannot trace rays by pt_trace \"{}\" (it offers {}): using auto",
+    engine::print("ref_vkpt: {} does not support pt_trace \"{}\" (it offers {}): using auto",
         device_.properties.deviceName, wanted, known);
     return choose_automatically();
 }
@@ -77,7 +77,7 @@ TraceBackend TraceChoice::choose_automatically()
     // Our own trees are 3 to 5 times as fast as Mesa's ray query (docs/benchmarks.md), and measuring it costs seconds
     // of compilation before the first picture.
     if (device_.is_cpu) {
-        say(TraceBackend::software, "the fastest on CPU drivers; pt_trace_measure measures it");
+        say(TraceBackend::software, "the fastest on CPU drivers; use pt_trace_measure to check");
         return TraceBackend::software;
     }
     wants_measurement_ = true;

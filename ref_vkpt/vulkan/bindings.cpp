@@ -182,8 +182,7 @@ uint32_t Bindings::add_texture(const Image& image)
     } else if (next_slot_ < max_textures_) {
         next_slot_++;
     } else {
-        throw FatalError(
-            fmt::format("more than {} pictures in use at once, the most that this device serves", max_textures_));
+        throw FatalError(fmt::format("more than {} textures in use at once, this device's limit", max_textures_));
     }
     const VkDescriptorImageInfo info { VK_NULL_HANDLE, image.view(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL };
     VkWriteDescriptorSet write { VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET };

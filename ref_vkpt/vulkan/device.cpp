@@ -329,7 +329,7 @@ void Device::create_instance(const DeviceSettings& settings)
     uint32_t version = VK_API_VERSION_1_0;
     VKPT_CHECK(vkEnumerateInstanceVersion(&version));
     if (version < VK_API_VERSION_1_2)
-        throw FatalError(fmt::format("Vulkan {} is too old: version 1.2 is needed", describe_api_version(version)));
+        throw FatalError(fmt::format("Vulkan {} is too old: version 1.2 is required", describe_api_version(version)));
 
     constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
     std::vector<const char*> layers;
@@ -394,7 +394,7 @@ void Device::choose_physical_device(const DeviceSettings& settings)
             continue;
         }
         if (about.properties.apiVersion < VK_API_VERSION_1_2) {
-            reject("has only Vulkan " + describe_api_version(about.properties.apiVersion) + ", 1.2 is needed");
+            reject("has only Vulkan " + describe_api_version(about.properties.apiVersion) + ", 1.2 is required");
             continue;
         }
         Features has, use;
@@ -538,7 +538,7 @@ uint32_t Device::find_memory_type(
     }
     if (!found)
         throw FatalError(
-            fmt::format("{} has no memory of the kind needed (flags {:#x})", properties.deviceName, required));
+            fmt::format("{} has no memory of the required type (flags {:#x})", properties.deviceName, required));
     return *found;
 }
 

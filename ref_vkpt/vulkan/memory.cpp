@@ -106,7 +106,7 @@ Allocation MemoryAllocator::allocate(const VkMemoryRequirements& requirements, V
         found = find_place();
     }
     if (!found && !add_place(allocation.size_))
-        throw LevelError(fmt::format("out of memory on {}: {} MiB for {} not to be had; {}",
+        throw LevelError(fmt::format("out of memory on {}: cannot allocate {} MiB for {}; {}",
             device_.properties.deviceName, (allocation.size_ >> 20) + 1, describe(kind), memory_remedy));
     allocation.allocator_ = this;
     in_use_[size_t(kind)] += allocation.size_;

@@ -22,7 +22,8 @@ VkSemaphore make_semaphore(VkDevice device)
 Swapchain::Swapchain(const Gpu& gpu, const Window& window) : gpu_(gpu), window_(window)
 {
     if (!gpu.device.has_swapchain)
-        throw FatalError(std::string(gpu.device.properties.deviceName) + " cannot show pictures in windows (VK_KHR_swapchain)");
+        throw FatalError(
+            std::string(gpu.device.properties.deviceName) + " cannot present to a window (no VK_KHR_swapchain)");
     create_surface();
     for (VkSemaphore& semaphore : acquired_)
         semaphore = make_semaphore(gpu.device.handle);
@@ -35,14 +36,15 @@ void Swapchain::create_surface()
     VKPT_CHECK(
         vkGetPhysicalDeviceSurfaceSupportKHR(gpu_.device.physical, gpu_.device.queue_family, surface_, &supported));
     if (!supported)
-        throw FatalError(std::string(gpu_.device.properties.deviceName) + " cannot show pictures in this window; choose another "
-                                                                          "device with pt_device");
+        throw FatalError(std::string(gpu_.device.properties.deviceName)
+            + " cannot present to this window; choose another "
+              "device with pt_device");
 }
 
 // Displays and their drivers may take a surface away: a monitor unplugged, a compositor started anew.
 void Swapchain::renew_surface()
 {
-    engine::print("ref_vkpt: the window's surface was lost; making another one");
+    engine::print("ref_vkpt: the window's surface was lost; creating another one");
     destroy_pictures();
     if (swapchain_)
         vkDestroySwapchainKHR(gpu_.device.handle, swapchain_, nullptr);
@@ -91,7 +93,7 @@ VkSurfaceFormatKHR Swapchain::choose_format() const
     for (const VkSurfaceFormatKHR& format : formats)
         if (format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM)
             return format;
-    throw FatalError("the window takes no 8-bit RGBA pictures");
+    throw FatalError("the window's surface supports no 8-bit RGBA format");
 }
 
 VkPresentModeKHR Swapchain::choose_mode(bool vsync) const

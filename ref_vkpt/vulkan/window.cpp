@@ -34,12 +34,12 @@ std::vector<const char*> Window::instance_extensions() const
     if (is_sdl3()) {
         const char* const* names = sdl_function<const char* const* (*)(unsigned*)>(name)(&count);
         if (!names)
-            throw FatalError("SDL knows no way to show Vulkan on this display");
+            throw FatalError("SDL does not support Vulkan on this display");
         return { names, names + count };
     }
     const auto get = sdl_function<int (*)(void*, unsigned*, const char**)>(name);
     if (!get(window_, &count, nullptr))
-        throw FatalError("SDL knows no way to show Vulkan on this display");
+        throw FatalError("SDL does not support Vulkan on this display");
     std::vector<const char*> names(count);
     get(window_, &count, names.data());
     return names;
@@ -53,7 +53,7 @@ VkSurfaceKHR Window::create_surface(VkInstance instance) const
         ? sdl_function<bool (*)(void*, VkInstance, const void*, VkSurfaceKHR*)>(name)(window_, instance, nullptr, &surface)
         : sdl_function<int (*)(void*, VkInstance, VkSurfaceKHR*)>(name)(window_, instance, &surface) != 0;
     if (!made)
-        throw FatalError("the window gives no Vulkan surface: is the display's driver installed?");
+        throw FatalError("the window has no Vulkan surface: is the display's driver installed?");
     return surface;
 }
 

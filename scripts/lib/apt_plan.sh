@@ -133,13 +133,13 @@ plan_installation() {
     fi
     copy_apt_state "$plan_sources"
     run_step apt-plan "Looking at what apt would install (nothing is changed yet)" plan_apt apt-get -q -o Acquire::Retries=3 update \
-        || warn "apt could not read all package lists ($log_dir/apt-plan.log); going on with those that are there"
+        || warn "apt could not read all package lists ($log_dir/apt-plan.log); continuing with those that are there"
     mapfile -t plan_arguments < <(
         [[ $with_mesa == no ]] || print_mesa_arguments
         printf '%s\n' "$@"
         [[ " $* " != *" libsdl2-dev "* && " $* " != *" libvulkan-dev "* ]] || print_companions)
     if [[ $with_backports == yes && " ${plan_arguments[*]} " != *" mesa-vulkan-drivers/"* ]]; then
-        warn "no newer Mesa in $(release_codename)-backports: the release's Mesa $(plan_candidate mesa-vulkan-drivers) traces no rays itself; ref_vkpt will trace in compute shaders"
+        warn "no newer Mesa in $(release_codename)-backports: the release's Mesa $(plan_candidate mesa-vulkan-drivers) has no ray tracing; ref_vkpt will trace in compute shaders"
         plan_sources=$(missing_sources no "$with_contrib")
     fi
     simulate_plan

@@ -42,7 +42,7 @@ ask() {
 # Everything that the scripts write is below build/ and out/ of the checkout.
 check_writable() {
     if ! mkdir -p "$log_dir" 2>/dev/null || [[ ! -w $log_dir ]]; then
-        die "$(id -un) may not write to $log_dir (the folder of $(stat -c %U "$root"); an earlier run as another user?). \
+        die "$(id -un) cannot write to $log_dir (the folder of $(stat -c %U "$root"); an earlier run as another user?). \
 Own the checkout, or remove its build/ and start again."
     fi
 }
@@ -91,7 +91,7 @@ run_step() {
     "$@" >"$log" 2>&1 </dev/null &
     if ! watch_step $! "$title" last_line "$log"; then
         tail -n 40 "$log" >&2
-        warn "$title: failed; the whole output is in ${log#"$root"/}"
+        warn "$title: failed; the full output is in ${log#"$root"/}"
         return 1
     fi
 }

@@ -83,7 +83,7 @@ make_outside_dir() {
     if [[ ! -e $dir ]]; then
         mkdir -m 755 "$dir" || die "cannot make $dir"
     fi
-    [[ -d $dir && ! -L $dir && -O $dir ]] || die "$dir exists and is not ours; move it away"
+    [[ -d $dir && ! -L $dir && -O $dir ]] || die "$dir exists, but does not belong to this user; move it away"
     echo "$dir"
 }
 
@@ -129,7 +129,7 @@ link_game() {
         [[ $(readlink "$target") == "$file" ]] || ln -sfn "$file" "$target"
     done
     if [[ ! -e $run_dir/$name/game.so && ! -e ${data_dir:-}/$name/game.so ]]; then
-        note "no game.so for '$name' with this engine: the stock game is used with its files"
+        note "this engine has no game.so for '$name': using the stock game with its files"
         ln -sfn "$engine_dir/baseq2/game.so" "$run_dir/$name/game.so"
     fi
 }
@@ -159,13 +159,13 @@ choose_cache_dir() {
     outside=$(make_outside_dir) || exit 1
     cache_dir=$outside/cache
     give_folder "$cache_dir" && return 0
-    die "user $player_uid may not write to $shared_cache_dir; VKPT_CACHE_DIR=DIR names another place"
+    die "user $player_uid cannot write to $shared_cache_dir; set VKPT_CACHE_DIR to use another folder"
 }
 
 # prepare_run_dir HOME_NAME: sets home_dir, cache_dir and engine_binary.
 prepare_run_dir() {
     local engine engine_dir file
-    engine=$(find_engine) || die "Yamagi Quake II is not installed (package yamagi-quake2); VKPT_ENGINE=PATH names one elsewhere"
+    engine=$(find_engine) || die "Yamagi Quake II is not installed (package yamagi-quake2); set VKPT_ENGINE to its path if it is elsewhere"
     engine_dir=${engine%/*}
     choose_player
     choose_run_dir
@@ -181,7 +181,7 @@ prepare_run_dir() {
     link_game baseq2 "$engine_dir"
     [[ ${game_name:-baseq2} == baseq2 ]] || link_game "$game_name" "$engine_dir"
     home_dir=$run_dir/$1
-    give_folder "$home_dir" || die "$home_dir belongs to another user (an earlier run, or not ours); remove it: sudo rm -r $home_dir"
+    give_folder "$home_dir" || die "$home_dir belongs to another user (perhaps from an earlier run); remove it: sudo rm -r $home_dir"
     as_player mkdir -p "$home_dir/.yq2/${game_name:-baseq2}" "$home_dir/.local/share"
     choose_cache_dir
 }

@@ -121,7 +121,7 @@ play_in_window() {
     (exec_engine "$data_dir" ${common_arguments[@]+"${common_arguments[@]}"} "${start[@]}" "${engine_arguments[@]}")
     local status=$?
     if fallback_reason >/dev/null; then
-        warn "ref_vkpt did not start and the engine used its own renderer. What it said:"
+        warn "ref_vkpt did not start and the engine used its own renderer. Its messages:"
         fallback_reason >&2
         return 1
     fi
@@ -198,7 +198,7 @@ run_demo() {
 print_figures() {
     local line
     line=$(grep -oE '[0-9]+ frames, [0-9.]+ seconds: [0-9.]+ fps' "$(console_log)" | tail -n 1)
-    [[ -n $line ]] || die "the engine printed no figure; its console is in $(console_log)"
+    [[ -n $line ]] || die "the engine printed no frame rate; its console is in $(console_log)"
     say "Engine:  $line"
     grep '^ref_vkpt: pass ' "$(console_log)" | sed 's/^ref_vkpt: pass /Pass:    /'
     return 0
@@ -340,11 +340,11 @@ collect_pictures() {
     "$build_dir/scripts/contact_sheet" "$out/contact_sheet.png" "${chosen[@]}" || die "the contact sheet could not be made"
     made="${#chosen[@]} pictures and contact_sheet.png"
     if ! has ffmpeg; then
-        note "no ffmpeg, so no film: install it (apt install ffmpeg) and play again"
+        note "no ffmpeg, so no video: install it (apt install ffmpeg) and run ./play again"
     elif make_film "$out/demo.mp4" "$rate"; then
         made="${#chosen[@]} pictures, contact_sheet.png and demo.mp4"
     else
-        warn "ffmpeg made no film; what it said is in $log_dir/ffmpeg.log"
+        warn "ffmpeg made no video; its output is in $log_dir/ffmpeg.log"
     fi
     say "$made are in $out"
 }

@@ -82,13 +82,13 @@ update_lists() { run_step apt-update "Reading apt's package lists" run_apt updat
 may_change_system() {
     local question=$1 refusal=$2 command="./${0##*/} $3"
     if ! has_agreed && ! has_terminal; then
-        die "$refusal: there is no terminal to ask on. To agree beforehand: $command --yes    (or set CI=true)"
+        die "$refusal: there is no terminal to ask on. To agree in advance: $command --yes    (or set CI=true)"
     fi
     ask "$question" || die "$refusal"
     is_root && return 0
     has sudo || die "not root, and no sudo here. As root, run: $command"
     if has_terminal; then
-        sudo -v || die "sudo did not let us. As root, run: $command"
+        sudo -v || die "sudo refused. As root, run: $command"
     else
         sudo -n true 2>/dev/null || die "sudo asks for a password, which needs a terminal. As root, run: $command --yes"
     fi
@@ -137,7 +137,7 @@ check_plan_holds() {
     [[ $now == "$plan_changes" ]] && return 0
     restore_own_sources "$1"
     diff <(printf '%s\n' "$plan_changes") <(printf '%s\n' "$now") | sed -n 's/^[<>]/  &/p' | head -n 10 >&2
-    die "apt's package lists have changed meanwhile (above: before <, now >); nothing was installed. Start again."
+    die "apt's package lists have changed in the meantime (above: < before, > now); nothing was installed. Start again."
 }
 system_apt() { apt-get "$@"; }
 
@@ -146,11 +146,11 @@ install_plan() {
     [[ -r $own_sources_file ]] && sources_before=$(<"$own_sources_file")
     manual_before=$(apt-mark showmanual 2>/dev/null)
     [[ -z $plan_sources ]] || write_own_sources "$plan_sources"
-    update_lists || warn "apt-get update had errors ($log_dir/apt-update.log); going on with the lists that are there"
+    update_lists || warn "apt-get update had errors ($log_dir/apt-update.log); continuing with the lists that are there"
     check_plan_holds "$sources_before"
     write_record
     run_step apt-install "Installing $(count_changes new) packages" run_apt install -y --no-install-recommends "${plan_arguments[@]}" \
-        || die "apt could not install the packages. ./play --uninstall takes back what it did."
+        || die "apt could not install the packages. ./play --uninstall removes what it did install."
     restore_auto_marks
 }
 
@@ -174,7 +174,7 @@ set_up_machine() {
     if [[ -n $plan_changes ]]; then
         check_plan
         print_plan
-        say "By hand, as root: apt-get install --no-install-recommends ${plan_arguments[*]}"
+        say "To do it by hand, as root: apt-get install --no-install-recommends ${plan_arguments[*]}"
         may_change_system "Do this now?" "nothing was installed" --setup-only
         install_plan
     fi

@@ -61,23 +61,23 @@ print_uninstallation() {
         print_names remove
     fi
     if [[ -n $plan_changes ]] && (($(count_changes upgrade))); then
-        say "These would get their earlier version again:"
+        say "These would be downgraded to their earlier version:"
         print_names upgrade
     fi
     kept=$(while read -r _ name version _; do
         [[ -n $(installed_version "$name") ]] && ! grep -q "^remove $name " <<<"$plan_changes" && echo "$name"
     done < <(recorded new) | paste -sd' ')
-    [[ -z $kept ]] || say "These stay, as other packages need them by now: $kept"
+    [[ -z $kept ]] || say "These stay, because other packages need them by now: $kept"
     kept=$(while read -r _ name version old; do
         [[ $(installed_version "$name") == "$version" ]] && ! grep -q "^upgrade $name " <<<"$plan_changes" && echo "$name ($version; it was $old)"
     done < <(recorded upgrade) | paste -sd',' | sed 's/,/, /g')
-    [[ -z $kept ]] || say "These stay in their newer version, as apt has not the earlier one or others need the newer: $kept"
+    [[ -z $kept ]] || say "These stay in their newer version, because apt does not have the earlier one or others need the newer: $kept"
     [[ ! -e $own_sources_file ]] || say "The file $own_sources_file would be removed."
 }
 
 uninstall_from_machine() {
     if [[ ! -e $record_file && ! -e $own_sources_file ]]; then
-        say "Nothing to take back: the set-up has installed nothing on this machine."
+        say "Nothing to remove: the set-up has installed nothing on this machine."
         return 0
     fi
     plan_uninstallation
@@ -85,10 +85,10 @@ uninstall_from_machine() {
     may_change_system "Remove them now?" "nothing was removed" --uninstall
     if ((${#uninstall_arguments[@]})); then
         run_step apt-remove "Removing packages" run_apt install -y --purge --allow-downgrades --no-install-recommends "${uninstall_arguments[@]}" \
-            || die "apt could not remove the packages; nothing else was taken back"
+            || die "apt could not remove the packages; nothing else was removed"
     fi
     as_root rm -f "$own_sources_file" "$record_file"
     [[ ! -d $record_dir ]] || as_root rmdir "$record_dir"
     update_lists || warn "apt-get update had errors ($log_dir/apt-update.log)"
-    say "Taken back. What was built is in $root/build; remove that folder by hand."
+    say "Removed. The build is in $root/build; delete that folder by hand."
 }

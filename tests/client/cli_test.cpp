@@ -280,8 +280,8 @@ TEST_F(Cli, WithoutAHomeNothingIsKept)
             "uniform", "--size", "40x36", "--runs", "2", "--frames", "2", "--reference-spp", "16", "-o", "compared" },
         folder.path());
     EXPECT_EQ(result.status, 0) << result.errors;
-    expect_in(result.errors, "nothing is kept for the next run: there is no home folder");
-    expect_in(result.errors, "converged pictures are not kept: there is no home folder");
+    expect_in(result.errors, "nothing is cached for the next run: there is no home folder");
+    expect_in(result.errors, "references are not cached: there is no home folder");
     std::filesystem::remove_all(folder.path() / "tmp/other");
     EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "tmp"));
 }
@@ -292,7 +292,7 @@ TEST_F(Cli, CacheOfAnotherUserIsLeftAlone)
     std::filesystem::permissions(folder.path() / "cache/vkpt", std::filesystem::perms(0777));
     const ProgramResult result = render({ "-o", "a.png" });
     EXPECT_EQ(result.status, 0);
-    expect_in(result.errors, "cache/vkpt may be written to by others");
+    expect_in(result.errors, "cache/vkpt is writable by others");
     EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "cache/vkpt"));
 }
 
@@ -478,7 +478,7 @@ TEST_F(Cli, CompareRefusesWhatThereIsNot)
         { { "compare", "maps/sample.bsp", "--runs", "1", "-o", "compared" }, 2, "--runs" },
         { { "compare", "maps/nowhere.bsp", "-o", "compared" }, 1, "maps/nowhere.bsp" },
         { { "compare", "maps/sample.bsp", "-o", "baseq2/maps/sample.bsp" }, 1, "baseq2/maps/sample.bsp" },
-        { { "export", "maps/sample.bsp", "-o", "exported" }, 1, "no map to give out" },
+        { { "export", "maps/sample.bsp", "-o", "exported" }, 1, "no map to export" },
     };
     for (const auto& [arguments, status, part] : cases) {
         const ProgramResult result = run(arguments);

@@ -211,10 +211,10 @@ INSTANTIATE_TEST_SUITE_P(Made, TraceBudget,
         BadTrace { "ShortestCallsOutsideOfFrames", shortest_calls_outside_of_frames, "more calls than any recorder" },
         BadTrace { "ManyNames", many_names, "" }, BadTrace { "EmptyViews", empty_views, "so much memory" },
         BadTrace { "EmptyFrames", empty_frames, "more calls than any recorder" },
-        BadTrace { "FullFrames", full_frames, "unpacks to more than 128 times" },
+        BadTrace { "FullFrames", full_frames, "decompresses to more than 128 times" },
         BadTrace { "SettingsInAFrame", settings_in_a_frame, "more registrations, settings" },
         BadTrace { "Registrations", registrations, "more registrations, settings" },
-        BadTrace { "LargeRawPictures", large_raw_pictures, "unpacks to more than 128 times" },
+        BadTrace { "LargeRawPictures", large_raw_pictures, "decompresses to more than 128 times" },
         BadTrace { "FilesThatTakeReading", files_that_take_reading, "" }, BadTrace { "TinyChunks", tiny_chunks, "" }),
     [](const auto& test) { return test.param.name; });
 

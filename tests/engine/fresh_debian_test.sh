@@ -23,5 +23,5 @@ expect 2 "no part 'nonsense'" "$script" --only nonsense bookworm
 expect 2 'unknown option' "$script" --nonsense
 as_user=()
 [[ $(id -u) -ne 0 ]] || as_user=(setpriv --reuid=65534 --clear-groups)
-expect 1 'want root' ${as_user[@]+"${as_user[@]}"} "$script" bookworm
+expect 1 'need root' ${as_user[@]+"${as_user[@]}"} "$script" bookworm
 ((failures == 0))

@@ -173,7 +173,7 @@ expect_equal "what is left" 'libc6 libpng-dev libudev1 other-program systemd ude
     "$(dpkg-query --admindir="$machine/dpkg" -W -f '${Package}\n' | sort | paste -sd' ')"
 expect_equal "no source, no record is left" '' "$(print_sources; ls "$machine/record")"
 (uninstall_from_machine) >"$folder/output" 2>&1 || expect_equal "a second time: status" 0 1
-expect_says "a second time" 'Nothing to take back'
+expect_says "a second time" 'Nothing to remove'
 
 start_machine bookworm libdrm2 libdrm-common libdrm-amdgpu1 libdrm-intel1 libdrm-nouveau2 libdrm-radeon1 libgbm1 libgl1-mesa-dri libwayland-client0 mesa-vulkan-drivers
 set_up || expect_equal "a desktop without a GPU: status" 0 1

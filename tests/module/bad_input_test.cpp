@@ -108,7 +108,7 @@ TEST_F(BadInput, DamagedTextureBecomesGrey)
     start();
     expect_good_map_works();
     EXPECT_TRUE(session_->has_line("textures/wall.wal is damaged"));
-    EXPECT_TRUE(session_->has_line("textures/wall.wal is missing or cannot be used: shown grey"));
+    EXPECT_TRUE(session_->has_line("textures/wall.wal is missing or unusable: shown grey"));
 }
 
 TEST_F(BadInput, DamagedModelIsRefusedAndDrawnAsAPlaceholder)

@@ -352,8 +352,8 @@ TEST(Flight, HasNoBrokenPixel)
         }
     }
     session.host().run_text("pt_info\n");
-    EXPECT_TRUE(session.has_line(" 0 broken since the start"));
-    EXPECT_FALSE(session.has_line("is not a number"));
+    EXPECT_TRUE(session.has_line(" 0 non-finite since the start"));
+    EXPECT_FALSE(session.has_line("is not finite"));
 }
 
 } // namespace

@@ -93,8 +93,8 @@ int main(int argc, char** argv)
         ->capture_default_str();
     program.add_option("--module", options.module, "The ref_vkpt.so to use");
     program.add_option("--basedir", options.base_folder, "The folder that holds \"baseq2\", for the maps' pictures");
-    program.add_option("--game", options.game, "A game's folder beside baseq2, searched before it");
-    program.add_flag("--verbose", options.verbose, "Show the module's console on stderr");
+    program.add_option("--game", options.game, "A game folder beside baseq2, searched first");
+    program.add_flag("--verbose", options.verbose, "Print the module's console output on stderr");
     try {
         program.parse(argc, argv);
         return vkpt::tools::run(maps, options);
