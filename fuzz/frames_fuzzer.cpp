@@ -181,7 +181,7 @@ private:
         const auto scale = input.take<float>();
         const auto tint = input.take<std::array<float, 3>>();
         const Texture* picture = textures_->find(pictures[kind / 8 % pictures.size()], TextureUse::picture);
-        draw2d_->begin_frame(0, {});
+        draw2d_->begin_frame(0, {}, {});
         draw2d_->set_output(0, { 640, 480 });
         if (picture && kind % 8 == 0)
             draw2d_->draw_picture(*picture, place.x, place.y, scale, kind & 0x80 ? tint.data() : nullptr);

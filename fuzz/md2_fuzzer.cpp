@@ -20,7 +20,7 @@ void pose(const std::shared_ptr<const Md2Mesh>& mesh)
         if (frame < 0) {
             pose.shell_distance = powerup_shell_distance;
             pose.mirror = Mirror { { 0, 0, 0 }, axes.right };
-            pose.squeeze = Squeeze { { 0, 0, 0 }, axes.forward, 0.5f };
+            pose.squeeze = Squeeze { { 0, 0, 0 }, axes.forward, 0.25f, 0.5f };
         }
         geometry.add(mesh, pose, 0, 1);
     }

@@ -7,6 +7,8 @@
 #include "ref_vkpt/frame/frame.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/frame/shader_warm_up.hpp"
+#include "ref_vkpt/overlay/overlay.hpp"
+#include "ref_vkpt/preset_command.hpp"
 #include "ref_vkpt/scene/scene.hpp"
 #include "ref_vkpt/trace/trace_choice.hpp"
 #include "ref_vkpt/workers.hpp"
@@ -44,6 +46,8 @@ struct Module {
     std::array<ParkedScene, view_count> parked_views;
     std::optional<ShaderWarmUp> warm_up; // from the first map's registration on
     FrameCapture capture;
+    PresetCommand preset;
+    Overlay overlay;
     PassStatistics pass_statistics; // with pt_times 1
     const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     double first_frame_seconds = 0; // from the start to the end of the first view; 0: there was none

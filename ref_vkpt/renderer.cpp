@@ -39,6 +39,12 @@ std::string cache_directory()
     return folder.path;
 }
 
+VSync vsync()
+{
+    const int wanted = cvars::values().r_vsync;
+    return wanted == 0 ? VSync::off : wanted == 2 ? VSync::adaptive : VSync::on;
+}
+
 GraphicsSettings graphics_settings(void* sdl_window)
 {
     const CvarValues& cvars = cvars::values();
@@ -50,7 +56,7 @@ GraphicsSettings graphics_settings(void* sdl_window)
     settings.validation = cvars.pt_validation != 0;
     settings.ray_tracing = cvars.pt_device_rays != 0;
     settings.table_reads = TableReads(find_choice(find_cvar_row("pt_table_reads")->choices, cvars.pt_table_reads));
-    settings.vsync = cvars.r_vsync != 0;
+    settings.vsync = vsync();
     return settings;
 }
 
@@ -83,6 +89,13 @@ Filtering filtering()
 {
     const CvarValues& cvars = cvars::values();
     return { cvars.r_2D_unfiltered != 0, cvars.r_videos_unfiltered != 0, cvars.r_nolerp_list, cvars.r_lerp_list };
+}
+
+// Within what the menu's slider and its neighbours can say: the configuration may hold anything.
+Brightness brightness()
+{
+    const CvarValues& cvars = cvars::values();
+    return { std::clamp(cvars.gl3_intensity_2D, 0.0f, 100.0f), std::clamp(cvars.vid_gamma, 0.1f, 10.0f) };
 }
 
 // The last frame as shown; it waits for the device. Empty: there was none.
@@ -191,6 +204,8 @@ struct Command {
 constexpr Command commands[] = {
     { "pt_info", [] { run_command(print_info); } },
     { "pt_trace_measure", [] { run_command([] { module() ? measure_trace_backends(*module()) : void(); }); } },
+    { "pt_preset", [] { run_command([] { module() ? module()->preset.run() : void(); }); } },
+    { "pt_menu", [] { run_command([] { module() ? module()->overlay.toggle_menu() : void(); }); } },
     { "pt_times_print", [] { run_command([] { module() ? print_pass_statistics(*module()) : void(); }); } },
     { "screenshot", [] { run_command(take_screenshot); } },
     { "imagelist", [] { run_command([] { module() ? module()->textures.print_list() : void(); }); } },
@@ -237,6 +252,8 @@ bool init_context(void* sdl_window)
     engine::print("ref_vkpt: {} ({}), Vulkan {}", device.properties.deviceName, device.driver,
         describe_api_version(device.properties.apiVersion));
     running->frame.set_trace_backend(running->trace_choice.choose(cvars::values().pt_trace));
+    if (sdl_window)
+        running->overlay.take_keys();
     return true;
 }
 
@@ -334,9 +351,10 @@ void end_registration()
 void begin_frame(float)
 {
     Module& m = *running;
+    m.overlay.obey_keys(m.graphics.timer.frame_milliseconds());
     if (cvars::update()) {
         check_light_sampler();
-        m.graphics.set_vsync(cvars::values().r_vsync != 0);
+        m.graphics.set_vsync(vsync());
     }
     if (m.trace_choice.wants_measurement() && m.snapshot && !m.graphics.is_recording())
         measure_trace_backends(m);
@@ -347,7 +365,7 @@ void begin_frame(float)
     m.frame_has_view = false;
     if (m.graphics.begin_frame())
         m.draw2d.set_output(m.graphics.screen.output().words.address(), m.graphics.size());
-    m.draw2d.begin_frame(m.graphics.slot(), filtering());
+    m.draw2d.begin_frame(m.graphics.slot(), filtering(), brightness());
     m.frame.begin();
 }
 
@@ -397,16 +415,36 @@ void render_view(const engine::RefDef& refdef)
     record_view(refdef, *m.snapshot, &m.gpu_world, freeze);
 }
 
+// r_speeds
+static void print_speeds(const Module& m)
+{
+    if (cvars::values().r_speeds == 0 || !m.snapshot || !m.scene.world())
+        return;
+    engine::print("{:6} triangles {:6} of models {:5} lights {:7.1f} ms", m.scene.world()->models[0].triangles.size(),
+        m.snapshot->moving.triangle_count(),
+        m.scene.world()->models[0].emitters.size() + m.snapshot->emitters.size(),
+        m.graphics.timer.frame_milliseconds());
+}
+
+static OverlayFacts overlay_facts(const Module& m)
+{
+    return { m.graphics.size(), m.frame.rendered_size(), m.graphics.timer.frame_milliseconds(), &m.graphics.timer.times() };
+}
+
 void end_frame()
 {
     Module& m = *running;
     if (!m.graphics.is_recording())
         return;
+    if (m.frame_has_view) {
+        m.graphics.timer.note_view();
+        m.preset.note_frame(m.graphics.timer.frame_milliseconds());
+        print_speeds(m);
+    }
+    m.overlay.draw(m.draw2d, overlay_facts(m));
     m.textures.flush_if_needed();
     m.draw2d.record(m.graphics.commands());
     m.graphics.timer.mark(m.graphics.commands(), "2d");
-    if (m.frame_has_view)
-        m.graphics.timer.note_view();
     m.graphics.end_frame();
     // What the engine's server reads as the light on the player: 255 * half the radiance of a white floor, as lightmaps
     // go.

@@ -8,19 +8,41 @@
 #include "lib/denoise_spread.glsl"
 #include "lib/picture.glsl"
 
-// What the surface reflects towards the viewer.
-vec3 reflected_light(uvec2 pixel, uint index, Surface surface)
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DarkLightBuffer { DarkLight v[]; };
+
+// Diffuse without albedo.
+ReflectedLight reflected_light(uvec2 pixel, uint index, Surface surface)
 {
-    if ((frame.flags & FRAME_DENOISED) == 0u) {
-        ReflectedLight unfiltered = load_reflected_light(index);
-        return surface.albedo * unfiltered.diffuse + unfiltered.specular;
-    }
+    if ((frame.flags & FRAME_DENOISED) == 0u)
+        return load_reflected_light(index);
     FilteredLight light;
     if (frame.cvars.flt_denoiser == DENOISER_TEMPORAL)
         light = unpack_filtered(load_filtered(index));
     else
         light = spread_light(pixel, index, load_guide(index), load_element(push.source, index, uvec4(0u)));
-    return surface.albedo * light.diffuse + specular_tint(surface) * light.specular;
+    return ReflectedLight(light.diffuse, specular_tint(surface) * light.specular);
+}
+
+// Darkness casts no shadow, and is as it is: what takes light away needs no rays and no filter.
+vec3 taken_light(vec3 position)
+{
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < frame.dark_light_count; i++) {
+        DarkLight dark = DarkLightBuffer(frame.dark_lights).v[i];
+        sum += dark.colour * quick_max(dark.intensity - distance(position, dark.origin), 0.0);
+    }
+    return sum;
+}
+
+// What the surface shows of it, as the player wants to see it.
+vec3 shown_light(ReflectedLight light, Surface surface)
+{
+    if ((frame.flags & FRAME_FULLBRIGHT) != 0u)
+        return surface.albedo;
+    if ((frame.flags & FRAME_GREY_LIGHT) != 0u)
+        light = ReflectedLight(vec3(luminance(light.diffuse)), vec3(luminance(light.specular)));
+    light.diffuse = max(light.diffuse - taken_light(surface.position), vec3(0.0)) + frame.cvars.pt_min_light;
+    return (frame.flags & FRAME_LIGHT_ALONE) != 0u ? light.diffuse : surface.albedo * light.diffuse + light.specular;
 }
 
 void compose_pixel(uvec2 pixel, uint index)
@@ -28,7 +50,7 @@ void compose_pixel(uvec2 pixel, uint index)
     vec3 radiance = load_emitted(index);
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0)
-        radiance += unpack_light3(load_throughput(index)) * reflected_light(pixel, index, primary.surface);
+        radiance += unpack_light3(load_throughput(index)) * shown_light(reflected_light(pixel, index, primary.surface), primary.surface);
     // One broken path must not blacken a pixel for ever.
     if (is_broken(radiance)) {
         count_broken_pixel();

@@ -34,6 +34,8 @@ vec4 blend(vec4 below, Quad quad, vec2 point)
         const vec2 place = (point - quad.corner_min) / (quad.corner_max - quad.corner_min);
         color *= sample_picture(quad.texture_slot, quad.sampler_index, mix(quad.uv_min, quad.uv_max, place));
     }
+    if (push.intensity != 1.0 || push.exponent != 1.0)
+        color.rgb = quick_min(pow(color.rgb * push.intensity, vec3(push.exponent)), vec3(1.0));
     const float alpha = inside ? color.a : 0.0;
     return vec4(mix(below.rgb, color.rgb, alpha), alpha + below.a * (1.0 - alpha));
 }

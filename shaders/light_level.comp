@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How bright it is where the player stands, for the monsters' eyes (r_lightlevel): direct light on the floor below the eye.
 #define VKPT_ALWAYS_RIS
+#define VKPT_LIGHT_PASSES_OWN_BODY // the light that falls on the player is wanted, not what the player leaves of it
 #include "lib/frame.glsl"
 #include "lib/lighting.glsl"
 

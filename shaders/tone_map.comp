@@ -64,9 +64,9 @@ vec3 shown_colour(uvec2 pixel)
     vec3 radiance = sample_radiance(place);
     if ((frame.flags & FRAME_BLOOM) != 0u)
         radiance = mix(radiance, sample_bloom_level(frame.screen.bloom.address, frame.bloom_size, place), frame.cvars.pt_bloom);
-    vec3 exposed = radiance * ExposureBuffer(frame.exposure).v.exposure;
+    vec3 exposed = radiance * (ExposureBuffer(frame.exposure).v.exposure * frame.overbright);
     vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve(exposed) : quick_clamp(exposed, 0.0, 1.0);
-    vec3 colour = mix(encode_srgb(display), frame.blend.rgb, frame.blend.a);
+    vec3 colour = mix(quick_min(encode_srgb(display) * frame.intensity, vec3(1.0)), frame.blend.rgb, frame.blend.a);
     // The players' gamma was made for unlit darkness: 1.2, its default, changes nothing here.
     float gamma = 1.2 / max(frame.gamma, 0.1);
     if (abs(gamma - 1.0) > 1e-3)

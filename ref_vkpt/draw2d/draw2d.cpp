@@ -36,9 +36,10 @@ bool is_empty(const Rectangle& place) { return place.width <= 0 || place.height 
 
 } // namespace
 
-void Draw2d::begin_frame(uint32_t frame_slot, const Filtering& filtering)
+void Draw2d::begin_frame(uint32_t frame_slot, const Filtering& filtering, const Brightness& brightness)
 {
     filtering_ = filtering;
+    brightness_ = brightness;
     frame_ = frame_slot;
     FrameMemory& frame = frames_[frame_];
     frame.used = 0;
@@ -131,6 +132,12 @@ void Draw2d::draw_fill(const Rectangle& place, int palette_index)
 void Draw2d::draw_fade()
 {
     add_plain_quad({ 0, 0 }, { float(size_.width), float(size_.height) }, pack_color(0, 0, 0, fade_alpha));
+}
+
+void Draw2d::draw_shade(const Rectangle& place)
+{
+    if (!is_empty(place))
+        add_plain_quad(low_corner(place), high_corner(place), pack_color(0, 0, 0, fade_alpha));
 }
 
 void Draw2d::set_palette(const uint8_t* rgb)

@@ -25,6 +25,12 @@ struct Filtering {
     std::string always_filtered; // exceptions to unfiltered_pictures
 };
 
+// How bright 2D is shown: a colour c as (c * intensity)^(1 / gamma), as Yamagi's OpenGL 3 renderer does. From the cvars
+// gl3_intensity_2D and vid_gamma.
+struct Brightness {
+    float intensity = 1, gamma = 1;
+};
+
 class Draw2d {
 public:
     Draw2d(const Gpu& gpu, Bindings& bindings, Pipelines& pipelines, TextureStore& textures, uint32_t frames_in_flight);
@@ -36,7 +42,7 @@ public:
     void set_output(VkDeviceAddress words, VkExtent2D size);
 
     // The device has finished the last frame with this index; its memory is used again.
-    void begin_frame(uint32_t frame_slot, const Filtering& filtering);
+    void begin_frame(uint32_t frame_slot, const Filtering& filtering, const Brightness& brightness);
 
     // `tint_rgb`: three factors 0..1; nullptr: none.
     void draw_picture(const Texture& texture, int x, int y, float scale, const float* tint_rgb = nullptr);
@@ -49,6 +55,7 @@ public:
     void draw_fill(const Rectangle& place, int palette_index);
     // Darkens everything drawn so far.
     void draw_fade();
+    void draw_shade(const Rectangle& place); // there alone
     // A video frame: `bits` 8 (palette of set_palette) or 32 (RGBA, alpha ignored). The pixels are copied now.
     void draw_raw(const Rectangle& place, int columns, int rows, const uint8_t* pixels, int bits);
     // RGB triples of 256 entries for draw_raw; nullptr: the game's palette.
@@ -91,6 +98,7 @@ private:
     VkExtent2D size_ {}; // of the output
 
     Filtering filtering_;
+    Brightness brightness_;
     std::vector<shared::Quad> quads_;
     // Made from quads_ by sort_into_tiles(); kept for their memory.
     std::vector<shared::QuadTile> tiles_;

@@ -174,6 +174,8 @@ shared::QuadPush Draw2d::upload_lists()
     push.quad_indices = append(indices);
     push.output_words = output_;
     push.output_size = { size_.width, size_.height };
+    push.intensity = brightness_.intensity;
+    push.exponent = 1 / brightness_.gamma;
     return push;
 }
 

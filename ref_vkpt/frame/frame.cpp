@@ -141,10 +141,17 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.frame_index = cvars.pt_seed > 0 ? state_.accumulated_frames : state_.noise_index++;
     uniforms.bounce_block = glm::uvec2(1);
     uniforms.accumulated_frames = state_.accumulated_frames;
-    uniforms.blend = view.blend;
+    uniforms.blend = cvars.gl_polyblend != 0 ? view.blend : glm::vec4(0);
     uniforms.gamma = cvars.vid_gamma;
+    uniforms.overbright = std::clamp(cvars.vk_overbrightbits, 0.0f, 100.0f);
+    // The menu's slider has whole numbers from 0 on, of which the engine's Vulkan renderer takes 0 as 1; 2 is its default.
+    constexpr float menu_default = 2;
+    uniforms.intensity = std::clamp(cvars.vk_intensity, 1.0f, 10.0f) / menu_default;
     uniforms.cvars = cvars::shader_values();
-    uniforms.flags = view.underwater ? shared::FRAME_UNDERWATER : 0;
+    uniforms.flags = (view.underwater ? shared::FRAME_UNDERWATER : 0)
+        | (cvars.r_fullbright != 0 ? shared::FRAME_FULLBRIGHT : 0)
+        | (cvars.r_lightmap != 0 ? shared::FRAME_LIGHT_ALONE : 0)
+        | (cvars.gl3_colorlight == 0 ? shared::FRAME_GREY_LIGHT : 0);
     return uniforms;
 }
 
@@ -223,6 +230,8 @@ void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* 
         state_.history_frame_index = uniforms.frame_index;
     }
     uniforms.time = scene.time;
+    uniforms.dark_light_count = uint32_t(scene.dark_lights.size());
+    uniforms.dark_lights = scene.dark_lights.empty() ? 0 : uploads_.push(scene.dark_lights);
     uniforms.flags |= (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0) | (scene.world ? 0 : shared::FRAME_NO_WORLD)
         | (average ? shared::FRAME_JITTER : 0);
     if (!average && scene.world)

@@ -68,9 +68,16 @@ void Graphics::renew_fence(Slot& slot)
     VKPT_CHECK(vkCreateFence(device.handle, &fence, nullptr, &slot.finished));
 }
 
-VkExtent2D Graphics::size() const { return screen.output() ? screen.output().size : headless_size_; }
+VkExtent2D Graphics::size() const
+{
+    if (screen.output())
+        return screen.output().size;
+    // Not what the engine asked for: on displays of high density a window has more pixels than that.
+    const VkExtent2D window = window_ ? window_.drawable_size() : VkExtent2D {};
+    return window.width > 0 && window.height > 0 ? window : headless_size_;
+}
 
-void Graphics::set_vsync(bool vsync)
+void Graphics::set_vsync(VSync vsync)
 {
     swapchain_outdated_ |= vsync != vsync_;
     vsync_ = vsync;
@@ -91,8 +98,9 @@ bool Graphics::follow_window()
             const bool is_usable = swapchain_->recreate(vsync_);
             present_words_ = Buffer();
             const VkExtent2D extent = swapchain_->extent();
-            present_words_ = Buffer(gpu, VkDeviceSize(extent.width) * extent.height * sizeof(uint32_t),
-                BufferHome::device, MemoryKind::images, "present words");
+            const VkDeviceSize pixel = swapchain_->format().words * sizeof(uint32_t);
+            present_words_ = Buffer(gpu, pixel * extent.width * extent.height, BufferHome::device,
+                MemoryKind::images, "present words");
             swapchain_outdated_ = !is_usable;
         }
     }
@@ -120,7 +128,7 @@ void Graphics::record_present()
     const VkExtent2D extent = swapchain_->extent();
     const OutputPicture& output = screen.output();
     const shared::PresentPush push { output.words.address(), present_words_.address(),
-        { output.size.width, output.size.height }, { extent.width, extent.height }, swapchain_->swaps_red_blue() };
+        { output.size.width, output.size.height }, { extent.width, extent.height }, swapchain_->format().packing };
     constexpr VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     record_memory_barrier(commands(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
         VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT, compute,

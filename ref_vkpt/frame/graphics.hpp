@@ -22,7 +22,7 @@ struct GraphicsSettings {
     bool validation = false;
     bool ray_tracing = true; // use the device's own where it has it
     TableReads table_reads = TableReads::automatic;
-    bool vsync = true;
+    VSync vsync = VSync::on;
 };
 
 class Graphics {
@@ -43,10 +43,11 @@ public:
     // Frames submitted since the start.
     uint64_t frame_number() const { return frame_number_; }
 
-    void set_vsync(bool vsync);
-    bool is_vsync_active() const { return swapchain_ && swapchain_->vsync(); }
+    void set_vsync(VSync vsync);
+    bool is_vsync_active() const { return swapchain_ && swapchain_->vsync() != VSync::off; }
     // The size of pictures without a window.
     void set_size(VkExtent2D size) { headless_size_ = size; }
+    // Of the picture; before the first frame: what it will have.
     VkExtent2D size() const;
 
     // Waits for everything submitted.
@@ -82,9 +83,9 @@ private:
     void record_present();
 
     std::optional<Swapchain> swapchain_;
-    Buffer present_words_; // the picture in the window's byte order
+    Buffer present_words_; // the picture in the window's format
     VkExtent2D headless_size_;
-    bool vsync_;
+    VSync vsync_;
     bool swapchain_outdated_ = true;
     bool acquired_ = false;
     bool recording_ = false;

@@ -24,6 +24,9 @@ constexpr float beam_radiance = 8.0f;
 constexpr float shell_radiance = 0.6f;
 constexpr float shell_opacity = 0.3f;
 constexpr int hand_left = 1, hand_none = 2;
+// What a weapon before all walls (RF_DEPTHHACK) is scaled by about the eye: up to 64 units of it then stay within the player's
+// box, which reaches 16 units from the eye and into which no wall comes.
+constexpr float depth_hack_scale = 0.25f;
 
 glm::vec3 to_vec3(const float v[3]) { return { v[0], v[1], v[2] }; }
 
@@ -70,7 +73,7 @@ private:
     void add_shell_light(glm::vec3 centre, const shared::Material& material);
     shared::Material mesh_material(const Entity& entity, const Model& model, const Model::Mesh& mesh) const;
     bool add_md2(const Model::Mesh& mesh, const Md2Pose& pose, const shared::Material& material, uint32_t mask);
-    Squeeze fit_weapon_fov() const;
+    Squeeze squeeze_weapon(const Entity& weapon) const;
 
     SceneSnapshot& snapshot_;
     const RefDef& refdef_;
@@ -216,9 +219,8 @@ void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const M
     pose.old_frame = entity.previous_frame;
     if (is_weapon && cvars.hand == hand_left)
         pose.mirror = Mirror { eye_, axes_.right };
-
-    if (is_weapon && cvars.r_gunfov > 0)
-        pose.squeeze = fit_weapon_fov();
+    if (is_weapon)
+        pose.squeeze = squeeze_weapon(entity);
     if (entity.flags & RF_SHELLS)
         return add_shell(entity, mesh, pose);
     const shared::Material material = mesh_material(entity, model, mesh);
@@ -288,13 +290,14 @@ void SnapshotBuilder::add_shell_light(glm::vec3 centre, const shared::Material& 
     }
 }
 
-// The view weapon is made for a field of view of its own (r_gunfov, at 4:3): seen from the eye it is squeezed so that
-// it looks as it would there.
-Squeeze SnapshotBuilder::fit_weapon_fov() const
+// View weapons are made for a vertical field of view of their own (r_gunfov): from the eye they look as they would in it.
+// They are before all walls, as their picture stays the same if they are scaled about the eye as a whole.
+Squeeze SnapshotBuilder::squeeze_weapon(const Entity& weapon) const
 {
     const auto tangent = [](float degrees) { return std::tan(glm::radians(std::clamp(degrees, 1.0f, 170.0f)) / 2); };
-    const float gun_tangent_y = tangent(cvars::values().r_gunfov) * 3 / 4;
-    return { eye_, axes_.forward, tangent(refdef_.fov_y) / gun_tangent_y };
+    const float gun_fov = cvars::values().r_gunfov;
+    const float scale = weapon.flags & RF_DEPTHHACK ? depth_hack_scale : 1;
+    return { eye_, axes_.forward, scale, gun_fov > 0 ? scale * tangent(refdef_.fov_y) / tangent(gun_fov) : scale };
 }
 
 void SnapshotBuilder::add_sprite(const Entity& entity, const Model::Sprite& sprite)
@@ -353,8 +356,14 @@ void SnapshotBuilder::add_particle(const Particle& particle)
     snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
 }
 
+// What of a light's colour is negative takes light away; the rest shines.
 void SnapshotBuilder::add_dlight(const DynamicLight& light)
 {
+    constexpr float lightmap_units = 128; // of a radiance of 1
+    const glm::vec3 taken = glm::max(-to_vec3(light.color), glm::vec3(0)) * (cvars::values().pt_dlight_scale / lightmap_units);
+    const glm::vec3 origin = to_vec3(light.origin);
+    if (taken != glm::vec3(0) && is_sane(taken) && is_sane(origin) && is_sane(light.intensity))
+        snapshot_.dark_lights.push_back({ origin, light.intensity, taken });
     shared::Emitter emitter = make_dynamic_light(to_vec3(light.origin), to_vec3(light.color), light.intensity);
     emitter.lightstyle = lightstyle_dlight;
     if (emitter.radiance != glm::vec3(0))
@@ -377,20 +386,23 @@ void SnapshotBuilder::add_preview_light()
 
 } // namespace
 
-void add_entities(
-    SceneSnapshot& snapshot, const RefDef& refdef, const TextureStore& textures, const MaterialDefaults& defaults)
+void add_entities(SceneSnapshot& snapshot, const RefDef& refdef, std::span<const Entity> player_body,
+    const TextureStore& textures, const MaterialDefaults& defaults)
 {
     SnapshotBuilder builder(snapshot, refdef, textures, defaults);
-    for (int i = 0; i < refdef.entity_count; i++) {
-        const Entity& entity = refdef.entities[i];
+    const auto add = [&](const Entity& entity) {
         const MovingGeometry::Extent first = snapshot.moving.extent();
         builder.add_entity(entity);
         snapshot.things.push_back(
             { entity.model, entity.flags, to_vec3(entity.origin), first, snapshot.moving.extent() });
+    };
+    if (cvars::values().r_drawentities != 0) {
+        std::for_each_n(refdef.entities, refdef.entity_count, add);
+        std::ranges::for_each(player_body, add);
     }
     for (int i = 0; i < refdef.particle_count; i++)
         builder.add_particle(refdef.particles[i]);
-    for (int i = 0; i < refdef.dlight_count; i++)
+    for (int i = 0; i < refdef.dlight_count && cvars::values().vk_dynamic != 0; i++)
         builder.add_dlight(refdef.dlights[i]);
     if (!snapshot.world)
         builder.add_preview_light();

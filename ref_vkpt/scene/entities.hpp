@@ -6,10 +6,12 @@
 #include "ref_vkpt/scene/snapshot.hpp"
 #include "ref_vkpt/scene/textures.hpp"
 
+#include <span>
+
 namespace vkpt {
 
-// `snapshot` holds the world's materials already (none without a world).
-void add_entities(SceneSnapshot& snapshot, const engine::RefDef& refdef, const TextureStore& textures,
-    const MaterialDefaults& defaults);
+// `snapshot` holds the world's materials already (none without a world). `player_body`: entities beside the refdef's.
+void add_entities(SceneSnapshot& snapshot, const engine::RefDef& refdef, std::span<const engine::Entity> player_body,
+    const TextureStore& textures, const MaterialDefaults& defaults);
 
 } // namespace vkpt

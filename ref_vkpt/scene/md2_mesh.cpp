@@ -36,9 +36,9 @@ Affine find_placing(const Md2Pose& pose)
     Affine placing { glm::dmat3(pose.transform.rotation), glm::dvec3(pose.transform.origin) };
     if (pose.mirror)
         placing = compose(scale_about(pose.mirror->point, pose.mirror->normal, -1, 1), placing);
-    if (pose.squeeze)
-        placing
-            = compose(scale_about(pose.squeeze->eye, pose.squeeze->forward, 1, double(pose.squeeze->factor)), placing);
+    if (const auto& squeeze = pose.squeeze)
+        placing = compose(
+            scale_about(squeeze->eye, squeeze->forward, double(squeeze->along), double(squeeze->across)), placing);
     return placing;
 }
 
@@ -157,8 +157,8 @@ bool Md2Mesh::can_pose(const Md2Pose& pose) const
         return false;
     if (pose.mirror && !(is_sane(pose.mirror->point) && is_sane(pose.mirror->normal)))
         return false;
-    if (pose.squeeze
-        && !(is_sane(pose.squeeze->eye) && is_sane(pose.squeeze->forward) && is_sane(pose.squeeze->factor)))
+    if (const auto& squeeze = pose.squeeze; squeeze
+        && !(is_sane(squeeze->eye) && is_sane(squeeze->forward) && is_sane(squeeze->along) && is_sane(squeeze->across)))
         return false;
     const Blend blend = find_blend(pose);
     return blend.frame->usable && blend.old_frame->usable;

@@ -17,10 +17,10 @@ struct Mirror {
     glm::vec3 point, normal;
 };
 
-// View weapons are made for a field of view of their own: distances from the line of sight are scaled.
+// Scales about the eye: by `along` in the line of sight, by `across` in every direction square to it.
 struct Squeeze {
     glm::vec3 eye, forward;
-    float factor = 1;
+    float along = 1, across = 1;
 };
 
 struct Md2Pose {

@@ -73,12 +73,18 @@ void Scene::begin_registration(std::string_view map)
     sky_ = {};
 }
 
+// Of those that are registered; nullptr: none.
+Model* Scene::find_model(std::string_view name)
+{
+    const auto known = std::ranges::find_if(models_, [&](const Model& m) { return m.registration && m.name == name; });
+    return known != models_.end() ? &*known : nullptr;
+}
+
 Model* Scene::register_model(std::string_view name)
 {
     if (name.empty())
         return nullptr;
-    const auto known = std::ranges::find_if(models_, [&](const Model& m) { return m.registration && m.name == name; });
-    Model* model = known != models_.end() ? &*known : nullptr;
+    Model* model = find_model(name);
     if (!model) {
         try {
             if (std::optional<Model> loaded = load_model(std::string(name)))
@@ -202,7 +208,18 @@ shared::Sky Scene::make_sky(float time) const
     return sky;
 }
 
-SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef) const
+std::vector<engine::Entity> Scene::find_player_body(const engine::RefDef& refdef)
+{
+    const CvarValues& cvars = cvars::values();
+    if (cvars.pt_player_body == 0)
+        return {};
+    // The engine registers every player's model, skin and weapons, this one's too.
+    const RegisteredBody registered { [this](const std::string& path) { return find_model(path); },
+        [this](const std::string& path) { return const_cast<Texture*>(register_skin(path)); } };
+    return player_body_.stand(refdef, *world_, cvars.skin, registered);
+}
+
+SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef)
 {
     const CvarValues& cvars = cvars::values();
     SceneSnapshot snapshot;
@@ -213,14 +230,16 @@ SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef) const
     snapshot.lightstyles[lightstyle_dlight] = cvars.pt_dlight_scale;
     snapshot.lightstyles[lightstyle_sky] = cvars.pt_sky_scale;
     const MaterialDefaults defaults { cvars.pt_roughness_default, cvars.pt_metallic_default };
+    std::vector<engine::Entity> player_body;
     if (!(refdef.flags & engine::RDF_NOWORLDMODEL) && world_) {
         snapshot.world = world_.get();
         snapshot.has_alpha_test = world_->models[0].has_alpha_test;
         snapshot.moving = MovingGeometry(uint32_t(world_->models[0].triangles.size()));
         snapshot.materials = world_->make_materials(refdef.time, defaults);
         snapshot.sky = make_sky(refdef.time);
+        player_body = find_player_body(refdef);
     }
-    add_entities(snapshot, refdef, textures_, defaults);
+    add_entities(snapshot, refdef, player_body, textures_, defaults);
     if (snapshot.world)
         list_lights(snapshot, *world_);
     return snapshot;

@@ -4,6 +4,7 @@
 
 #include "formats/model.hpp"
 #include "ref_vkpt/engine/contract.hpp"
+#include "ref_vkpt/scene/player_body.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
 #include "ref_vkpt/scene/textures.hpp"
 
@@ -53,7 +54,7 @@ public:
     const World* world() const { return world_.get(); }
 
     // The scene of a refdef. RDF_NOWORLDMODEL: models alone, with a light of their own.
-    SceneSnapshot take_snapshot(const engine::RefDef& refdef) const;
+    SceneSnapshot take_snapshot(const engine::RefDef& refdef);
 
     void print_models() const;
 
@@ -70,6 +71,8 @@ private:
     Model* keep_model(Model model);
     void find_pictures(Model& model);
     shared::Sky make_sky(float time) const;
+    Model* find_model(std::string_view name);
+    std::vector<engine::Entity> find_player_body(const engine::RefDef& refdef);
 
     TextureStore& textures_;
     std::string map_path_;
@@ -78,6 +81,7 @@ private:
     std::vector<Model> models_; // never reallocated
     uint32_t registration_ = 0;
     SkyState sky_;
+    PlayerBody player_body_;
 };
 
 } // namespace vkpt

@@ -25,6 +25,7 @@ struct SceneSnapshot {
     MovingGeometry moving;
     std::vector<MovingThing> things; // of `moving`, in its order
     std::vector<shared::Emitter> emitters;
+    std::vector<shared::DarkLight> dark_lights;
     std::vector<shared::Material> materials; // all: the world's first
     std::vector<float> lightstyles; // lightstyle_count of them
     shared::Sky sky {};

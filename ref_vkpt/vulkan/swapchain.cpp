@@ -83,33 +83,25 @@ void Swapchain::destroy_pictures()
     pictures_.clear();
 }
 
-VkSurfaceFormatKHR Swapchain::choose_format() const
+std::vector<VkSurfaceFormatKHR> Swapchain::offered_formats() const
 {
     uint32_t count = 0;
     VKPT_CHECK(vkGetPhysicalDeviceSurfaceFormatsKHR(gpu_.device.physical, surface_, &count, nullptr));
     std::vector<VkSurfaceFormatKHR> formats(count);
     VKPT_CHECK(vkGetPhysicalDeviceSurfaceFormatsKHR(gpu_.device.physical, surface_, &count, formats.data()));
-    // Our picture holds display values already: no format that encodes once more.
-    for (const VkSurfaceFormatKHR& format : formats)
-        if (format.format == VK_FORMAT_B8G8R8A8_UNORM || format.format == VK_FORMAT_R8G8B8A8_UNORM)
-            return format;
-    throw FatalError("the window's surface supports no 8-bit RGBA format");
+    return formats;
 }
 
-VkPresentModeKHR Swapchain::choose_mode(bool vsync) const
+std::vector<VkPresentModeKHR> Swapchain::offered_modes() const
 {
     uint32_t count = 0;
     VKPT_CHECK(vkGetPhysicalDeviceSurfacePresentModesKHR(gpu_.device.physical, surface_, &count, nullptr));
     std::vector<VkPresentModeKHR> modes(count);
     VKPT_CHECK(vkGetPhysicalDeviceSurfacePresentModesKHR(gpu_.device.physical, surface_, &count, modes.data()));
-    if (!vsync)
-        for (VkPresentModeKHR wanted : { VK_PRESENT_MODE_IMMEDIATE_KHR, VK_PRESENT_MODE_MAILBOX_KHR })
-            if (std::ranges::find(modes, wanted) != modes.end())
-                return wanted;
-    return VK_PRESENT_MODE_FIFO_KHR;
+    return modes;
 }
 
-bool Swapchain::recreate(bool vsync)
+bool Swapchain::recreate(VSync vsync)
 {
     vsync_ = vsync;
     if (surface_lost_)
@@ -139,21 +131,20 @@ bool Swapchain::make_pictures()
     const VkSwapchainKHR old = swapchain_;
     swapchain_ = VK_NULL_HANDLE;
     if (extent_.width > 0 && extent_.height > 0) {
-        const VkSurfaceFormatKHR format = choose_format();
+        format_ = choose_window_format(offered_formats());
         VkSwapchainCreateInfoKHR info { VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR };
         info.surface = surface_;
         info.minImageCount = surface.minImageCount + 1;
         if (surface.maxImageCount > 0)
             info.minImageCount = std::min(info.minImageCount, surface.maxImageCount);
-        swaps_red_blue_ = format.format == VK_FORMAT_B8G8R8A8_UNORM;
-        info.imageFormat = format.format;
-        info.imageColorSpace = format.colorSpace;
+        info.imageFormat = format_.format;
+        info.imageColorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
         info.imageExtent = extent_;
         info.imageArrayLayers = 1;
         info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         info.preTransform = surface.currentTransform;
         info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-        info.presentMode = choose_mode(vsync_);
+        info.presentMode = choose_present_mode(offered_modes(), vsync_);
         info.clipped = VK_TRUE;
         info.oldSwapchain = old;
         const VkResult result = vkCreateSwapchainKHR(gpu_.device.handle, &info, nullptr, &swapchain_);

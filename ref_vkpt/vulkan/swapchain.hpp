@@ -4,6 +4,7 @@
 
 #include "ref_vkpt/vulkan/resources.hpp"
 #include "ref_vkpt/vulkan/window.hpp"
+#include "ref_vkpt/vulkan/window_format.hpp"
 
 #include <array>
 #include <vector>
@@ -21,17 +22,16 @@ public:
 
     // Makes the pictures for the window's size now, and the surface where it was lost. False: there is nothing to show
     // (minimised), or the surface is gone again. The device must be idle.
-    bool recreate(bool vsync);
+    bool recreate(VSync vsync);
     bool is_usable() const { return swapchain_ != VK_NULL_HANDLE; }
-    bool vsync() const { return vsync_; }
+    VSync vsync() const { return vsync_; }
 
     // Takes a picture; false: the window changed, recreate and try with the next frame.
     bool acquire(uint32_t frame_slot);
-    // Copies words in the picture's byte order, row by row, written by the passes before, into the picture taken.
+    // Copies words in the window's format, row by row, written by the passes before, into the picture taken.
     void record_copy(VkCommandBuffer commands, const Buffer& words);
     VkExtent2D extent() const { return extent_; }
-    // The picture's bytes are B, G, R, A instead of R, G, B, A.
-    bool swaps_red_blue() const { return swaps_red_blue_; }
+    const WindowFormat& format() const { return format_; }
     VkSemaphore acquired(uint32_t frame_slot) const { return acquired_[frame_slot]; }
     VkSemaphore finished() const { return finished_[picture_]; }
     // False: the window changed, recreate.
@@ -44,8 +44,8 @@ private:
     // Whether the surface still is. Throws for other failures.
     bool check(VkResult result, const char* call);
     void destroy_pictures();
-    VkSurfaceFormatKHR choose_format() const;
-    VkPresentModeKHR choose_mode(bool vsync) const;
+    std::vector<VkSurfaceFormatKHR> offered_formats() const;
+    std::vector<VkPresentModeKHR> offered_modes() const;
 
     Gpu gpu_;
     const Window& window_;
@@ -53,8 +53,8 @@ private:
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
     VkExtent2D extent_ {};
     bool surface_lost_ = false;
-    bool swaps_red_blue_ = false;
-    bool vsync_ = true;
+    WindowFormat format_;
+    VSync vsync_ = VSync::on;
     std::vector<VkImage> pictures_;
     std::vector<VkSemaphore> finished_; // one per picture: it may be presented
     std::array<VkSemaphore, frames_in_flight> acquired_ {};

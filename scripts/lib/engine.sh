@@ -178,6 +178,8 @@ prepare_run_dir() {
     [[ -e $build_dir/bin/ref_vkpt.so ]] \
         || die "$build_dir/bin/ref_vkpt.so is missing; build first: cmake --build --preset release"
     provide "$build_dir/bin/ref_vkpt.so" "$run_dir/ref_vkpt.so"
+    # The video menu lists the renderers that the engine knows by name. Ours is none of them; vk is one that most engines lack.
+    [[ -e $engine_dir/ref_vk.so ]] || provide "$build_dir/bin/ref_vkpt.so" "$run_dir/ref_vk.so"
     link_game baseq2 "$engine_dir"
     [[ ${game_name:-baseq2} == baseq2 ]] || link_game "$game_name" "$engine_dir"
     home_dir=$run_dir/$1
@@ -274,5 +276,5 @@ exec_engine() {
 # Why the engine did not keep our module, from its console; nothing where it did.
 fallback_reason() {
     grep -q '^Retrying with' "$(console_log)" 2>/dev/null || return 1
-    sed -n '/Loading library: ref_vkpt/,/^Retrying with/p' "$(console_log)" | sed -e '/^Loading library/d' -e '/^Retrying with/d' -e '/^-*$/d'
+    sed -n '/Loading library: ref_vk/,/^Retrying with/p' "$(console_log)" | sed -e '/^Loading library/d' -e '/^Retrying with/d' -e '/^-*$/d'
 }

@@ -9,7 +9,11 @@
 
 #include "light_choice.glsl"
 
+#ifdef VKPT_LIGHT_PASSES_OWN_BODY
+const uint mask_shadow = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_SKY;
+#else
 const uint mask_shadow = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
+#endif
 
 // The lights of a cluster. For a sample of the last view that is repeated: with the last view's lights at their old places.
 LightListView open_light_list_for(LightRandom random, int cluster)

@@ -38,6 +38,17 @@ VKPT_CONST uint FRAME_BLOOM = 2048u; // the picture is mixed with what bloom_*.c
 VKPT_CONST uint FRAME_LAYERED = 8192u; // pixels share out what glass and water show, and are mixed by blend_layers
 VKPT_CONST uint FRAME_COUNT_RAYS = 4096u; // every ray is counted in `ray_counts`
 VKPT_CONST uint FRAME_SPATIAL = 16384u; // the denoiser also filters over neighbours
+VKPT_CONST uint FRAME_FULLBRIGHT = 32768u; // r_fullbright: surfaces show their pictures
+VKPT_CONST uint FRAME_LIGHT_ALONE = 65536u; // r_lightmap: all surfaces are white
+VKPT_CONST uint FRAME_GREY_LIGHT = 131072u; // not gl3_colorlight
+
+// What a dynamic light of negative colour takes from surfaces around it: colour * (intensity - distance).
+struct DarkLight {
+    vec3 origin;
+    float intensity;
+    vec3 colour; // of the light on a white wall
+};
+VKPT_ASSERT_SIZE(DarkLight, 28);
 
 // Rays of a view, by what they were asked.
 struct RayCounts {
@@ -185,6 +196,8 @@ struct FrameUniforms {
     uint64_t light_level; // LIGHT_LEVEL_LANES floats, written by light_level.comp
     uint64_t ray_counts; // RayCounts where FRAME_COUNT_RAYS
     uint probe_count;
+    uint dark_light_count;
+    uint64_t dark_lights; // DarkLight
     uvec2 size;          // pixels rendered
     uvec2 bloom_size;    // pixels of the level of `bloom` that is its result, where FRAME_BLOOM
     uvec2 resolved_size; // pixels of the buffers `resolved` and `accumulated`: more where anti-aliasing upscales
@@ -201,6 +214,8 @@ struct FrameUniforms {
     uint flags;              // FRAME_*
     vec4 blend;              // the engine's screen blend, sRGB-encoded, alpha
     float gamma;             // vid_gamma
+    float overbright;        // multiplies the exposed radiance: vk_overbrightbits
+    float intensity;         // multiplies the encoded picture: by vk_intensity
     ShaderCvars cvars;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What present.comp is told.
+// The finished picture in the window's own format: what present.comp is told.
 #ifndef VKPT_SHARED_PRESENT_H
 #define VKPT_SHARED_PRESENT_H
 
@@ -7,12 +7,19 @@
 
 VKPT_SHARED_BEGIN
 
+// Named from the lowest bits up.
+VKPT_CONST uint PRESENT_RGBA8 = 0u;
+VKPT_CONST uint PRESENT_BGRA8 = 1u;
+VKPT_CONST uint PRESENT_RGB10A2 = 2u;
+VKPT_CONST uint PRESENT_BGR10A2 = 3u;
+VKPT_CONST uint PRESENT_RGBA16F = 4u; // two words a pixel
+
 struct PresentPush {
     uint64_t picture; // FrameUniforms::output_words
-    uint64_t words;   // the same in the window's byte order
+    uint64_t words;
     uvec2 picture_size;
     uvec2 size; // of the window; the picture is cut or repeated at its edge where they differ for a frame
-    uint swap_red_blue;
+    uint packing; // PRESENT_*
 };
 VKPT_ASSERT_SIZE(PresentPush, 40);
 

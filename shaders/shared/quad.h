@@ -39,8 +39,10 @@ struct QuadPush {
     uint64_t quad_indices; // uint
     uint64_t output_words; // FrameUniforms::output_words
     uvec2 output_size;
+    float intensity; // each colour c is shown as (c * intensity)^exponent
+    float exponent;
 };
-VKPT_ASSERT_SIZE(QuadPush, 40);
+VKPT_ASSERT_SIZE(QuadPush, 48);
 
 VKPT_SHARED_END
 

@@ -96,7 +96,7 @@ TEST(Engine, ChangesSettingsWhileRunning)
 {
     EngineOptions options;
     options.script = "wait_25\n";
-    for (const char* command : { "r_vsync 0", "r_vsync 1", "vid_gamma 1.6", "pt_bounces 0", "pt_bounces 3",
+    for (const char* command : { "r_vsync 0", "r_vsync 2", "r_vsync 1", "vid_gamma 1.6", "pt_bounces 0", "pt_bounces 3",
              "pt_light_subset 1", "pt_light_subset 32", "pt_exposure 2", "pt_tone_map none", "pt_render_scale 50",
              "pt_render_scale 100", "pt_accumulate 1", "pt_accumulate 0", "pt_bounces 99999", "pt_bounces no-number",
              "viewsize 60", "viewsize 100" })

@@ -88,6 +88,26 @@ TEST(Engine, WindowAndScreenshotsShowWhatIsCaptured)
     expect_captured(run, screenshots.front());
 }
 
+// Displays may offer no plain format of 8 bits. What is copied into one that encodes is encoded already.
+TEST(Engine, WindowsOfSrgbFormatShowTheSame)
+{
+    const ScratchFolder folder;
+    const Faults faults;
+    ASSERT_EQ(std::system(faults.begin("format 50").c_str()), 0); // VK_FORMAT_B8G8R8A8_SRGB
+    EngineOptions options;
+    faults.add_to(options);
+    const std::string grabbed = (folder.path() / "window.png").string();
+    options.script = std::string("wait_25\nset pt_capture_every 1\nwait_5\n") + display_mark
+        + "set pt_capture_every 0\nwait\nquit\n";
+    options.display_commands = { VKPT_GRAB_WINDOW " " + std::to_string(options.width) + " "
+        + std::to_string(options.height) + " " + grabbed };
+    options.arguments = { "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec", "test.cfg" };
+    options.cpu_seconds = 600;
+    const EngineRun run(options);
+    run.expect_clean();
+    expect_captured(run, grabbed);
+}
+
 TEST(Engine, MapsThatDoNotFitAreDropped)
 {
     const Faults faults;

@@ -2,6 +2,7 @@
 // A Vulkan layer for tests. While there is a file $VKPT_FAULTS, calls fail as its text says:
 //   memory N   all allocations of device memory but the next N
 //   surface    the window's surface is lost, once: whatever uses that surface fails until it is destroyed
+//   format N   windows have no format but VkFormat N
 // The layer keeps one table of functions: every device of a test is the same driver's.
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -130,6 +131,20 @@ VkResult VKAPI_CALL get_capabilities(
     return is_lost(surface) ? VK_ERROR_SURFACE_LOST_KHR : next_capabilities(physical, surface, capabilities);
 }
 
+PFN_vkGetPhysicalDeviceSurfaceFormatsKHR next_formats;
+VkResult VKAPI_CALL get_formats(
+    VkPhysicalDevice physical, VkSurfaceKHR surface, uint32_t* count, VkSurfaceFormatKHR* formats)
+{
+    constexpr std::string_view format = "format ";
+    const std::string fault = read_fault();
+    if (!fault.starts_with(format))
+        return next_formats(physical, surface, count, formats);
+    if (formats && *count > 0)
+        formats[0] = { VkFormat(std::atoi(fault.c_str() + format.size())), VK_COLOR_SPACE_SRGB_NONLINEAR_KHR };
+    *count = 1;
+    return VK_SUCCESS;
+}
+
 PFN_vkDestroySurfaceKHR next_destroy_surface;
 void VKAPI_CALL destroy_surface(VkInstance of, VkSurfaceKHR surface, const VkAllocationCallbacks* callbacks)
 {
@@ -178,6 +193,8 @@ PFN_vkVoidFunction VKAPI_CALL get_instance_function(VkInstance of, const char* n
     const PFN_vkVoidFunction next = next_instance_function(of, name);
     if (!std::strcmp(name, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"))
         return take(next_capabilities, get_capabilities, next);
+    if (!std::strcmp(name, "vkGetPhysicalDeviceSurfaceFormatsKHR"))
+        return take(next_formats, get_formats, next);
     if (!std::strcmp(name, "vkDestroySurfaceKHR"))
         return take(next_destroy_surface, destroy_surface, next);
     return next;

@@ -79,7 +79,8 @@ protected:
     void SetUp() override
     {
         for (const auto& [name, value] : CvarList { { "r_2D_unfiltered", "1" }, { "r_videos_unfiltered", "1" },
-                 { "r_lerp_list", "" }, { "r_nolerp_list", "pics/conchars.pcx" } })
+                 { "r_lerp_list", "" }, { "r_nolerp_list", "pics/conchars.pcx" }, { "vid_gamma", "1" },
+                 { "gl3_intensity_2D", "1" } })
             session_->set(name, value);
     }
 
@@ -276,6 +277,48 @@ TEST_F(Layer2d, FiltersFollowTheirSettings)
         session_->set("r_nolerp_list", c.never);
         session_->set("r_lerp_list", c.always);
         expect_filtered(c.filtered);
+    }
+}
+
+// As Yamagi's OpenGL 3 renderer shows it: (intensity * colour)^(1 / gamma), of what is drawn and not of what is below.
+TEST_F(Layer2d, BrightnessFollowsTheMenusSlider)
+{
+    struct Setting {
+        float gamma, intensity;
+    };
+    constexpr int columns = 2, rows = 2;
+    const uint8_t film[columns * rows] = { 10, 60, 110, 200 }; // greys
+    for (const auto& [gamma, intensity] : { Setting { 1.2f, 1.5f }, Setting { 2, 1 }, Setting { 0.7f, 1.2f } }) {
+        SCOPED_TRACE("gamma " + std::to_string(gamma) + ", intensity " + std::to_string(intensity));
+        session_->set("vid_gamma", double(gamma));
+        session_->set("gl3_intensity_2D", double(intensity));
+        const auto shown_value = [&](uint8_t own) {
+            return uint8_t(std::lround(255 * std::min(1.0f, std::pow(intensity * float(own) / 255, 1 / gamma))));
+        };
+        const formats::Image shown = show([&](const engine::Exports8& module) {
+            module.draw_fill(3, 5, 10, 7, 77);
+            module.draw_pic_scaled(20, 5, "thing", 1);
+            module.draw_char_scaled(40, 5, 65, 1);
+            module.draw_stretch_raw(3, 20, 20, 20, columns, rows, film, 8);
+        });
+        expect(
+            shown,
+            [&](int x, int y) -> std::optional<formats::Rgba8> {
+                const auto grey = [&](uint8_t own) {
+                    const uint8_t value = shown_value(own);
+                    return formats::Rgba8 { value, value, value, 255 };
+                };
+                if (is_inside(x, y, 3, 5, 10, 7))
+                    return grey(77);
+                if (is_inside(x, y, 20, 5, picture_width, picture_height))
+                    return grey(texel_index(x - 20, y - 5));
+                if (is_inside(x, y, 40, 5, character_size, character_size) && is_drawn(x - 40, y - 5))
+                    return grey(65);
+                if (is_inside(x, y, 3, 20, 20, 20))
+                    return grey(film[(y - 20) / 10 * columns + (x - 3) / 10]);
+                return std::nullopt;
+            },
+            1);
     }
 }
 

@@ -129,6 +129,27 @@ TEST_F(Finish, GammaAndBlendAreApplied)
     const float blend[4] = { 0, 1, 0, 0.25f };
     std::ranges::copy(blend, session_->view.blend);
     EXPECT_NEAR(shown_green(2), 0.75 * plain + 0.25, 2e-3);
+    session_->set("gl_polyblend", 0);
+    EXPECT_NEAR(shown_green(2), plain, 2e-3);
+    session_->set("gl_polyblend", 1);
+}
+
+// The video menu's overbrights and color intensity.
+TEST_F(Finish, MenusRowsMakeThePictureBrighter)
+{
+    look_at_sky();
+    session_->set("pt_exposure", 0.5);
+    session_->draw();
+    const double sky = 0.5 * session_->capture().pixels[0].y, plain = shown_green(2);
+    EXPECT_NEAR(plain, encode_srgb(sky), 2e-3);
+    session_->set("vk_overbrightbits", 1.5);
+    EXPECT_NEAR(shown_green(2), encode_srgb(1.5 * sky), 2e-3);
+    session_->set("vk_overbrightbits", 1);
+    session_->set("vk_intensity", 3);
+    EXPECT_NEAR(shown_green(2), std::min(1.0, 1.5 * plain), 2e-3);
+    session_->set("vk_intensity", 0);
+    EXPECT_NEAR(shown_green(2), 0.5 * plain, 2e-3);
+    session_->set("vk_intensity", 2);
 }
 
 // Shown brightness of a column of pixels at the lamp's height, `off` pixels from the lamp's middle.

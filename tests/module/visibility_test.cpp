@@ -30,7 +30,7 @@ protected:
     void start(MapBuilder& map, const CvarList& cvars = {})
     {
         folder_.add_map("room", map.finish());
-        CvarList all { { "r_gunfov", "0" } };
+        CvarList all { { "r_gunfov", "0" }, { "vid_gamma", "1" }, { "gl3_intensity_2D", "1" } };
         all.insert(all.end(), cvars.begin(), cvars.end());
         session_ = std::make_unique<Session>(folder_, all);
         session_->load_map("room");
@@ -104,6 +104,38 @@ TEST_F(Visibility, ViewWeaponIsSeenAndCastsNoShadow)
     EXPECT_EQ(weapon.outside, 0);
     // The same thing as a part of the world does cast one.
     EXPECT_GT(compare(without, picture_with({ make_entity(cube_, place) }), place).outside, 20);
+}
+
+// A wall 12 units before the eye, as near as a player comes to one, and a weapon that reaches farther.
+TEST_F(Visibility, WallsDoNotHideTheWeaponBeforeThem)
+{
+    MapBuilder map;
+    add_floor(map);
+    add_lamp(map);
+    map.begin_brush_model();
+    map.add(rectangle({ 0, 0, 0 }, { 0, 0, 100 }, { 0, 100, 0 }), map.add_material("wall"));
+    start(map);
+    void* wall_model = session_->module().register_model("*1");
+    ASSERT_TRUE(wall_model);
+    session_->look({ -60, 0, 60 }, { 0, 0, 50 });
+    const engine::Entity wall = make_entity(wall_model, { -48, 0, 60 });
+    const auto count_weapon = [](const Radiance& picture) {
+        return std::ranges::count_if(picture.pixels, [](glm::vec3 p) { return p.x > 4 * p.y && p.x > 4 * p.z; });
+    };
+    const int32_t weapon = engine::RF_WEAPONMODEL | engine::RF_FULLBRIGHT;
+    const engine::Entity near = make_entity(cube_, { -34, -4, 50 }, weapon | engine::RF_DEPTHHACK);
+    const Radiance open = picture_with({ near }), closed = picture_with({ near, wall });
+    const auto pixels = count_weapon(open);
+    EXPECT_GT(pixels, 150);
+    EXPECT_EQ(count_weapon(closed), pixels);
+    for (size_t i = 0; i < open.pixels.size(); i++)
+        if (count_weapon({ 1, 1, { open.pixels[i] } })) {
+            EXPECT_EQ(closed.pixels[i], open.pixels[i]) << i;
+        }
+    // It looks as at its true place, which the wall hides.
+    const engine::Entity true_place = make_entity(cube_, { -34, -4, 50 }, weapon);
+    EXPECT_NEAR(double(count_weapon(picture_with({ true_place }))), double(pixels), 2);
+    EXPECT_EQ(count_weapon(picture_with({ true_place, wall })), 0);
 }
 
 TEST_F(Visibility, OwnBodyIsSeenInTheMirrorOnly)

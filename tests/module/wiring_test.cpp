@@ -300,17 +300,33 @@ TEST_F(Wiring, LeftHandMirrorsTheWeaponAlone)
     EXPECT_EQ(show({ thing() }).triangles.size(), 1u);
 }
 
-// Where it would be on the screen with a field of view of r_gunfov.
-TEST_F(Wiring, GunHasAFieldOfViewOfItsOwn)
+// Where it would be on the screen with a vertical field of view of r_gunfov, as with the engine's own renderers.
+TEST_F(Wiring, GunHasAVerticalFieldOfViewOfItsOwn)
 {
-    for (const float gun : { 60.0f, 80.0f, 110.0f }) {
+    for (const float gun : { 60.0f, 75.0f, 110.0f }) {
         session_->set("r_gunfov", double(gun));
-        const float factor
-            = std::tan(glm::radians(session_->view.fov_y) / 2) / (std::tan(glm::radians(gun) / 2) * 0.75f);
+        const float factor = std::tan(glm::radians(session_->view.fov_y) / 2) / std::tan(glm::radians(gun) / 2);
+        if (gun == 75) { // 90 degrees across at 4:3
+            EXPECT_NEAR(factor, 0.977f, 1e-3f);
+        }
         const auto squeezed = [&](glm::vec3 p) { return glm::vec3(p.x + 20, p.y * factor, (p.z - 5) * factor); };
         expect_corners(show({ thing(engine::RF_WEAPONMODEL) }), corners_of(0, squeezed), quantum * 2);
         expect_corners(show({ thing() }), corners_of(0, [](glm::vec3 p) { return p + glm::vec3(20, 0, -5); }));
     }
+}
+
+TEST_F(Wiring, WeaponsBeforeWallsAreSmallAndNear)
+{
+    session_->look({ 0, 8, 4 }, { 1, 8, 4 });
+    const auto placed = [](glm::vec3 p) { return p + glm::vec3(20, 0, -5); };
+    const glm::vec3 eye(0, 8, 4);
+    expect_corners(show({ thing(engine::RF_WEAPONMODEL | engine::RF_DEPTHHACK) }),
+        corners_of(0, [&](glm::vec3 p) { return eye + (placed(p) - eye) * 0.25f; }));
+    expect_corners(show({ thing(engine::RF_DEPTHHACK) }), corners_of(0, placed));
+    session_->set("r_gunfov", 60);
+    const float across = 0.25f * std::tan(glm::radians(session_->view.fov_y) / 2) / std::tan(glm::radians(30.0f));
+    expect_corners(show({ thing(engine::RF_WEAPONMODEL | engine::RF_DEPTHHACK) }),
+        corners_of(0, [&](glm::vec3 p) { return eye + (placed(p) - eye) * glm::vec3(0.25f, across, across); }));
 }
 
 // ---- sprites, beams, particles

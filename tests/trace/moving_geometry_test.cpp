@@ -112,7 +112,8 @@ Md2Pose random_pose(Random& random, float half)
     if (random() % 4 == 0)
         pose.mirror = Mirror { { coordinate(), 0, 0 }, random_direction(random) };
     if (random() % 4 == 0)
-        pose.squeeze = Squeeze { { 0, coordinate(), 0 }, random_direction(random), uniform(random, 0.3f, 2) };
+        pose.squeeze = Squeeze { { 0, coordinate(), 0 }, random_direction(random), uniform(random, 0.2f, 1),
+            uniform(random, 0.3f, 2) };
     return pose;
 }
 
@@ -255,7 +256,8 @@ TEST(MovingGeometry, leaves_out_what_has_no_place)
         EXPECT_TRUE(geometry.add(mesh, { .frame = 4, .old_frame = frame }, 0, 1)) << frame;
     }
     EXPECT_FALSE(geometry.add(mesh, { .transform = md2_transform({ 0, nan_value, 0 }, {}) }, 0, 1));
-    EXPECT_FALSE(geometry.add(mesh, { .squeeze = Squeeze { {}, { 1, 0, 0 }, nan_value } }, 0, 1));
+    EXPECT_FALSE(geometry.add(mesh, { .squeeze = Squeeze { {}, { 1, 0, 0 }, nan_value, 1 } }, 0, 1));
+    EXPECT_FALSE(geometry.add(mesh, { .squeeze = Squeeze { {}, { 1, 0, 0 }, 1, nan_value } }, 0, 1));
     EXPECT_FALSE(geometry.add(std::make_shared<Md2Mesh>(formats::Md2Model()), {}, 0, 1));
     EXPECT_FALSE(geometry.add(make_brush_mesh({}, {}), {}));
     EXPECT_EQ(geometry.triangle_count(), 3u);

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/overlay/overlay.hpp"
+
+#include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/preset_command.hpp"
+
+#include <fmt/format.h>
+
+namespace vkpt {
+
+void Overlay::toggle_menu()
+{
+    menu_.toggle();
+    keys_.set_open(menu_.is_open());
+}
+
+void Overlay::obey_keys(double frame_milliseconds)
+{
+    for (const MenuKey key : keys_.take())
+        if (menu_.is_open())
+            menu_.press(key, frame_milliseconds);
+    keys_.set_open(menu_.is_open());
+}
+
+std::vector<PanelLine> Overlay::describe_times(const OverlayFacts& facts) const
+{
+    const CvarValues& cvars = cvars::values();
+    std::vector<PanelLine> lines {
+        { fmt::format("{:.1f} fps, {:.1f} ms on the device", rate_.frames_per_second(), facts.frame_milliseconds) },
+        { fmt::format("{} x {} of {} x {}, preset {}", facts.rendered.x, facts.rendered.y, facts.window.width,
+            facts.window.height, current_preset()) },
+        { fmt::format("{}, {} bounces, {}, taa {}", cvars.pt_light_sampler, cvars.pt_bounces, cvars.flt_denoiser,
+            cvars.flt_taa) },
+    };
+    if (cvars.pt_show_times > 1) {
+        lines.push_back({ "" });
+        const std::vector<PanelLine> passes = describe_passes(*facts.passes);
+        lines.insert(lines.end(), passes.begin(), passes.end());
+    }
+    return lines;
+}
+
+void Overlay::draw(Draw2d& draw2d, const OverlayFacts& facts)
+{
+    rate_.count(FrameRate::Clock::now());
+    if (cvars::values().pt_show_times > 0)
+        draw_panel(draw2d, facts.window, PanelSide::right, describe_times(facts));
+    if (menu_.is_open())
+        draw_panel(draw2d, facts.window, PanelSide::left, menu_.describe(facts.frame_milliseconds));
+}
+
+} // namespace vkpt

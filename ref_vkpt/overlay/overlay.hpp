@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What this renderer draws over the game's own picture: pt_show_times and pt_menu.
+#pragma once
+
+#include "ref_vkpt/overlay/settings_menu.hpp"
+#include "ref_vkpt/overlay/times_lines.hpp"
+
+#include <glm/vec2.hpp>
+
+namespace vkpt {
+
+struct OverlayFacts {
+    VkExtent2D window;
+    glm::uvec2 rendered; // pixels of the 3D view
+    double frame_milliseconds; // on the device
+    const std::vector<PassTime>* passes;
+};
+
+class Overlay {
+public:
+    // In the life of the engine's window.
+    void take_keys() { keys_.install(); }
+    void toggle_menu();
+    // Between frames.
+    void obey_keys(double frame_milliseconds);
+    // Last of all 2D.
+    void draw(Draw2d& draw2d, const OverlayFacts& facts);
+
+private:
+    std::vector<PanelLine> describe_times(const OverlayFacts& facts) const;
+
+    FrameRate rate_;
+    SettingsMenu menu_;
+    KeyFilter keys_;
+};
+
+} // namespace vkpt

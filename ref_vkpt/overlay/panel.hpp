@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lines of text on a darkened ground in the window's upper corner, in the game's own font.
+#pragma once
+
+#include "ref_vkpt/draw2d/draw2d.hpp"
+
+#include <span>
+#include <string>
+
+namespace vkpt {
+
+struct PanelLine {
+    std::string text;
+    bool marked = false; // in the font's other colour
+    bool operator==(const PanelLine&) const = default;
+};
+
+enum class PanelSide { left, right };
+
+// How large a character of 8 pixels is shown in a window so high: the menus' whole scales.
+float panel_scale(int window_height);
+
+void draw_panel(Draw2d& draw2d, VkExtent2D window, PanelSide side, std::span<const PanelLine> lines);
+
+} // namespace vkpt

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/overlay/settings_menu.hpp"
+
+#include "ref_vkpt/cvars_rows.hpp"
+#include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/preset_command.hpp"
+#include "ref_vkpt/presets.hpp"
+#include "ref_vkpt/vulkan/shaders.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+
+namespace vkpt {
+
+namespace {
+
+struct Row {
+    const char *label, *cvar; // cvar nullptr: the preset
+    double step = 0; // of numbers
+    double lowest = 0, highest = 0; // of the engine's; ours have theirs in cvars.def
+};
+constexpr Row rows[] = {
+    { "preset", nullptr },
+    { "light sampler", "pt_light_sampler" },
+    { "bounces", "pt_bounces", 1 },
+    { "bounce rays", "pt_bounce_pixels" },
+    { "noise filter", "flt_denoiser" },
+    { "anti-aliasing", "flt_taa" },
+    { "render scale, %", "pt_render_scale", 5 },
+    { "wanted ms, or 0", "pt_target_ms", 5 },
+    { "brightness, stops", "pt_exposure_bias", 0.25 },
+    { "gamma", "vid_gamma", 0.1, 0.1, 2 },
+    { "glow", "pt_bloom", 0.02 },
+    { "least light", "pt_min_light", 0.01 },
+    { "own body", "pt_player_body", 1 },
+    { "times on screen", "pt_show_times", 1 },
+};
+constexpr bool all_known()
+{
+    return std::ranges::all_of(rows, [](const Row& row) { return !row.cvar || find_cvar_row(row.cvar); });
+}
+static_assert(all_known());
+
+std::string text_of(const char* cvar)
+{
+    const engine::Cvar* found = engine::get_cvar(cvar, find_cvar_row(cvar)->initial, engine::CVAR_NONE);
+    return found && found->text ? found->text : "";
+}
+
+std::vector<std::string> choices_of(const Row& row)
+{
+    std::vector<std::string> choices;
+    if (!row.cvar) {
+        for (const Preset& preset : presets())
+            choices.push_back(preset.name);
+    } else if (std::string_view(row.cvar) == "pt_light_sampler") {
+        const auto names = light_sampler_names();
+        choices.assign(names.begin(), names.end());
+    } else {
+        std::string_view rest = find_cvar_row(row.cvar)->choices;
+        while (!rest.empty()) {
+            const size_t end = std::min(rest.find('|'), rest.size());
+            choices.emplace_back(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+        }
+    }
+    return choices;
+}
+
+std::string value_of(const Row& row)
+{
+    if (!row.cvar)
+        return std::string(current_preset());
+    if (row.step == 0)
+        return text_of(row.cvar);
+    return fmt::format("{:g}", std::round(std::atof(text_of(row.cvar).c_str()) * 1000) / 1000);
+}
+
+void step_choice(const Row& row, int direction)
+{
+    const std::vector<std::string> choices = choices_of(row);
+    const auto now = std::ranges::find(choices, value_of(row));
+    const auto count = std::ptrdiff_t(choices.size());
+    // From what is none of them, to the first.
+    const std::ptrdiff_t next
+        = now == choices.end() ? 0 : (now - choices.begin() + direction + count) % count;
+    if (row.cvar)
+        engine::set_cvar(row.cvar, choices[size_t(next)]);
+    else
+        apply_preset(*find_preset(choices[size_t(next)]));
+}
+
+void step_number(const Row& row, int direction)
+{
+    const CvarRow& about = *find_cvar_row(row.cvar);
+    const bool ours = about.owner == CvarOwner::module;
+    const double lowest = ours ? about.lowest : row.lowest, highest = ours ? about.highest : row.highest;
+    const double now = std::atof(text_of(row.cvar).c_str());
+    // On the steps' own places, whatever stood there before.
+    const double next = std::clamp((std::round(now / row.step) + direction) * row.step, lowest, highest);
+    engine::set_cvar(row.cvar, fmt::format("{:g}", next));
+}
+
+} // namespace
+
+void SettingsMenu::toggle()
+{
+    is_open_ = !is_open_;
+    before_ = 0;
+}
+
+void SettingsMenu::change(int direction)
+{
+    const Row& row = rows[row_];
+    if (row.step == 0)
+        step_choice(row, direction);
+    else
+        step_number(row, direction);
+}
+
+void SettingsMenu::press(MenuKey key, double frame_milliseconds)
+{
+    switch (key) {
+    case MenuKey::up:
+        row_ = (row_ + std::size(rows) - 1) % std::size(rows);
+        break;
+    case MenuKey::down:
+        row_ = (row_ + 1) % std::size(rows);
+        break;
+    case MenuKey::less:
+    case MenuKey::more:
+        before_ = frame_milliseconds;
+        change(key == MenuKey::more ? 1 : -1);
+        break;
+    case MenuKey::close:
+        toggle();
+        break;
+    }
+}
+
+std::vector<PanelLine> SettingsMenu::describe(double frame_milliseconds) const
+{
+    std::vector<PanelLine> lines { { "path tracing", true }, { "" } };
+    for (size_t i = 0; i < std::size(rows); i++)
+        lines.push_back(
+            { fmt::format("{} {:17} {:>15}", i == row_ ? '>' : ' ', rows[i].label, value_of(rows[i])), i == row_ });
+    lines.push_back({ "" });
+    std::string time = fmt::format("frame {:.1f} ms", frame_milliseconds);
+    if (before_ > 0)
+        time += fmt::format(", before the change {:.1f} ms", before_);
+    lines.push_back({ time });
+    lines.push_back({ "arrows or wheel, escape: close" });
+    return lines;
+}
+
+} // namespace vkpt

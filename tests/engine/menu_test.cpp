@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The engine's own video menu and our page of settings, worked by keys.
+#include "tests/engine/engine_run.hpp"
+#include "tests/engine/picture_statistics.hpp"
+
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace vkpt::tests {
+
+namespace {
+
+// A key at a time: the engine looks once a frame.
+std::string press(const std::vector<std::string>& keys)
+{
+    std::string command = "xdotool search --class quake2 windowfocus --sync";
+    for (const std::string& key : keys)
+        command += " && sleep 0.2 && xdotool keydown " + key + " && sleep 0.2 && xdotool keyup " + key;
+    return command;
+}
+
+std::string repeat(const std::string& text, int count)
+{
+    std::string all;
+    for (int i = 0; i < count; i++)
+        all += text;
+    return all;
+}
+
+// What the console says of a variable: "NAME" is "VALUE".
+double printed_number(const EngineRun& run, const std::string& name)
+{
+    const auto lines = run.lines_with("\"" + name + "\" is \"");
+    if (lines.empty())
+        return -1;
+    const std::string& line = lines.back();
+    return std::stod(line.substr(line.find("is \"") + 4));
+}
+
+std::string read_text(const std::filesystem::path& path)
+{
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+}
+
+} // namespace
+
+TEST(Engine, VideoMenuChoosesThisRendererAndItsRowsAct)
+{
+    EngineOptions options;
+    const std::string capture = "set pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\n";
+    // A mark's waits are over before its keys are all pressed.
+    const std::string keys = display_mark + repeat("wait_100\n", 4);
+    options.script = "wait_25\n" + capture + "menu_video\nwait_5\n" + keys
+        // The menu has asked for the restart, too, but behind this script.
+        + "vid_renderer\nvid_restart\nwait_25\nmenu_video\nwait_5\n" + keys + "wait_5\nvid_gamma\nvk_intensity\nvk_overbrightbits\n" + capture + "quit\n";
+    options.display_commands = {
+        // From "Custom" to "Vulkan", which is this renderer, and up around the corner to "apply".
+        press({ "Left", "Up", "Return" }),
+        // Three rows more than before lie above "apply", where the cursor was.
+        press({ "Up", "Up", "Up", "Up", "Up", "Right", "Right", "Up", "Right", "Up", "Up", "Right", "Escape" }),
+    };
+    options.arguments
+        = { "+set", "pt_capture_dir", capture_name, "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
+    options.cpu_seconds = 600;
+    const EngineRun run(options);
+    run.expect_clean();
+    EXPECT_EQ(run.lines_with("Successfully loaded ref_vkpt.so").size(), 1u);
+    EXPECT_EQ(run.lines_with("Successfully loaded ref_vk.so").size(), 1u) << run.result().console;
+    EXPECT_FALSE(run.lines_with("\"vid_renderer\" is \"vk\"").empty()) << run.result().console;
+    EXPECT_GT(printed_number(run, "vid_gamma"), 1.05); // the engine's default is 1
+    EXPECT_EQ(printed_number(run, "vk_intensity"), 3);
+    EXPECT_GT(printed_number(run, "vk_overbrightbits"), 1.15);
+    // The next start takes what was chosen.
+    EXPECT_NE(read_text(run.result().game_folder / "config.cfg").find("set vid_renderer \"vk\""), std::string::npos);
+    const auto before = list_pictures(run.captures(1)), after = list_pictures(run.captures(2));
+    ASSERT_FALSE(before.empty() || after.empty()) << run.result().console;
+    EXPECT_GT(measure_picture(load_picture(after.back())).mean, 1.2 * measure_picture(load_picture(before.back())).mean);
+}
+
+// While the page is open its keys do not reach the engine, whose menu escape would open.
+TEST(Engine, SettingsPageIsWorkedByKeys)
+{
+    EngineOptions options;
+    const std::string keys = display_mark + repeat("wait_100\n", 4);
+    options.script = "wait_25\npt_menu\nwait_5\n" + keys + "pt_bounces\nflt_taa\necho page\npaused\n" + keys
+        + "pt_bounces\necho menu\npaused\nquit\n";
+    options.display_commands = {
+        press({ "Down", "Down", "Right", "Right", "Down", "Down", "Down", "Left", "Escape" }),
+        press({ "Right", "Escape" }),
+    };
+    options.arguments = { "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
+    options.cpu_seconds = 600;
+    const EngineRun run(options);
+    run.expect_clean();
+    EXPECT_EQ(run.lines_with("\"pt_bounces\" is \"3\"").size(), 2u) << run.result().console;
+    EXPECT_EQ(run.lines_with("\"flt_taa\" is \"on\"").size(), 1u) << run.result().console;
+    const auto paused = run.lines_with("\"paused\" is \"");
+    ASSERT_EQ(paused.size(), 2u) << run.result().console;
+    EXPECT_NE(paused[0].find("is \"0\""), std::string::npos) << paused[0];
+    EXPECT_NE(paused[1].find("is \"1\""), std::string::npos) << paused[1];
+}
+
+} // namespace vkpt::tests

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is drawn over the picture: where it is, that it goes again, and that pt_preset sets what it says.
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <gtest/gtest.h>
+
+namespace vkpt::tests {
+namespace {
+
+class OverlayOfModule : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        folder_ = std::make_unique<GameFolder>();
+        folder_->add_wall("wall", 180);
+        folder_->add_wall("lamp", white_index);
+        formats::IndexedImage font { 128, 128, std::vector<uint8_t>(128 * 128, white_index), test_palette() };
+        folder_->add("pics/conchars.pcx", formats::write_pcx(font));
+        MapBuilder map;
+        map.add_lit_room("wall");
+        folder_->add_map("room", map.finish());
+        session_ = std::make_unique<Session>(*folder_, CvarList(), glm::ivec2(800, 200));
+        session_->load_map("room");
+        session_->look({ -100, 0, 50 }, { 100, 0, 50 });
+    }
+    static void TearDownTestSuite()
+    {
+        session_.reset();
+        folder_.reset();
+    }
+    void SetUp() override
+    {
+        session_->set("pt_show_times", 0);
+        session_->set("pt_exposure", 0.2); // nothing but the font is white
+    }
+
+    // Pixels of the font's white in the left and the right half.
+    struct Halves {
+        int left = 0, right = 0;
+    };
+    static Halves count_text()
+    {
+        session_->draw(2);
+        const formats::Image image = session_->capture_display();
+        Halves halves;
+        for (int y = 0; y < image.height; y++)
+            for (int x = 0; x < image.width; x++)
+                (x < image.width / 2 ? halves.left : halves.right) += image.at(x, y).g == 255;
+        return halves;
+    }
+    static std::string value(const std::string& cvar) { return session_->host().cvars().find(cvar)->text; }
+
+    static inline std::unique_ptr<GameFolder> folder_;
+    static inline std::unique_ptr<Session> session_;
+};
+
+TEST_F(OverlayOfModule, TimesStandOnTheRightAndGo)
+{
+    const Halves before = count_text();
+    session_->set("pt_show_times", 1);
+    const Halves line = count_text();
+    EXPECT_GT(line.right, before.right + 3000);
+    EXPECT_EQ(line.left, before.left);
+    session_->set("pt_show_times", 2);
+    EXPECT_GT(count_text().right, line.right + 5000);
+    session_->set("pt_show_times", 0);
+    EXPECT_EQ(count_text().right, before.right);
+}
+
+TEST_F(OverlayOfModule, MenuStandsOnTheLeftAndGoes)
+{
+    const Halves before = count_text();
+    session_->host().run_text("pt_menu\n");
+    const Halves open = count_text();
+    EXPECT_GT(open.left, before.left + 5000);
+    EXPECT_EQ(open.right, before.right);
+    session_->host().run_text("pt_menu\n");
+    EXPECT_EQ(count_text().left, before.left);
+}
+
+TEST_F(OverlayOfModule, PresetsSetTheirCvars)
+{
+    session_->host().run_text("pt_preset low\n");
+    EXPECT_EQ(value("pt_render_scale"), "50");
+    EXPECT_EQ(value("pt_bounces"), "0");
+    session_->host().run_text("pt_preset\n");
+    EXPECT_TRUE(session_->has_line("pt_preset is \"low\""));
+    session_->host().run_text("pt_preset best\n");
+    EXPECT_TRUE(session_->has_line("pt_preset \"best\" is unknown; there are: auto, low, medium, high, ultra, reference"));
+    EXPECT_EQ(value("pt_render_scale"), "50");
+    session_->host().run_text("pt_preset auto never\n");
+    EXPECT_TRUE(session_->has_line("not \"never\""));
+    session_->host().run_text("pt_preset high\n");
+}
+
+// What is set then is what the console says, whatever it is on this machine.
+TEST_F(OverlayOfModule, AutoMeasuresAndDecides)
+{
+    session_->host().run_text("pt_preset auto 1\n");
+    EXPECT_TRUE(session_->has_line("measuring"));
+    for (int frame = 0; frame < 100000 && !session_->has_line("milliseconds of a frame here"); frame++)
+        session_->draw();
+    EXPECT_EQ(value("pt_target_ms"), "1000.00");
+    session_->host().run_text("pt_preset\n");
+    int matching = 0;
+    for (const char* preset : { "low", "medium", "high", "ultra" })
+        matching += session_->has_line(std::string("pt_preset is \"") + preset + "\"")
+            && session_->has_line(std::string("wanted 1000.0: pt_preset ") + preset + ",");
+    EXPECT_EQ(matching, 1);
+    session_->host().run_text("pt_preset high\n");
+}
+
+} // namespace
+} // namespace vkpt::tests
