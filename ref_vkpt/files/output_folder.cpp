@@ -174,6 +174,35 @@ void OutputFolder::write(const std::string& name, std::span<const std::byte> byt
     fail(name, reason);
 }
 
+std::string OutputFolder::read(const std::string& name, size_t most) const
+{
+    const auto refuse = [&](const std::string& reason) {
+        throw FileError("cannot read " + (path_ / name).string() + ": " + reason);
+    };
+    const Descriptor file(openat(descriptor_, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status {};
+    if (!file || fstat(file.value(), &status) != 0)
+        refuse(describe_errno());
+    if (!S_ISREG(status.st_mode))
+        refuse("it is no file");
+    std::string text(most + 1, '\0');
+    size_t length = 0;
+    while (length < text.size()) {
+        const ssize_t got = ::read(file.value(), text.data() + length, text.size() - length);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            refuse(describe_errno());
+        if (got == 0)
+            break;
+        length += size_t(got);
+    }
+    if (length > most)
+        refuse(fmt::format("it is longer than {} bytes", most));
+    text.resize(length);
+    return text;
+}
+
 uint64_t OutputFolder::bytes() const
 {
     uint64_t sum = 0;

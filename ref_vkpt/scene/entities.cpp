@@ -4,6 +4,7 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
 #include "ref_vkpt/scene/material_guess.hpp"
+#include "ref_vkpt/scene/placed_lights.hpp"
 #include "ref_vkpt/scene/scene.hpp"
 
 #include <algorithm>
@@ -65,6 +66,7 @@ private:
 
     void add_brush(const Entity& entity, const Model::Brush& brush);
     void add_mesh(const Entity& entity, const Model& model, const Model::Mesh& mesh);
+    bool add_placed_lights(const Entity& entity, formats::LightModel model, const Transform& transform);
     void add_shell(const Entity& entity, const Model::Mesh& mesh, Md2Pose pose);
     void add_sprite(const Entity& entity, const Model::Sprite& sprite);
     void add_beam(const Entity& entity);
@@ -223,8 +225,31 @@ void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const M
         pose.squeeze = squeeze_weapon(entity);
     if (entity.flags & RF_SHELLS)
         return add_shell(entity, mesh, pose);
+    if (model.light && !add_placed_lights(entity, *model.light, pose.transform))
+        return;
     const shared::Material material = mesh_material(entity, model, mesh);
     add_md2(mesh, pose, material, entity_mask(entity, material));
+}
+
+// False: its mesh is not to be seen. The spheres are, with RF_FULLBRIGHT, to the camera alone: no ray of light meets them.
+bool SnapshotBuilder::add_placed_lights(const Entity& entity, formats::LightModel model, const Transform& transform)
+{
+    constexpr float shown_radiance = 12, least_shown_radius = 1.5f;
+    const size_t first = snapshot_.emitters.size();
+    const formats::CodedLight light = formats::decode_light(entity.skin_number);
+    if (snapshot_.world)
+        append_placed_lights(model, light, transform, refdef_.time, EmissionScales().point, snapshot_.emitters);
+    if (entity.flags & RF_FULLBRIGHT) {
+        shared::Material material = plain_material();
+        material.tint = light.colour * shown_radiance;
+        material.flags = shared::MATERIAL_FULLBRIGHT;
+        for (size_t i = first; i < snapshot_.emitters.size(); i++) {
+            const float radius = std::max(snapshot_.emitters[i].p1.x, least_shown_radius);
+            append_octahedron({ snapshot_.emitters[i].p0 }, radius, add_material(material), snapshot_.moving.loose());
+        }
+        snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
+    }
+    return model == formats::LightModel::spot || model == formats::LightModel::flare;
 }
 
 // False: it cannot be posed (MovingGeometry::add).

@@ -182,9 +182,13 @@ void append_particle(vec3 origin, vec3 eye, const Axes& camera, uint32_t materia
 
 void append_null_model(const Transform& transform, uint32_t material, std::vector<Triangle>& out)
 {
+    append_octahedron(transform, 16, material, out);
+}
+
+void append_octahedron(const Transform& transform, float radius, uint32_t material, std::vector<Triangle>& out)
+{
     if (!is_sane(transform))
         return;
-    constexpr float radius = 16;
     for (int octant = 0; octant < 8; octant++) {
         const vec3 sign(octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1);
         const uint32_t normal = encode_octahedral(transform.direction(glm::normalize(sign)));

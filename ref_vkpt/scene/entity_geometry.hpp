@@ -60,5 +60,7 @@ void append_particle(
 
 // Stands for a missing model: an octahedron, 16 units from its middle to each corner.
 void append_null_model(const Transform& transform, uint32_t material, std::vector<shared::Triangle>& out);
+void append_octahedron(
+    const Transform& transform, float radius, uint32_t material, std::vector<shared::Triangle>& out);
 
 } // namespace vkpt

@@ -118,6 +118,7 @@ std::optional<Model> Scene::load_model(const std::string& name) const
 {
     Model model;
     model.name = name;
+    model.light = formats::find_light_model(name);
     if (name[0] == '*') {
         size_t index = 0;
         const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), index);

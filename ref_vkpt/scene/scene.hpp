@@ -2,6 +2,7 @@
 // What the engine has registered (map, models, skins, sky), and how a refdef of it becomes a SceneSnapshot.
 #pragma once
 
+#include "formats/light_code.hpp"
 #include "formats/model.hpp"
 #include "ref_vkpt/engine/contract.hpp"
 #include "ref_vkpt/scene/player_body.hpp"
@@ -32,6 +33,7 @@ struct Model {
         size_t index = 0; // in World::models; 0: the world itself
     };
     std::string name;
+    std::optional<formats::LightModel> light; // by its name
     std::variant<Mesh, Sprite, Brush> shape;
     uint32_t registration = 0; // the last one that used it; 0: free
 };

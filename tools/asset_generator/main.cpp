@@ -22,6 +22,7 @@ int main(int argc, char** argv)
         Subject { "models", write_item_models },
         Subject { "models", write_player_models },
         Subject { "models", write_effect_models },
+        Subject { "lights", write_light_models },
         Subject { "sounds", write_sounds },
         Subject { "textures", write_textures },
     };
@@ -29,7 +30,7 @@ int main(int argc, char** argv)
     CLI::App app { "Makes the free game data: pictures, textures, sky, models and sounds." };
     std::string folder, only;
     app.add_option("--out", folder, "the game folder to fill, e.g. build/game/baseq2")->required();
-    app.add_option("--only", only, "make one subject: base, pictures, textures, sky, models or sounds");
+    app.add_option("--only", only, "make one subject: base, pictures, textures, sky, models, lights or sounds");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

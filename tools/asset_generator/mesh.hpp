@@ -98,6 +98,7 @@ glm::mat4 move(glm::vec3 by);
 glm::mat4 turn(float pitch, float yaw, float roll = 0);
 glm::mat4 stretch(glm::vec3 by);
 
+void write_shared_skin(const Output& out);
 void write_model(const Output& out, std::string_view path, const formats::Md2Model& model);
 
 } // namespace vkpt::tools

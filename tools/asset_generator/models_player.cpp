@@ -255,11 +255,14 @@ void write_face(const Output& out, const std::string& skin, glm::vec3 armour)
     c.fill(line({ 11, 13 }, { 16, 13 }, 0.7f), ink::teal);
     out.write("players/male/" + skin + "_i.pcx", formats::write_pcx(quantise(32, 32, c.shrink(), 0.25f, true)));
 }
+
+constexpr glm::vec3 olive(0.40f, 0.44f, 0.28f);
 }
+
+void write_shared_skin(const Output& out) { out.write(shared_skin, formats::write_pcx(make_skin(olive))); }
 
 void write_player_models(const Output& out)
 {
-    constexpr glm::vec3 olive(0.40f, 0.44f, 0.28f);
     struct Skin {
         const char* name;
         glm::vec3 armour;
@@ -270,7 +273,7 @@ void write_player_models(const Output& out)
         Skin { "ember", { 0.62f, 0.22f, 0.12f } },
         Skin { "brass", { 0.70f, 0.54f, 0.24f } },
     };
-    out.write(shared_skin, formats::write_pcx(make_skin(olive)));
+    write_shared_skin(out);
     for (const Skin& skin : skins) {
         out.write("players/male/" + std::string(skin.name) + ".pcx", formats::write_pcx(make_skin(skin.armour)));
         write_face(out, skin.name, skin.armour);

@@ -31,6 +31,7 @@ void write_weapon_models(const Output& out);
 void write_item_models(const Output& out);
 void write_player_models(const Output& out);
 void write_effect_models(const Output& out);
+void write_light_models(const Output& out);
 void write_sounds(const Output& out);
 
 } // namespace vkpt::tools
