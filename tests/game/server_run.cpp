@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "tests/game/server_run.hpp"
+
+#include "tests/runner/process_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace vkpt::tests {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+fs::path stock_game() { return "/usr/lib/yamagi-quake2/baseq2/game.so"; }
+
+} // namespace
+
+ServerRun::ServerRun(const ServerOptions& options)
+    : frames_(options.frames)
+{
+    make_folder(options);
+    const int process = start(options);
+    int status = 0;
+    bool took_too_long = false;
+    for (int look = 1; waitpid(process, &status, WNOHANG) == 0; look++) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (look % 50 == 0 && measure_cpu_seconds(process) > options.cpu_seconds) {
+            took_too_long = true;
+            kill(-process, SIGKILL);
+        }
+    }
+    status_ = took_too_long ? -1 : WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    console_ = read_text(folder_ / "output.txt");
+    read_states();
+}
+
+ServerRun::~ServerRun()
+{
+    std::error_code error;
+    fs::remove_all(folder_, error);
+}
+
+void ServerRun::make_folder(const ServerOptions& options)
+{
+    std::string name = (fs::temp_directory_path() / "vkpt-server-XXXXXX").string();
+    if (!mkdtemp(name.data()))
+        throw std::runtime_error("cannot make a folder " + name);
+    folder_ = name;
+    // The server's user, who may be another than ours, has to come in and to write its files there.
+    fs::permissions(folder_, fs::perms(0777));
+    const fs::path files = folder_ / "files";
+    fs::create_directories(files / "maps");
+    for (const auto& [path, contents] : options.files) {
+        fs::create_directories((files / path).parent_path());
+        std::ofstream(files / path, std::ios::binary) << contents;
+    }
+    for (const fs::path& map : options.maps)
+        fs::copy_file(map, files / "maps" / map.filename());
+    fs::copy_file(VKPT_PROBE, files / "game.so");
+    fs::copy_file(VKPT_PROBE, folder_ / "inside.so");
+    std::ofstream script(folder_ / "script");
+    for (const auto& [frame, command] : options.script)
+        script << frame << ' ' << command << '\n';
+    script << options.frames << " quit\n";
+}
+
+int ServerRun::start(const ServerOptions& options)
+{
+    std::string library = options.game_library;
+    if (options.probe_inside)
+        library = (folder_ / "inside.so").string();
+    std::vector<std::string> words { VKPT_SOURCE_DIR "/scripts/run_server.sh", folder_.string(), "+set", "fixedtime",
+        "100000" }; // a server frame in every loop
+    if (!library.empty())
+        words.insert(words.end(), { "+set", "vkpt_game_library", library });
+    for (size_t i = 0; i + 1 < options.settings.size(); i += 2)
+        words.insert(words.end(), { "+set", options.settings[i], options.settings[i + 1] });
+    words.insert(words.end(), { "+map", options.map });
+    std::vector<char*> argv;
+    for (std::string& word : words)
+        argv.push_back(word.data());
+    argv.push_back(nullptr);
+
+    const int process = fork();
+    if (process != 0)
+        return process;
+    setsid();
+    const std::string module = options.sanitized ? VKPT_SANITIZED_GAME : VKPT_GAME_MODULE;
+    setenv("VKPT_BUILD_DIR", VKPT_TEST_BUILD_DIR, 1);
+    setenv("VKPT_PROBE_OUTSIDE", (options.replay ? stock_game().string() : module).c_str(), 1);
+    setenv("VKPT_PROBE_INSIDE", stock_game().c_str(), 1);
+    setenv("VKPT_PROBE_STATES", (folder_ / "states").c_str(), 1);
+    setenv("VKPT_PROBE_CALLS", (options.replay ? options.replayed : folder_ / "calls").c_str(), 1);
+    setenv("VKPT_PROBE_SCRIPT", (folder_ / "script").c_str(), 1);
+    if (options.replay)
+        setenv("VKPT_PROBE_REPLAY", "1", 1);
+    if (options.ignore_models)
+        setenv("VKPT_PROBE_NO_MODELS", "1", 1);
+    if (options.sanitized) {
+        setenv("VKPT_SERVER_PRELOAD", VKPT_SANITIZER_LIBRARY, 1);
+        setenv("ASAN_OPTIONS", "detect_leaks=0:abort_on_error=1", 1);
+        setenv("UBSAN_OPTIONS", "print_stacktrace=1:halt_on_error=1:abort_on_error=1", 1);
+    }
+    const int output = open((folder_ / "output.txt").c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0644);
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    const int nothing = open("/dev/null", O_RDONLY);
+    dup2(nothing, STDIN_FILENO);
+    execv(argv[0], argv.data());
+    _exit(127);
+}
+
+void ServerRun::read_states()
+{
+    std::ifstream file(folder_ / "states");
+    for (std::string line; std::getline(file, line);) {
+        ServerState state;
+        std::istringstream words(line);
+        std::string hash;
+        int entities = 0;
+        words >> hash >> entities >> state.origin.x >> state.origin.y >> state.origin.z >> state.health
+            >> state.own_entities;
+        state.text = line.substr(0, line.rfind(' '));
+        state.has_player = state.health != -999;
+        states_.push_back(state);
+    }
+}
+
+std::vector<glm::vec3> ServerRun::way() const
+{
+    std::vector<glm::vec3> places;
+    for (const ServerState& state : states_)
+        if (state.has_player)
+            places.push_back(state.origin);
+    return places;
+}
+
+void ServerRun::expect_clean() const
+{
+    EXPECT_EQ(status_, 0) << console_.substr(console_.size() - std::min<size_t>(console_.size(), 3000));
+    EXPECT_GE(long(states_.size()), frames_);
+    for (const char* sign : { "ERROR", "AddressSanitizer", "runtime error", "probe:" })
+        EXPECT_EQ(console_.find(sign), std::string::npos)
+            << console_.substr(std::min(console_.find(sign), console_.size()), 3000);
+}
+
+} // namespace vkpt::tests
