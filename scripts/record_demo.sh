@@ -19,6 +19,8 @@ chmod 755 "$folder"
 trap 'rm -rf "$folder"' EXIT
 mkdir -p "$folder/files"
 cp "$route" "$folder/files/route.cfg"
+# Routes may use our game module's commands. Without a game directory of its own, the demo plays wherever our data is.
+cp "$build_dir/game/vkpt/game.so" "$folder/files/game.so" || die "no game module; build first: cmake --build --preset release"
 # The recording around the route. `wait` lasts one frame, and at least 16 ms of the clock; a frame is 1/60 s of the game's
 # time whatever the clock says. With frames that take longer than 16 ms (hence the CPU driver and the number of bounces)
 # both are the same, and the way does not depend on the machine.

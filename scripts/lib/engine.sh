@@ -6,6 +6,7 @@
 # The engine opens ref_NAME.so in the directory of its own executable (after symbolic links), so the run directory holds
 # a copy of the engine and links to everything else. The installed engine is never touched.
 
+own_game=vkpt # the game directory of our game module
 run_dir=${VKPT_RUN_DIR:-$root/build/run}
 shared_cache_dir=${VKPT_CACHE_DIR:-$run_dir/cache} # for every run, whichever its run directory
 xvfb_pid=
@@ -113,11 +114,15 @@ provide() {
     fi
 }
 
-# link_game NAME: the engine's own files of a game (game.so and small fixes of maps) beside the engine's copy. A mod
+# link_game NAME: our game module, or the engine's own files of a game (game.so and small fixes of maps) beside the engine's copy. A mod
 # without a game.so for this engine gets the stock one. The engine's yq2.cfg comes with the user's data only: it binds all
 # keys anew, after our default.cfg.
 link_game() {
     local name=$1 engine_dir=$2 file target
+    if [[ $name == "$own_game" ]]; then
+        provide "$build_dir/game/$own_game" "$run_dir/$own_game"
+        return
+    fi
     mkdir -p "$run_dir/$name"
     for file in "$engine_dir/$name"/*; do
         [[ -e $file ]] || continue
@@ -181,7 +186,8 @@ prepare_run_dir() {
     # The video menu lists the renderers that the engine knows by name. Ours is none of them; vk is one that most engines lack.
     [[ -e $engine_dir/ref_vk.so ]] || provide "$build_dir/bin/ref_vkpt.so" "$run_dir/ref_vk.so"
     link_game baseq2 "$engine_dir"
-    [[ ${game_name:-baseq2} == baseq2 ]] || link_game "$game_name" "$engine_dir"
+    [[ ! -e $build_dir/game/$own_game/game.so ]] || link_game "$own_game" "$engine_dir"
+    [[ ${game_name:-baseq2} =~ ^(baseq2|$own_game)$ ]] || link_game "$game_name" "$engine_dir"
     home_dir=$run_dir/$1
     give_folder "$home_dir" || die "$home_dir belongs to another user (perhaps from an earlier run); remove it: sudo rm -r $home_dir"
     as_player mkdir -p "$home_dir/.yq2/${game_name:-baseq2}" "$home_dir/.local/share"
@@ -248,7 +254,8 @@ write_settings() {
         if [[ $1 == +set && $# -ge 3 ]]; then
             case $2 in
             game) game=$3 ;&
-            vid_renderer | logfile) engine_words+=("$1" "$2" "$3") ;;
+            # The game module looks for the library on the command line.
+            vid_renderer | logfile | vkpt_game_library) engine_words+=("$1" "$2" "$3") ;;
             *) lines+="set $2 \"$3\""$'\n' ;;
             esac
             shift 3

@@ -112,10 +112,35 @@ first_size() {
 
 # --- playing ------------------------------------------------------------------------------------------------------
 
+# Our game module goes around the game that is played: around the stock one in a game directory of its own, else in the
+# mod's, from the home, which the engine searches first.
+declare -a module_arguments=()
+use_game_module() {
+    local library folder=$home_dir/.yq2/$game_name
+    [[ -e $run_dir/$own_game/game.so ]] || return 0
+    if [[ $game_name == baseq2 ]]; then
+        game_name=$own_game
+        as_player mkdir -p "$home_dir/.yq2/$own_game"
+        return
+    fi
+    for library in "$run_dir/$game_name/game.so" "$data_dir/$game_name/game.so"; do
+        [[ -e $library ]] || continue
+        as_player mkdir -p "$folder/models"
+        as_player ln -sfn "$run_dir/$own_game/game.so" "$folder/game.so"
+        as_player ln -sfn "$run_dir/$own_game/models/vkpt" "$folder/models/vkpt"
+        module_arguments+=(+set vkpt_game_library "$library")
+        return
+    done
+}
+
 play_in_window() {
     local -a start=()
     share_display
+    use_game_module
     build_common_arguments "$(first_size)"
+    common_arguments+=(${module_arguments[@]+"${module_arguments[@]}"})
+    # In a cooperative game the dead get up again by themselves.
+    [[ $demo_mode == no ]] || common_arguments+=(+set coop 1 +set vkpt_start "walk explore 0")
     [[ -z $map_name && $find_data == no ]] && map_name=$own_map
     [[ -n $map_name ]] && start=(+map "$map_name")
     (exec_engine "$data_dir" ${common_arguments[@]+"${common_arguments[@]}"} "${start[@]}" "${engine_arguments[@]}")
