@@ -115,7 +115,8 @@ int ServerRun::start(const ServerOptions& options)
     if (options.ignore_models)
         setenv("VKPT_PROBE_NO_MODELS", "1", 1);
     if (options.sanitized) {
-        setenv("VKPT_SERVER_PRELOAD", VKPT_SANITIZER_LIBRARY, 1);
+        // The server itself is C: without the C++ library the sanitizer finds nothing to throw with.
+        setenv("VKPT_SERVER_PRELOAD", VKPT_SANITIZER_LIBRARY ":libstdc++.so.6", 1);
         setenv("ASAN_OPTIONS", "detect_leaks=0:abort_on_error=1", 1);
         setenv("UBSAN_OPTIONS", "print_stacktrace=1:halt_on_error=1:abort_on_error=1", 1);
     }

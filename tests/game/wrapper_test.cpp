@@ -76,7 +76,7 @@ TEST(GameModule, LightsChangeNothingOfTheGame)
 // Half an hour of the game: a hundred deaths, saved and loaded games, other levels.
 TEST(GameModule, LongSanitizedRunShowsTheSame)
 {
-    ServerOptions options = make_cycle(18000, 130);
+    ServerOptions options = make_cycle(18000, 200);
     options.sanitized = true;
     options.cpu_seconds = 3600;
     expect_same_states(options, 100);
