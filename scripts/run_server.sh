@@ -20,7 +20,7 @@ prepare_run_dir home
 engine=$(find_engine)
 server=${engine%/*}/q2ded
 [[ -x $server ]] || die "no dedicated server beside $engine (package yamagi-quake2-core)"
-cp "$server" "$run_dir/q2ded" && chmod 755 "$run_dir/q2ded" || die "cannot copy $server to $run_dir"
+{ cp "$server" "$run_dir/q2ded" && chmod 755 "$run_dir/q2ded"; } || die "cannot copy $server to $run_dir"
 [[ ! -d $run_dir/files ]] || as_player cp -r "$run_dir/files/." "$home_dir/.yq2/$game_name/"
 data=$(use_data "${VKPT_DATA:-$build_dir/game}") || exit 1
 write_settings +set game "$game_name" +set logfile 2 "$@"
