@@ -29,8 +29,8 @@ std::vector<PanelLine> Overlay::describe_times(const OverlayFacts& facts) const
         { fmt::format("{:.1f} fps, {:.1f} ms on the device", rate_.frames_per_second(), facts.frame_milliseconds) },
         { fmt::format("{} x {} of {} x {}, preset {}", facts.rendered.x, facts.rendered.y, facts.window.width,
             facts.window.height, current_preset()) },
-        { fmt::format("{}, {} bounces, {}, taa {}", cvars.pt_light_sampler, cvars.pt_bounces, cvars.flt_denoiser,
-            cvars.flt_taa) },
+        { fmt::format("{}, bounces {}", cvars.pt_light_sampler, cvars.pt_bounces) },
+        { fmt::format("{}, taa {}", cvars.flt_denoiser, cvars.flt_taa) },
     };
     if (cvars.pt_show_times > 1) {
         lines.push_back({ "" });
