@@ -109,6 +109,24 @@ vec3 limit_firefly(vec3 light, vec3 known, float frames, float changed)
     return l > limit ? light * (limit / l) : light;
 }
 
+// What is known where the history tells little: this frame's light around the pixel. From two pixels off, as nearer ones may share the
+// pixel's own bounce ray (lib/bounce_blocks.glsl). Without it a ledge of one pixel under a lamp stayed dark: anti-aliasing's jitter takes
+// its history away in most frames.
+ReflectedLight light_around(uvec2 pixel)
+{
+    ReflectedLight sum = ReflectedLight(vec3(0.0), vec3(0.0));
+    [[dont_unroll]] for (int tap = 0; tap < 9; tap++) {
+        uvec2 at = uvec2(ivec2(pixel) + (ivec2(tap % 3, tap / 3) - 1) * 2);
+        if (tap == 4 || !is_on_screen(at))
+            continue;
+        ReflectedLight light = load_reflected_light(pixel_index(at));
+        bool broken = is_broken(light.diffuse) || is_broken(light.specular);
+        sum.diffuse += broken ? vec3(0.0) : light.diffuse * 0.125;
+        sum.specular += broken ? vec3(0.0) : light.specular * 0.125;
+    }
+    return sum;
+}
+
 // Averaged, for the specular lobe is sampled now and then only.
 float update_reflected_distance(uint index, float before)
 {
@@ -200,8 +218,15 @@ void accumulate_pixel(uvec2 pixel, uint index)
         }
     }
     vec2 changed = find_lambda(pixel);
-    diffuse = limit_firefly(diffuse, history.light.diffuse, history.moments.frames.x, changed.x);
-    specular = limit_firefly(specular, history.light.specular, history.moments.frames.y, changed.y);
+    ReflectedLight known = ReflectedLight(history.light.diffuse, history.light.specular);
+    bvec2 is_new = lessThan(history.moments.frames, vec2(least_frames));
+    if (any(is_new)) {
+        ReflectedLight around = light_around(pixel);
+        known.diffuse = is_new.x ? around.diffuse : known.diffuse;
+        known.specular = is_new.y ? around.specular / specular_tint(surface) : known.specular;
+    }
+    diffuse = limit_firefly(diffuse, known.diffuse, history.moments.frames.x, changed.x);
+    specular = limit_firefly(specular, known.specular, history.moments.frames.y, changed.y);
     vec2 frames = quick_min(history.moments.frames + 1.0, vec2(most_frames, most_specular));
     frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed);
     vec2 share = 1.0 / frames;

@@ -11,18 +11,24 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
-// Frames that the history is worth at most; where the picture moves, each reading of it blurs, and reflections in it stay behind.
-const float most_frames = 10.0, most_moving_frames = 5.0;
-const float moving2 = 0.0625; // square of how many pixels a frame that is
-// Standard deviations of the neighbourhood that the history may lie off its mean.
+// Frames that the history is worth at most at rest, and where the picture moves by moving_pixels a frame or more: there each reading of
+// it blurs, and reflections in it stay behind.
+const float most_frames = 32.0, most_moving_frames = 5.0;
+const float moving_pixels = 0.25;
+// Standard deviations of the neighbourhood that the history may lie off its mean where the picture moves. At rest it may be all that the
+// neighbourhood shows: of a lamp as small as a pixel most frames show one pixel in nine.
 const float most_deviations = 1.25;
 // A sample counts for exp(-sample_fall d^2) at a distance of d of the result's pixels. Where samples are scarce the least weight
 // keeps the nearest one in charge.
 const float sample_fall = 2.3;
 
-// Bright pixels count less, or one of them would make a neighbourhood of dark ones flicker. `scale`: about the exposure.
-vec3 compress(vec3 radiance, float scale) { return radiance * (scale / (1.0 + scale * luminance(radiance))); }
-vec3 expand(vec3 colour, float scale) { return colour / (scale * quick_max(1.0 - luminance(colour), 1e-4)); }
+// Radiance is averaged as it is where the picture stands still, or edges of lamps would lose most of their light, and small lamps all but
+// vanish. In motion what is bright counts less: each reading of the history spreads a lamp by a part of a pixel, which would be seen,
+// and few frames are averaged, so that its edge would flicker. `knee`: 1 / the luminance that counts half; moving_knee, relative to 1 /
+// exposure, leaves the least error beside lamps.
+const float moving_knee = 0.1;
+vec3 compress(vec3 radiance, float knee) { return radiance / (1.0 + knee * luminance(radiance)); }
+vec3 expand(vec3 colour, float knee) { return colour / quick_max(1.0 - knee * luminance(colour), 1e-4); }
 
 void catmull_rom(float t, out float weights[4])
 {
@@ -35,28 +41,34 @@ uvec2 load_old(ivec2 pixel)
     uvec2 at = uvec2(clamp(pixel, ivec2(0), ivec2(frame.resolved_size) - 1));
     return load_previous_resolved(at.y * frame.resolved_size.x + at.x);
 }
-vec3 old_colour(ivec2 pixel, float scale) { return compress(unpack_light3(load_old(pixel)), scale); }
+vec3 old_radiance(ivec2 pixel, float knee) { return compress(unpack_light3(load_old(pixel)), knee); }
 
 // At a place whose whole numbers are pixels: bicubic, so that a moving picture does not blur, but for the four corners, which
-// count for less than 0.5 % each.
-vec3 sample_history(vec2 place, float scale)
+// count for less than 0.5 % each; and within the range of the nearest four, or there would be a dark seam around lamps.
+vec3 sample_history(vec2 place, float knee)
 {
     vec2 corner = floor(place), part = place - corner;
     ivec2 first = whole_to_int(corner);
-    vec3 sum = vec3(0.0);
+    vec3 sum = vec3(0.0), least = vec3(1e9), most = vec3(0.0);
     if (all(lessThan(abs(part - 0.5), vec2(0.49)))) {
         float across[4], down[4];
         catmull_rom(part.x, across);
         catmull_rom(part.y, down);
         [[unroll]] for (int y = 0; y < 4; y++)
             [[unroll]] for (int x = 0; x < 4; x++)
-                if (x == 1 || x == 2 || y == 1 || y == 2)
-                    sum += old_colour(first + ivec2(x, y) - 1, scale) * (across[x] * down[y]);
+                if (x == 1 || x == 2 || y == 1 || y == 2) {
+                    vec3 old = old_radiance(first + ivec2(x, y) - 1, knee);
+                    sum += old * (across[x] * down[y]);
+                    if ((x == 1 || x == 2) && (y == 1 || y == 2)) {
+                        least = quick_min(least, old);
+                        most = quick_max(most, old);
+                    }
+                }
         sum /= 1.0 - (across[0] + across[3]) * (down[0] + down[3]);
-        return quick_max(sum, vec3(0.0));
+        return quick_min(quick_max(sum, least), most);
     }
-    vec3 upper = mix(old_colour(first, scale), old_colour(first + ivec2(1, 0), scale), part.x);
-    vec3 lower = mix(old_colour(first + ivec2(0, 1), scale), old_colour(first + ivec2(1, 1), scale), part.x);
+    vec3 upper = mix(old_radiance(first, knee), old_radiance(first + ivec2(1, 0), knee), part.x);
+    vec3 lower = mix(old_radiance(first + ivec2(0, 1), knee), old_radiance(first + ivec2(1, 1), knee), part.x);
     return mix(upper, lower, part.y);
 }
 
@@ -65,19 +77,20 @@ struct Neighbourhood {
     float certainty; // 1: right there
     vec3 mean;
     vec3 deviation;
+    vec3 least, most;
     float brightest; // luminance
 };
 
 // `middle`: of the result's pixel, in rendered pixels; `rendered`: the one it lies in.
-Neighbourhood look_around(ivec2 rendered, vec2 middle, float scale)
+Neighbourhood look_around(ivec2 rendered, vec2 middle, float knee)
 {
     bool same_size = frame.size == frame.resolved_size;
     vec2 enlargement = vec2(frame.resolved_size) / vec2(frame.size);
-    vec3 mean = vec3(0.0), square = vec3(0.0), here = vec3(0.0);
+    vec3 mean = vec3(0.0), square = vec3(0.0), here = vec3(0.0), least = vec3(1e9), most = vec3(0.0);
     float weights = 0.0, nearest = 0.0, brightest = 0.0;
     [[unroll]] for (int tap = 0; tap < 9; tap++) {
         ivec2 at = clamp(rendered + ivec2(tap % 3, tap / 3) - 1, ivec2(0), ivec2(frame.size) - 1);
-        vec3 colour = compress(unpack_light3(load_composed(uint(at.y) * frame.size.x + uint(at.x))), scale);
+        vec3 colour = compress(unpack_light3(load_composed(uint(at.y) * frame.size.x + uint(at.x))), knee);
         float weight = tap == 4 ? 1.0 : 0.0;
         if (!same_size) {
             vec2 off = (vec2(at) + frame.pixel_offset - middle) * enlargement;
@@ -88,36 +101,84 @@ Neighbourhood look_around(ivec2 rendered, vec2 middle, float scale)
         nearest = quick_max(nearest, weight);
         mean += colour;
         square += colour * colour;
+        least = quick_min(least, colour);
+        most = quick_max(most, colour);
         brightest = quick_max(brightest, luminance(colour));
     }
     mean *= 1.0 / 9.0;
-    return Neighbourhood(here / max(weights, 1e-12), nearest, mean, sqrt(quick_max(square * (1.0 / 9.0) - mean * mean, vec3(0.0))), brightest);
+    vec3 deviation = sqrt(quick_max(square * (1.0 / 9.0) - mean * mean, vec3(0.0)));
+    return Neighbourhood(here / max(weights, 1e-12), nearest, mean, deviation, least, most, brightest);
+}
+
+// At rest a lamp smaller than a pixel is met through some of the camera's places in the pixel only, and in the other frames nothing
+// around is as bright as the history rightly is. So `reach` remembers for each of these places whether the neighbourhood was dark there,
+// of less than half the luminance that is its most: where it was a period ago and is again, the history stays.
+struct Reach {
+    float most;   // luminance
+    uint is_dark; // a bit for each place
+    uint frames;  // since it began anew, up to a period
+};
+
+Reach unpack_reach(uint bits) { return Reach(unpack_light2(bits & 0xffffu).x, bits >> 16u & 0xffu, bits >> 24u); }
+uint pack_reach(Reach reach) { return pack_light2(vec2(reach.most, 0.0)) & 0xffffu | reach.is_dark << 16u | reach.frames << 24u; }
+
+// Takes in this frame's. Whether it is as dark as it was to be expected.
+bool update_reach(inout Reach reach, float brightest)
+{
+    uint place = 1u << frame.offset_phase;
+    bool is_dark = brightest < 0.5 * reach.most;
+    if (brightest > 2.0 * reach.most || (reach.frames >= OFFSETS_PER_PIXEL && is_dark != ((reach.is_dark & place) != 0u))) {
+        reach = Reach(brightest, 0xffu & ~place, 1u); // something has changed
+        return false;
+    }
+    bool expected = is_dark && reach.frames >= OFFSETS_PER_PIXEL;
+    reach.most = quick_max(reach.most, brightest);
+    reach.is_dark = is_dark ? reach.is_dark | place : reach.is_dark & ~place;
+    reach.frames = min(reach.frames + 1u, OFFSETS_PER_PIXEL);
+    return expected;
 }
 
 void resolve_pixel(uvec2 pixel, uint index)
 {
-    ExposureBuffer exposure = ExposureBuffer(frame.exposure);
-    float scale = exposure.v.valid != 0u ? exposure.v.exposure : 1.0; // of the last view
     vec2 middle = (vec2(pixel) + 0.5) * vec2(frame.size) / vec2(frame.resolved_size);
     uvec2 rendered = min(uvec2(whole_to_int(floor(middle))), frame.size - 1u);
-    Neighbourhood now = look_around(ivec2(rendered), middle, scale);
     vec2 place = load_motion(pixel_index(rendered)).xy;
     vec2 way = (place + 0.5) / vec2(frame.previous_size) - (vec2(rendered) + 0.5) / vec2(frame.size);
     place = vec2(pixel) + way * vec2(frame.resolved_size);
     bool on_screen = all(greaterThanEqual(place, vec2(-0.5))) && all(lessThan(place, vec2(frame.resolved_size) - 0.5));
+    float moved = quick_min(length(place - vec2(pixel)) * (1.0 / moving_pixels), 1.0);
+    ExposureBuffer exposure = ExposureBuffer(frame.exposure); // of the last view
+    bool is_at_rest = moved < 0.1 && frame.size == frame.resolved_size;
+    float knee = moved * moving_knee * (exposure.v.valid != 0u ? exposure.v.exposure : 1.0);
+    Neighbourhood now = look_around(ivec2(rendered), middle, knee);
     vec3 result = now.here;
     float frames = now.certainty;
+    Reach reach = Reach(now.brightest, 0u, 0u);
     if ((frame.flags & FRAME_HISTORY) != 0u && on_screen) {
-        vec3 reach = now.deviation * most_deviations;
-        vec3 old = quick_min(quick_max(sample_history(place, scale), now.mean - reach), now.mean + reach);
+        vec3 off = now.deviation * most_deviations;
+        vec3 lowest = mix(now.least, quick_max(now.mean - off, vec3(0.0)), moved);
+        vec3 highest = mix(now.most, now.mean + off, moved);
+        vec3 old = sample_history(place, knee);
+        bool is_expected = false;
+        if (is_at_rest) {
+            reach = unpack_reach(load_previous_reach(index));
+            is_expected = update_reach(reach, now.brightest);
+        }
+        vec3 limited = quick_min(quick_max(old, lowest), highest);
         // Beside lamps that lies above all that is there, and where colours end expand() would make a flash of it.
-        old *= quick_min(1.0, now.brightest / quick_max(luminance(old), 1e-6));
-        frames += unpack_light2(load_old(whole_to_int(floor(place + 0.5))).y).y;
+        limited *= quick_min(1.0, now.brightest / quick_max(luminance(limited), 1e-6));
+        float known = unpack_light2(load_old(whole_to_int(floor(place + 0.5))).y).y;
+        if (!is_expected) {
+            // What had to be limited that much tells of something else.
+            known = luminance(limited) < 0.5 * luminance(old) ? quick_min(known, 1.0) : known;
+            old = limited;
+        }
+        frames += known;
         result = mix(old, now.here, now.certainty / quick_max(frames, 1e-3));
-        vec2 moved = place - vec2(pixel);
-        frames = quick_min(frames, (dot(moved, moved) < moving2 ? most_frames : most_moving_frames) - 1.0);
+        frames = quick_min(frames, mix(most_frames, most_moving_frames, moved) - 1.0);
     }
-    vec3 radiance = quick_min(expand(result, scale), vec3(60000.0)); // 16 bits end soon after
+    vec3 radiance = quick_min(expand(result, knee), vec3(60000.0)); // 16 bits end soon after
+    store_reach(index, pack_reach(reach));
     store_resolved(index, uvec2(pack_light2(radiance.xy), pack_light2(vec2(radiance.z, frames))));
     store_accumulated(index, radiance);
 }

@@ -7,6 +7,7 @@
 #include "lib/bloom.glsl"
 #include "lib/debug_views.glsl"
 #include "lib/random.glsl"
+#include "lib/sharpen.glsl"
 #include "lib/surfaces.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
@@ -41,6 +42,17 @@ vec3 sample_radiance(vec2 place)
         mix(load_accumulated(first + down), load_accumulated(first + down + right), part.x), part.y);
 }
 
+// The same, sharpened against what the window's pixels around it show.
+vec3 sample_sharpened(vec2 place)
+{
+    float exposure = ExposureBuffer(frame.exposure).v.exposure;
+    vec3 shades[5];
+    const vec2 ways[5] = vec2[](vec2(0.0), vec2(-1.0, 0.0), vec2(1.0, 0.0), vec2(0.0, -1.0), vec2(0.0, 1.0));
+    [[unroll]] for (int i = 0; i < 5; i++)
+        shades[i] = to_shades(sample_radiance(place + ways[i] / vec2(frame.output_size)) * exposure);
+    return from_shades(sharpen(shades[0], shades[1], shades[2], shades[3], shades[4], frame.cvars.flt_sharpen)) / exposure;
+}
+
 // Where the eye sees `place` from under water: displaced along each axis by a wave that runs along the other, and drawn in by as
 // much as the waves are high, so that nothing beyond the edge is asked for.
 vec2 sway(vec2 place)
@@ -61,7 +73,7 @@ vec3 shown_colour(uvec2 pixel)
     vec2 place = (vec2(pixel) + 0.5) / vec2(frame.output_size);
     if ((frame.flags & FRAME_UNDERWATER) != 0u && frame.cvars.pt_water_warp > 0.0)
         place = sway(place);
-    vec3 radiance = sample_radiance(place);
+    vec3 radiance = frame.cvars.flt_sharpen > 0.0 ? sample_sharpened(place) : sample_radiance(place);
     if ((frame.flags & FRAME_BLOOM) != 0u)
         radiance = mix(radiance, sample_bloom_level(frame.screen.bloom.address, frame.bloom_size, place), frame.cvars.pt_bloom);
     vec3 exposed = radiance * (ExposureBuffer(frame.exposure).v.exposure * frame.overbright);

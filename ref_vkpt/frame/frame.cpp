@@ -26,6 +26,9 @@ static_assert(shared::LIGHT_LEVEL_LANES == shared::PIXEL_GROUP_SIZE);
 
 constexpr VkAccessFlags shader_access = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
 
+// Along a ray's footprint in a picture. CPU drivers have no texture units.
+int most_picture_taps(bool is_cpu) { return std::clamp(cvars::values().r_anisotropic, 1, is_cpu ? 4 : 16); }
+
 } // namespace
 
 Frame::Frame(Graphics& graphics, Workers& workers)
@@ -148,10 +151,12 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     constexpr float menu_default = 2;
     uniforms.intensity = std::clamp(cvars.vk_intensity, 1.0f, 10.0f) / menu_default;
     uniforms.cvars = cvars::shader_values();
+    uniforms.picture_taps = float(most_picture_taps(graphics_.device.is_cpu));
     uniforms.flags = (view.underwater ? shared::FRAME_UNDERWATER : 0)
         | (cvars.r_fullbright != 0 ? shared::FRAME_FULLBRIGHT : 0)
         | (cvars.r_lightmap != 0 ? shared::FRAME_LIGHT_ALONE : 0)
-        | (cvars.gl3_colorlight == 0 ? shared::FRAME_GREY_LIGHT : 0);
+        | (cvars.gl3_colorlight == 0 ? shared::FRAME_GREY_LIGHT : 0)
+        | (cvars.gl_texturemode.starts_with("GL_NEAREST") ? shared::FRAME_NEAREST_TEXELS : 0);
     return uniforms;
 }
 

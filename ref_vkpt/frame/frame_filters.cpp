@@ -10,9 +10,6 @@ namespace vkpt {
 
 namespace {
 
-// Camera rays pass through so many places of each pixel of the result, one after the other.
-constexpr uint32_t offsets_per_pixel = 8;
-
 // Halton's sequence (radical inverse of index + 1).
 float halton(uint32_t index, uint32_t base)
 {
@@ -28,8 +25,9 @@ float halton(uint32_t index, uint32_t base)
 glm::vec2 offset_in_pixel(uint32_t index, glm::uvec2 rendered, glm::uvec2 resolved)
 {
     const uint64_t pixels = std::max<uint64_t>(1, uint64_t(rendered.x) * rendered.y);
-    const uint64_t places = offsets_per_pixel * uint64_t(resolved.x) * resolved.y / pixels;
-    index = uint32_t(index % std::clamp<uint64_t>(places, offsets_per_pixel, 16 * offsets_per_pixel));
+    constexpr uint64_t least = shared::OFFSETS_PER_PIXEL, most = 16 * least;
+    const uint64_t places = least * resolved.x * resolved.y / pixels;
+    index = uint32_t(index % std::clamp(places, least, most));
     return { halton(index, 2), halton(index, 3) };
 }
 
@@ -61,8 +59,10 @@ void Frame::begin_filters(
         uniforms.bounce_block = choose_bounce_block(graphics_.device);
     if (cvars::values().flt_taa == "upscale")
         uniforms.resolved_size = uniforms.output_size;
-    if (antialiases)
+    if (antialiases) {
+        uniforms.offset_phase = state_.offset_index % shared::OFFSETS_PER_PIXEL;
         uniforms.pixel_offset = offset_in_pixel(state_.offset_index++, uniforms.size, uniforms.resolved_size);
+    }
     uniforms.flags |= flags | (has_layers(scene) ? shared::FRAME_LAYERED : 0);
     ViewHistory::Key key;
     key.camera = uniforms.camera;

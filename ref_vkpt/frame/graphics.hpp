@@ -65,7 +65,7 @@ public:
     MemoryAllocator memory { device };
     Gpu gpu { device, memory };
     Uploader uploader { gpu };
-    Bindings bindings { gpu, true };
+    Bindings bindings { gpu };
     Pipelines pipelines;
     Screen screen { gpu, bindings };
     FrameTimer timer { device };

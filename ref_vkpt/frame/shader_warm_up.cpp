@@ -68,7 +68,7 @@ private:
     std::unique_ptr<Device> device_;
     MemoryAllocator memory_ { *device_ };
     Gpu gpu_ { *device_, memory_ };
-    Bindings bindings_ { gpu_, true };
+    Bindings bindings_ { gpu_ };
     SceneTexels scene_texels_ { gpu_, bindings_ };
     TexelSet screen_texels_ = make_screen_texels(gpu_, bindings_);
     Pipelines pipelines_ { gpu_, bindings_, "" };

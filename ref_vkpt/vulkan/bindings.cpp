@@ -59,11 +59,11 @@ VkDescriptorSet make_descriptor_set(VkDevice device, VkDescriptorPool pool, VkDe
     return set;
 }
 
-Bindings::Bindings(const Gpu& gpu, bool anisotropic)
+Bindings::Bindings(const Gpu& gpu)
     : gpu_(gpu)
     , max_textures_(std::min(wanted_textures, gpu.device.max_textures))
 {
-    create_samplers(anisotropic);
+    create_samplers();
     create_layouts();
     create_sets();
 }
@@ -82,7 +82,7 @@ Bindings::~Bindings()
         vkDestroySampler(device, sampler, nullptr);
 }
 
-void Bindings::create_samplers(bool anisotropic)
+void Bindings::create_samplers()
 {
     struct Row {
         VkFilter filter;
@@ -100,8 +100,6 @@ void Bindings::create_samplers(bool anisotropic)
             = row.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
         info.addressModeU = info.addressModeV = info.addressModeW = row.address;
         info.maxLod = VK_LOD_CLAMP_NONE;
-        info.anisotropyEnable = anisotropic && gpu_.device.has_anisotropy && row.filter == VK_FILTER_LINEAR;
-        info.maxAnisotropy = info.anisotropyEnable ? gpu_.device.properties.limits.maxSamplerAnisotropy : 1.0f;
         VKPT_CHECK(vkCreateSampler(gpu_.device.handle, &info, nullptr, &samplers_.emplace_back()));
     }
 }

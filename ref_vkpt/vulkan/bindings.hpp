@@ -27,7 +27,7 @@ inline constexpr uint32_t push_constant_bytes = 64;
 
 class Bindings {
 public:
-    Bindings(const Gpu& gpu, bool anisotropic);
+    explicit Bindings(const Gpu& gpu);
     ~Bindings();
     Bindings(const Bindings&) = delete;
     Bindings& operator=(const Bindings&) = delete;
@@ -56,7 +56,7 @@ public:
 
 private:
     void create_layouts();
-    void create_samplers(bool anisotropic);
+    void create_samplers();
     void create_sets();
 
     Gpu gpu_;

@@ -460,8 +460,6 @@ void Device::create_logical_device()
         chain(has.core, has_rays.pipeline);
     vkGetPhysicalDeviceFeatures2(physical, &has.core);
     require_features(has, use);
-    has_anisotropy = has.core.features.samplerAnisotropy;
-    use.core.features.samplerAnisotropy = has.core.features.samplerAnisotropy;
 
     has_ray_query = has_rays.structures.accelerationStructure && has_rays.query.rayQuery;
     has_ray_pipeline = has_rays.structures.accelerationStructure && has_rays.pipeline.rayTracingPipeline;

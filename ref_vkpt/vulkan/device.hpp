@@ -62,7 +62,6 @@ public:
     const char* table_reads() const { return reads_texels_ ? "texels" : "address"; }
     bool has_swapchain = false;
     bool has_debug_utils = false;
-    bool has_anisotropy = false;
     uint32_t max_textures = 0;
 
     // The device's own ray tracing. Shaders read acceleration structures through addresses.

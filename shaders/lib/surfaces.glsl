@@ -5,6 +5,7 @@
 
 #include "../shared/liquid.h"
 #include "bsdf.glsl"
+#include "footprint.glsl"
 #include "light_lists.glsl"
 #include "packing.glsl"
 #include "sky.glsl"
@@ -38,16 +39,6 @@ LightTables light_tables()
 
 float lightstyle_scale(uint lightstyle) { return LightstyleBuffer(frame.scene.lightstyles).v[lightstyle]; }
 
-// Ray cones (Akenine-Moeller et al., Ray Tracing Gems, chapter 20): the mip whose texel is as large as the ray's footprint.
-float choose_mip(Triangle triangle, vec2 size, float cone_width, float cosine)
-{
-    vec3 e1 = triangle.positions[1] - triangle.positions[0], e2 = triangle.positions[2] - triangle.positions[0];
-    vec2 t1 = (triangle.uvs[1] - triangle.uvs[0]) * size, t2 = (triangle.uvs[2] - triangle.uvs[0]) * size;
-    float texels = abs(t1.x * t2.y - t1.y * t2.x), area = length(cross(e1, e2));
-    float footprint = cone_width / quick_max(abs(cosine), 0.1);
-    return 0.5 * log2(quick_max(texels / quick_max(area, 1e-12), 1e-12)) + log2(quick_max(footprint, 1e-6));
-}
-
 // Liquids wobble: the picture is displaced along each axis by a sine of the other.
 vec2 warp_uv(vec2 uv)
 {
@@ -55,14 +46,22 @@ vec2 warp_uv(vec2 uv)
 }
 
 // How pictures are read, at the level of detail that the ray's footprint asks for.
-const int PICTURE_SMOOTH = 0; // between eight texels
+const int PICTURE_SMOOTH = 0; // over the footprint's ellipse, between texels
 const int PICTURE_TEXEL = 1;  // one texel: enough for bounces, where what is sharp is noise among other noise
 
 uvec2 picture_size(Material material) { return split_halves(material.texture_size); }
 
-vec4 sample_picture(Material material, vec2 uv, float mip)
+// The mean over the footprint; of texels that are larger than it the nearest one, where the player wants to see them (gl_texturemode).
+vec4 sample_picture(Material material, vec2 uv, Footprint footprint)
 {
-    return textureLod(VKPT_PICTURE(material.texture, SAMPLER_REPEAT), uv, mip);
+    if ((frame.flags & FRAME_NEAREST_TEXELS) != 0u && footprint.mip <= 0.0)
+        return textureLod(VKPT_PICTURE(material.texture, SAMPLER_REPEAT_NEAREST), uv, 0.0);
+    vec2 step = footprint.axis / footprint.taps;
+    uv -= step * (0.5 * (footprint.taps - 1.0));
+    vec4 sum = vec4(0.0);
+    [[dont_unroll]] for (float tap = 0.0; tap < footprint.taps; tap++)
+        sum += textureLod(VKPT_PICTURE(material.texture, SAMPLER_REPEAT), uv + step * tap, footprint.mip);
+    return sum / footprint.taps;
 }
 
 vec4 fetch_texel(Material material, vec2 uv, float mip)
@@ -99,8 +98,11 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
     vec2 uv = interpolate_uv(triangle, b) + material.uv_scroll;
     if ((material.flags & MATERIAL_WARP) != 0u)
         uv = warp_uv(uv);
-    float mip = choose_mip(triangle, vec2(ivec2(picture_size(material))), cone_width, dot(s.geometric_normal, s.view));
-    vec4 picture = way == PICTURE_TEXEL ? fetch_texel(material, uv, mip) : sample_picture(material, uv, mip);
+    vec2 size = vec2(ivec2(picture_size(material)));
+    vec4 picture = way == PICTURE_TEXEL
+        ? fetch_texel(material, uv, choose_mip(triangle, size, cone_width, dot(s.geometric_normal, s.view)))
+        : sample_picture(material, uv,
+              find_footprint(triangle, size, cone_width, s.geometric_normal, ray.direction, frame.picture_taps));
 
     s.albedo = quick_clamp(picture.rgb * material.tint, 0.0, 1.0);
     s.roughness = material.roughness;

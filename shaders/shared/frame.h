@@ -22,6 +22,8 @@ VKPT_CONST uint PIXEL_TILES_PER_GROUP = 8u;
 
 VKPT_CONST uint STRATUM_BLOCKS = 3u; // A-SVGF: of so many by so many bounce blocks one repeats an older sample
 
+VKPT_CONST uint OFFSETS_PER_PIXEL = 8u; // camera rays pass through so many places of each pixel of the result, one after the other
+
 VKPT_CONST uint FRAME_ALPHA_TEST = 1u;  // the scene has alpha-tested triangles
 VKPT_CONST uint FRAME_NO_WORLD = 2u;    // a view of models alone (menus): lit by a fixed light, no sky
 VKPT_CONST uint FRAME_UNDERWATER = 4u;  // the eye is in a liquid
@@ -36,6 +38,7 @@ VKPT_CONST uint FRAME_ANTIALIASED = 1024u; // the picture is averaged over views
 VKPT_CONST uint FRAME_REPLAYED = 256u;  // random numbers follow the buffer random_seed: some pixels repeat an older sample
 VKPT_CONST uint FRAME_BLOOM = 2048u; // the picture is mixed with what bloom_*.comp made of it
 VKPT_CONST uint FRAME_LAYERED = 8192u; // pixels share out what glass and water show, and are mixed by blend_layers
+VKPT_CONST uint FRAME_NEAREST_TEXELS = 262144u; // large texels of pictures are shown as squares
 VKPT_CONST uint FRAME_COUNT_RAYS = 4096u; // every ray is counted in `ray_counts`
 VKPT_CONST uint FRAME_SPATIAL = 16384u; // the denoiser also filters over neighbours
 VKPT_CONST uint FRAME_FULLBRIGHT = 32768u; // r_fullbright: surfaces show their pictures
@@ -181,6 +184,8 @@ struct FrameUniforms {
     Camera camera;
     Camera previous_camera; // where FRAME_HISTORY
     vec2 pixel_offset;      // where in their pixel camera rays pass, unless FRAME_JITTER
+    uint offset_phase;      // that place's number of OFFSETS_PER_PIXEL, where as many pixels are rendered as are shown
+    float picture_taps;     // at most, along a ray's footprint in a picture
     uvec2 previous_size;    // pixels of the buffers named previous_, other than previous_resolved
     vec2 previous_scale;    // previous_size / size
     vec2 offset_change;     // from `motion` to where the last view's pixels were sampled, in its pixels
