@@ -26,11 +26,13 @@ struct EngineOptions {
     std::vector<std::string> environment; // NAME=VALUE
     std::vector<std::string> display_commands; // one for each `display_mark`; run by a shell on the engine's display
     int width = 320, height = 180;
+    int render_scale = 25; // pt_render_scale: a CPU renders the frames, and most tests do not look at them
     double cpu_seconds = 300; // of the engine with display and scripts; then it is ended
     std::string end_at; // a console line with this text ends it, too, without an error
     // Called again and again while the engine runs, with its writable game folder.
     std::function<void(const std::filesystem::path&)> while_running;
     bool validation = true; // Vulkan's validation layers
+    bool waits_at_marks = true; // see display_mark
 };
 
 struct EngineResult {
@@ -49,7 +51,8 @@ std::string wait_aliases();
 // A line for EngineOptions::script that makes the harness note the engine's memory and open files.
 inline constexpr const char* memory_mark = "echo memory mark\nwait_25\n";
 
-// A line for EngineOptions::script: here the harness runs the next of EngineOptions::display_commands.
+// A line for EngineOptions::script: here the harness runs the next of EngineOptions::display_commands, and the engine goes on
+// drawing until it has. (In other files the engine goes on with its script after some frames.)
 inline constexpr const char* display_mark = "echo display mark\nwait_25\nwait_25\n";
 
 // Owns the run's folder; the result is valid as long as it lives.
