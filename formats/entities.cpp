@@ -142,6 +142,15 @@ float EntityText::number(std::string_view key, float fallback) const
     return take_number(text).value_or(fallback);
 }
 
+std::vector<float> EntityText::numbers(std::string_view key) const
+{
+    std::string_view text = get(key);
+    std::vector<float> result;
+    while (const std::optional<float> value = take_number(text))
+        result.push_back(*value);
+    return result;
+}
+
 std::optional<glm::vec3> EntityText::vector(std::string_view key) const
 {
     std::string_view text = get(key);

@@ -4,6 +4,7 @@
 #include "formats/entities.hpp"
 #include "fuzz/support/harness.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
+#include "ref_vkpt/lights/suns.hpp"
 #include "tests/formats/samples.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
@@ -19,6 +20,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
                 fuzz::use(entity.vector(key));
             }
             fuzz::use(client::place_brush_model(entity, map.models[0], entities));
+        }
+        for (const Sun& sun : find_suns(entities)) {
+            const shared::Emitter emitter = make_sun(sun, glm::vec3(1));
+            fuzz::require(emitter.p1.x > 0 && emitter.radiance == emitter.radiance, "suns are spheres with a size");
         }
         map.entity_text = text;
         std::vector<std::string> messages;

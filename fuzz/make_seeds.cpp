@@ -70,6 +70,9 @@ void add_maps()
     add_text("entities", "sample", samples::make_bsp().entity_text);
     add_text("entities", "room", compile(room_text()).entity_text);
     add_text("entities", "rooms", compile(tests::two_rooms::text()).entity_text);
+    add_text("materials", "sample",
+        "# a comment\ntextures/e1u1/floor.wal,\nmodels/x/skin:\n    roughness_override 0.3\n    texture_normals overrides/floor_n.tga\n"
+        "    kind CHROME\n");
     for (const char* name : { "func_door", "func_door_rotating", "func_plat", "func_train", "func_rotating",
              "func_wall", "func_object", "func_explosive", "func_button", "func_water" })
         add_text("entities", name,

@@ -10,7 +10,7 @@
 
 namespace vkpt {
 
-inline constexpr uint32_t extension_version = 6;
+inline constexpr uint32_t extension_version = 7;
 
 inline constexpr uint32_t view_count = 4; // that select_view can tell apart
 
@@ -105,10 +105,13 @@ struct SceneMaterial {
 struct SceneEmitter {
     uint32_t type; // EMITTER_* of shaders/shared/scene.h
     float positions[3][3]; // of triangles
-    float centre[3], radius; // of spheres
+    float centre[3], radius; // of spheres, and of suns, which are far away
     float radiance[3]; // average, at this moment; triangles: of the front
     float area;
     float reach; // no light farther than this from its place; 0: no limit
+    // Of spots: with the cosine between axis and receiver the light goes from all of it at the first to none at the second.
+    float cone_axis[3] = {};
+    float cone_cosines[2] = {}; // both 0: no cone
 };
 
 // Radiance along direction d: that of the pictures' cube along (dot(d, rotation[0]), dot(d, rotation[1]), dot(d,

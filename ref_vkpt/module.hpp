@@ -35,6 +35,7 @@ struct Module {
     // The scene that pt_accumulate froze; also what measure_irradiance lights.
     std::optional<SceneSnapshot> snapshot;
     bool snapshot_is_frozen = false;
+    std::optional<shared::Camera> last_camera; // of the last view of a map
     bool frame_has_view = false; // the frame that is being recorded
     uint32_t selected_view = 0;
     // The views of select_view that are not selected.

@@ -10,6 +10,7 @@
 #include "ref_vkpt/frame/bench_report.hpp"
 #include "ref_vkpt/frame/pass_shaders.hpp"
 #include "ref_vkpt/frame/trace_measurement.hpp"
+#include "ref_vkpt/material_commands.hpp"
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/scene/camera.hpp"
 #include "ref_vkpt/scene/motion.hpp"
@@ -208,6 +209,7 @@ constexpr Command commands[] = {
     { "pt_trace_measure", [] { run_command([] { module() ? measure_trace_backends(*module()) : void(); }); } },
     { "pt_preset", [] { run_command([] { module() ? module()->preset.run() : void(); }); } },
     { "pt_menu", [] { run_command([] { module() ? module()->overlay.toggle_menu() : void(); }); } },
+    { "mat", [] { run_command([] { module() ? run_material_command(*module()) : void(); }); } },
     { "pt_times_print", [] { run_command([] { module() ? print_pass_statistics(*module()) : void(); }); } },
     { "screenshot", [] { run_command(take_screenshot); } },
     { "imagelist", [] { run_command([] { module() ? module()->textures.print_list() : void(); }); } },
@@ -383,7 +385,10 @@ static void record_view(const engine::RefDef& refdef, SceneSnapshot& snapshot, c
     const CpuTimer timer("cpu record");
     m.textures.flush_if_needed();
     m.draw2d.record(m.graphics.commands());
-    m.frame.record_view(make_view(refdef, m.graphics.size()), snapshot, gpu_world, average);
+    const View view = make_view(refdef, m.graphics.size());
+    if (gpu_world)
+        m.last_camera = view.camera;
+    m.frame.record_view(view, snapshot, gpu_world, average);
 }
 
 void render_view(const engine::RefDef& refdef)

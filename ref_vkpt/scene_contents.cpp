@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene_contents.hpp"
 
+#include "ref_vkpt/lights/spot_cone.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
 
 #include <algorithm>
@@ -60,6 +61,7 @@ void add_triangles(std::vector<SceneTriangle>& out, Module& m)
         out.push_back(make_triangle(moving[i], masks[i]));
 }
 
+// `lightstyle`: the steady one's scale.
 SceneMaterial make_material(const shared::Material& from, const Texture* picture, float lightstyle)
 {
     SceneMaterial to {};
@@ -103,10 +105,16 @@ SceneEmitter make_emitter(const shared::Emitter& from, float lightstyle)
 {
     SceneEmitter to {};
     to.type = from.type;
-    if (from.type == shared::EMITTER_SPHERE) {
+    if (is_sphere(from)) {
         copy_vector(to.centre, from.p0);
         to.radius = from.p1.x;
-    } else {
+    }
+    if (has_cone(from)) {
+        copy_vector(to.cone_axis, from.p2);
+        to.cone_cosines[0] = from.p1.z;
+        to.cone_cosines[1] = outer_cosine(from);
+    }
+    if (!is_sphere(from)) {
         const glm::vec3 corners[] = { from.p0, from.p1, from.p2 };
         for (int corner = 0; corner < 3; corner++)
             copy_vector(to.positions[corner], corners[corner]);
@@ -132,7 +140,7 @@ SceneContents read_scene_contents(Module& m)
     const Pictures pictures = m.textures.by_slot();
     for (const shared::Material& material : snapshot.materials)
         materials.push_back(make_material(
-            material, find_picture(pictures, material.texture), snapshot.lightstyles[material.lightstyle]));
+            material, find_picture(pictures, material.texture), snapshot.lightstyles[0]));
     visit_emitters(snapshot, [&](const shared::Emitter& emitter, float lightstyle) {
         emitters.push_back(make_emitter(emitter, lightstyle));
     });

@@ -61,7 +61,7 @@ void write_light(uint place, LightListView list, Surface s, LightOptions options
     InspectedLightBuffer lights = InspectedLightBuffer(push.lights);
     lights.v[place].emitter = emitter;
     lights.v[place].type = e.type;
-    lights.v[place].centre = e.type == EMITTER_SPHERE ? e.p0 : (e.p0 + e.p1 + e.p2) / 3.0;
+    lights.v[place].centre = is_sphere(e) ? e.p0 : (e.p0 + e.p1 + e.p2) / 3.0;
     lights.v[place].area = e.area;
     lights.v[place].radiance = e.radiance;
     lights.v[place].lightstyle = e.lightstyle;

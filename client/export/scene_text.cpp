@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* emitter_types[] = { "triangle", "sphere", "sky", "veil" }; // by EMITTER_*
+constexpr const char* emitter_types[] = { "triangle", "sphere", "sky", "veil", "sun" }; // by EMITTER_*
 constexpr std::pair<uint32_t, const char*> ray_masks[] = { { shared::MASK_OPAQUE, "opaque" },
     { shared::MASK_TRANSLUCENT, "translucent" }, { shared::MASK_ALPHA_TEST, "alpha_test" },
     { shared::MASK_VIEW_WEAPON, "view_weapon" }, { shared::MASK_OWN_BODY, "own_body" }, { shared::MASK_SKY, "sky" } };
@@ -42,15 +42,19 @@ Json flags_of(uint32_t flags)
     return names;
 }
 
-// Shines evenly to all sides of its front: pi * area * radiance.
+bool has_cone(const SceneEmitter& emitter) { return emitter.cone_cosines[0] > emitter.cone_cosines[1]; }
+
+// Shines evenly to all sides of its front, pi * area * radiance, or into its cone.
 double power_of(const SceneEmitter& emitter, size_t channel)
 {
-    return std::numbers::pi * double(emitter.area) * double(emitter.radiance[channel]);
+    const double inner = double(emitter.cone_cosines[0]), outer = double(emitter.cone_cosines[1]);
+    const double share = has_cone(emitter) ? 0.5 * (1 - 0.5 * (inner + outer)) : 1;
+    return share * std::numbers::pi * double(emitter.area) * double(emitter.radiance[channel]);
 }
 
 Json make_emitter(const SceneEmitter& emitter)
 {
-    const bool is_sphere = emitter.type == shared::EMITTER_SPHERE;
+    const bool is_sphere = emitter.type == shared::EMITTER_SPHERE || emitter.type == shared::EMITTER_SUN;
     Json json { { "type", emitter.type < std::size(emitter_types) ? emitter_types[emitter.type] : "unknown" } };
     if (is_sphere) {
         json["centre"] = vector_of(emitter.centre);
@@ -64,6 +68,9 @@ Json make_emitter(const SceneEmitter& emitter)
     json["power"] = { power_of(emitter, 0), power_of(emitter, 1), power_of(emitter, 2) };
     if (emitter.reach > 0)
         json["reach"] = emitter.reach;
+    if (has_cone(emitter))
+        json["cone"] = { { "axis", vector_of(emitter.cone_axis) },
+            { "cosines", { emitter.cone_cosines[0], emitter.cone_cosines[1] } } };
     return json;
 }
 

@@ -146,7 +146,7 @@ void Scene::set_lightstyles()
     for (const formats::EntityText& entity : entities_) {
         const float style = entity.number("style", 0);
         const bool starts_off = (spawn_flags(entity) & 1) != 0;
-        if (entity.class_name() == "light" && starts_off && style >= 32 && style < float(lightstyles_.size()))
+        if (entity.class_name().starts_with("light") && starts_off && style >= 32 && style < float(lightstyles_.size()))
             set(size_t(style), 0);
     }
 }

@@ -24,6 +24,8 @@ const char* name_of_type(uint32_t type)
         return "sky";
     case shared::EMITTER_VEIL:
         return "veil";
+    case shared::EMITTER_SUN:
+        return "sun";
     }
     return "?";
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/lights/cluster_finder.hpp"
 
+#include "ref_vkpt/lights/spot_cone.hpp"
+
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
@@ -139,7 +141,7 @@ std::vector<int> find_touched_clusters(const Bsp& bsp, const shared::Emitter& em
             clusters.push_back(leaf.cluster);
         return true;
     };
-    if (emitter.type == shared::EMITTER_SPHERE)
+    if (is_sphere(emitter))
         steps += walk_ball(bsp, emitter.p0, std::max(emitter.p1.x, plane_tolerance), collect);
     else
         steps += steps_of_polygon * walk_polygon(bsp, lift_triangle(emitter, lift), collect);

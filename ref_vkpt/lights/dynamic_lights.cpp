@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/lights/dynamic_lights.hpp"
 
+#include "ref_vkpt/lights/spot_cone.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -19,7 +21,7 @@ using Kind = std::array<uint32_t, 6>;
 
 Kind kind_of(const Emitter& e)
 {
-    if (e.type == shared::EMITTER_SPHERE)
+    if (is_sphere(e))
         return { e.type, e.lightstyle, 0, 0, 0, 0 };
     const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
     return { e.type, e.lightstyle, bits(e.area), bits(e.radiance.x), bits(e.radiance.y), bits(e.radiance.z) };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/lights/emitters.hpp"
 
+#include "ref_vkpt/lights/animated_lights.hpp"
 #include "ref_vkpt/lights/cluster_finder.hpp"
 #include "ref_vkpt/lights/luminance.hpp"
 
@@ -68,9 +69,11 @@ glm::vec3 average_radiance(const BspTexinfo& texinfo, const PictureColour& pictu
 // What the picture is multiplied by, so that the average over the picture is average_radiance.
 glm::vec3 emission_factor(const BspTexinfo& texinfo, const AverageColour& colour, const EmissionScales& scales)
 {
+    const PictureColour picture = colour(texinfo.texture);
+    if (is_glowing(texinfo, picture))
+        return glm::vec3(scales.glow);
     if (classify(texinfo) != Emission::face)
         return glm::vec3(0);
-    const PictureColour picture = colour(texinfo.texture);
     const float greatest = max_component(picture.average);
     return greatest > 0 ? glm::vec3(scales.face * float(texinfo.value) * picture.strength / greatest) : glm::vec3(0);
 }
@@ -90,14 +93,35 @@ struct Piece {
     std::vector<shared::Emitter> emitters;
 };
 
-std::vector<Piece> collect_faces(const Bsp& bsp, const AverageColour& colour, const EmissionScales& scales)
+// A light entity that stands for what glows: right before one of its triangles.
+bool has_light_before(const std::vector<shared::Emitter>& face, const std::vector<shared::Emitter>& lights)
 {
+    constexpr float near = 48; // units
+    for (const shared::Emitter& e : face) {
+        const glm::vec3 centre = (e.p0 + e.p1 + e.p2) / 3.0f, front = glm::cross(e.p1 - e.p0, e.p2 - e.p0);
+        for (const shared::Emitter& light : lights)
+            if (glm::distance(light.p0, centre) < near && glm::dot(light.p0 - centre, front) > 0)
+                return true;
+    }
+    return false;
+}
+
+std::vector<Piece> collect_faces(const Bsp& bsp, const AverageColour& colour, const EmissionScales& scales,
+    const std::vector<shared::Emitter>& lights)
+{
+    constexpr uint64_t comparisons_per_step = 64;
     std::vector<Piece> pieces;
     WorkLimit work = limit_of_pieces(bsp);
     const formats::BspModel& world = bsp.models[0];
     for (int32_t i = 0; i < world.face_count; i++) {
         const size_t face = size_t(world.first_face + i);
         std::vector<shared::Emitter> emitters = emitters_of_face(bsp, face, colour, scales, work);
+        if (const BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
+            !emitters.empty() && is_glowing(texinfo, colour(texinfo.texture))) {
+            work.spend(emitters.size() * lights.size() / comparisons_per_step, "face", face);
+            if (has_light_before(emitters, lights))
+                continue;
+        }
         if (!emitters.empty())
             pieces.push_back({ find_leaf_before(bsp, face), int64_t(face), std::move(emitters) });
     }
@@ -126,6 +150,12 @@ void report_unused(const Bsp& bsp, const AverageColour& colour, std::vector<std:
 
 } // namespace
 
+bool is_glowing(const BspTexinfo& texinfo, const PictureColour& picture)
+{
+    return picture.glows && !picture.parts.empty() && texinfo.next < 0 && classify(texinfo) == Emission::none
+        && !(texinfo.flags & (formats::SURF_NODRAW | formats::SURF_WARP));
+}
+
 std::vector<FaceTriangle> triangles_of_face(
     const Bsp& bsp, size_t face, const PictureColour& picture, WorkLimit& work)
 {
@@ -135,7 +165,9 @@ std::vector<FaceTriangle> triangles_of_face(
         for (const auto& [a, b, c] : triangulate(outline, normal))
             triangles.push_back({ { outline[a], outline[b], outline[c] }, part });
     };
-    if (classify(bsp.texinfos[bsp.faces[face].texinfo]) == Emission::face)
+    const BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
+    const bool shines = classify(texinfo) == Emission::face || is_glowing(texinfo, picture);
+    if (shines && texinfo.next < 0) // an animation's pictures shine in different places
         for (const FacePiece& piece : cut_face(bsp, face, picture.parts, picture.size, work))
             append(piece.outline, piece.part);
     if (triangles.empty())
@@ -163,22 +195,50 @@ float scale_of_parts(
 
 } // namespace
 
+uint32_t face_lightstyle(const formats::BspFace& face)
+{
+    constexpr uint8_t steady = 0, no_lightmap = 255;
+    for (const uint8_t style : face.styles)
+        if (style != steady && style != no_lightmap)
+            return style;
+    return steady;
+}
+
+glm::vec3 frame_radiance(
+    const Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales)
+{
+    const BspTexinfo& frame = bsp.texinfos[texinfo];
+    return classify(frame) == Emission::face ? average_radiance(frame, colour(frame.texture), scales) : glm::vec3(0);
+}
+
+glm::vec3 face_radiance(
+    const Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales)
+{
+    glm::vec3 brightest(0);
+    for_each_frame(bsp, texinfo, [&](uint32_t frame) {
+        const glm::vec3 radiance = frame_radiance(bsp, frame, colour, scales);
+        if (luminance(radiance) > luminance(brightest))
+            brightest = radiance;
+    });
+    return brightest;
+}
+
 std::vector<shared::Emitter> emitters_of_face(const Bsp& bsp, size_t face, const AverageColour& colour,
     const EmissionScales& scales, WorkLimit& work)
 {
     const BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
-    const Emission emission = classify(texinfo);
-    if (emission == Emission::none)
-        return {};
+    const bool is_sky = classify(texinfo) == Emission::sky;
     const PictureColour picture = colour(texinfo.texture);
-    const glm::vec3 radiance = average_radiance(texinfo, picture, scales);
-    if (!(max_component(radiance) > 0) && emission != Emission::sky)
+    const glm::vec3 radiance = is_sky ? average_radiance(texinfo, picture, scales)
+                                      : face_radiance(bsp, bsp.faces[face].texinfo, colour, scales);
+    const bool glows = is_glowing(texinfo, picture);
+    if (!(max_component(radiance) > 0) && !is_sky && !glows)
         return {};
     const std::vector<FaceTriangle> triangles = triangles_of_face(bsp, face, picture, work);
-    const float scale = scale_of_parts(triangles, picture.parts, radiance);
+    const float scale = glows ? scales.glow : scale_of_parts(triangles, picture.parts, radiance);
     std::vector<shared::Emitter> emitters;
     for (const FaceTriangle& triangle : triangles) {
-        if (triangle.part == FacePiece::dark)
+        if (triangle.part == FacePiece::dark || (glows && triangle.part == FaceTriangle::whole))
             continue;
         shared::Emitter emitter {};
         emitter.p0 = triangle.corners[0];
@@ -186,6 +246,7 @@ std::vector<shared::Emitter> emitters_of_face(const Bsp& bsp, size_t face, const
         emitter.p2 = triangle.corners[2];
         emitter.type = emitter_type(texinfo);
         emitter.area = area_of(triangle);
+        emitter.lightstyle = is_sky ? 0 : face_lightstyle(bsp.faces[face]);
         emitter.radiance
             = triangle.part == FaceTriangle::whole ? radiance : scale * picture.parts[size_t(triangle.part)].average;
         emitters.push_back(emitter);
@@ -202,9 +263,10 @@ StaticEmitters extract_emitters(const Bsp& bsp, const AverageColour& colour, con
         result.face_emission.push_back(emission_factor(texinfo, colour, scales));
 
     std::vector<Piece> pieces;
+    const std::vector<shared::Emitter> lights = extract_point_lights(bsp, scales, result.messages);
     if (!bsp.models.empty())
-        pieces = collect_faces(bsp, colour, scales);
-    for (const shared::Emitter& light : extract_point_lights(bsp, scales, result.messages))
+        pieces = collect_faces(bsp, colour, scales, lights);
+    for (const shared::Emitter& light : lights)
         pieces.push_back({ bsp.find_leaf(light.p0, find_world_root(bsp)), -1, { light } });
     std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.leaf < b.leaf; });
 

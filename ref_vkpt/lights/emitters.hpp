@@ -31,6 +31,7 @@ struct EmissionScales {
     float face = 0.0095f; // radiance = face * texinfo value * normalised picture colour * its strength
     float point = 0.0011f; // radiant intensity of a point light = point * its "light" value cubed
     float sky = 3.1f; // radiance = sky * sky picture (sky faces that are not SURF_LIGHT; others: as faces)
+    float glow = 2; // radiance of glowing parts without a light value = glow * picture: as bright as lightmaps get
     float point_light_radius = 4; // of the spheres that stand for point lights, units; less where walls are nearer
 };
 
@@ -45,6 +46,7 @@ struct PictureColour {
     float strength; // of the light: missing_picture_strength where `average` is that of a stand-in
     std::vector<BrightPart> parts; // where it shines; none: all over
     glm::ivec2 size { 64 }; // texels of texinfo space
+    bool glows = false; // its parts shine on faces without a light value, too
 };
 // The classic light compiler counts a missing picture as half as bright as any that is there.
 inline constexpr float missing_picture_strength = 0.5f;
@@ -90,6 +92,18 @@ std::vector<FaceTriangle> triangles_of_face(
 StaticEmitters extract_emitters(const formats::Bsp& bsp, const AverageColour& colour, const EmissionScales& scales);
 std::vector<shared::Emitter> emitters_of_brush_model(
     const formats::Bsp& bsp, size_t model, const AverageColour& colour, const EmissionScales& scales);
+
+// Whether a face without a light value shines where its picture's bright parts are.
+bool is_glowing(const formats::BspTexinfo& texinfo, const PictureColour& picture);
+
+// What a switched or flickering lamp goes with: the face's first lightstyle that is not the steady one. 0: none is.
+uint32_t face_lightstyle(const formats::BspFace& face);
+
+// Average radiance of a SURF_LIGHT texinfo's front, 0 of others; of an animation's frame that is brightest.
+glm::vec3 frame_radiance(
+    const formats::Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales);
+glm::vec3 face_radiance(
+    const formats::Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales);
 
 // The shining triangles of one face as emitters, in the order of triangles_of_face; empty: the face emits nothing.
 std::vector<shared::Emitter> emitters_of_face(const formats::Bsp& bsp, size_t face, const AverageColour& colour,

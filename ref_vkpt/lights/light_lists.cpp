@@ -3,10 +3,12 @@
 
 #include "ref_vkpt/lights/cluster_finder.hpp"
 #include "ref_vkpt/lights/dynamic_lights.hpp"
+#include "ref_vkpt/lights/spot_cone.hpp"
 #include "ref_vkpt/lights/work_limit.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -123,6 +125,18 @@ bool has_in_front(const Emitter& triangle, const Bounds& box)
     return glm::dot(normal, foremost - triangle.p0) > 0;
 }
 
+// Whether any of the box may be in the spot's cone: whether the cone meets the ball around the box.
+bool has_in_cone(const Emitter& spot, const Bounds& box)
+{
+    const glm::vec3 to_centre = 0.5f * (box.mins + box.maxs) - spot.p0;
+    const float distance = glm::length(to_centre), radius = 0.5f * glm::length(box.maxs - box.mins);
+    if (distance <= radius)
+        return true;
+    constexpr float slack = 1e-3f;
+    const float off_axis = std::acos(std::clamp(glm::dot(to_centre, spot.p2) / distance, -1.0f, 1.0f));
+    return off_axis - std::asin(radius / distance) <= std::acos(std::clamp(outer_cosine(spot), -1.0f, 1.0f)) + slack;
+}
+
 // Whether the same clusters list both.
 bool is_same_place(const Emitter& a, const Emitter& b)
 {
@@ -181,6 +195,7 @@ void LightLists::build_static_lists(std::span<const shared::Emitter> emitters)
 {
     WorkLimit entries(*bsp_, most_entries, "entries in its light lists"),
         work(*bsp_, most_steps, "steps to find what its lights can reach");
+    sky_receivers_ = ClusterSet(cluster_count_);
     std::vector<std::vector<uint32_t>> members(cluster_count_);
     ClusterSet receivers;
     for (uint32_t i = 0; i < emitters.size(); i++) {
@@ -191,6 +206,8 @@ void LightLists::build_static_lists(std::span<const shared::Emitter> emitters)
             unlisted_static_count_ += cluster_count_ > 0;
             continue;
         }
+        if (emitters[i].type == shared::EMITTER_SKY)
+            sky_receivers_.merge(receivers);
         for_each_cluster(receivers, [&](size_t cluster) {
             steps++;
             if (!reaches(emitters[i], cluster))
@@ -217,6 +234,10 @@ void LightLists::build_static_lists(std::span<const shared::Emitter> emitters)
 
 bool LightLists::find_receivers(const shared::Emitter& emitter, ClusterSet& receivers, uint64_t& steps) const
 {
+    if (emitter.type == shared::EMITTER_SUN) {
+        receivers = sky_receivers_;
+        return true;
+    }
     receivers = ClusterSet(cluster_count_);
     for (const float lift : lifts) {
         const std::vector<int> touched = find_touched_clusters(*bsp_, emitter, lift, steps);
@@ -237,7 +258,9 @@ bool LightLists::reaches(const shared::Emitter& emitter, size_t cluster) const
         if (!(glm::dot(offset, offset) <= emitter.reach * emitter.reach))
             return false;
     }
-    return emitter.type == shared::EMITTER_SPHERE || has_in_front(emitter, cluster_bounds(cluster));
+    if (has_cone(emitter))
+        return has_in_cone(emitter, cluster_bounds(cluster));
+    return is_sphere(emitter) || has_in_front(emitter, cluster_bounds(cluster));
 }
 
 bool LightLists::place(Placed& placed, const Emitter& emitter, size_t most) const

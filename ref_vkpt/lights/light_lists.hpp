@@ -86,6 +86,7 @@ private:
     std::vector<uint32_t> static_indices_, dynamic_indices_;
     std::vector<shared::BspTreeNode> tree_;
     std::vector<formats::ClusterSet> visible_from_; // PVS rows, kept decompressed and made symmetric
+    formats::ClusterSet sky_receivers_; // clusters from which sky faces may be seen: what a sun can light
     std::vector<glm::vec3> cluster_mins_, cluster_maxs_;
     std::vector<Placed> placed_; // by dynamic index
     std::vector<uint32_t> previous_lengths_;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// An emitter as what is prepared ahead sees it: as a disc, or as a sphere that looks like one from everywhere.
+// An emitter as what is prepared ahead sees it: as a disc, or as a sphere that looks like one from everywhere. A spot that sends
+// nothing sideways is a disc that faces along its axis.
 #pragma once
 
 #include "ref_vkpt/lights/luminance.hpp"
+#include "ref_vkpt/lights/spot_cone.hpp"
 #include "shaders/shared/scene.h"
 
 #include <numbers>
@@ -17,9 +19,10 @@ struct LightSource {
 
 inline LightSource make_light_source(const shared::Emitter& e)
 {
-    if (e.type == shared::EMITTER_SPHERE) {
+    if (is_sphere(e)) {
         const float disc = std::numbers::pi_v<float> * e.p1.x * e.p1.x;
-        return { e.p0, glm::vec3(0), disc, luminance(e.radiance) * disc };
+        const bool is_forward = has_cone(e) && outer_cosine(e) > 0;
+        return { e.p0, is_forward ? e.p2 : glm::vec3(0), disc, luminance(e.radiance) * disc };
     }
     const glm::vec3 across = glm::cross(e.p1 - e.p0, e.p2 - e.p0);
     const float size = glm::length(across), area = 0.5f * size;

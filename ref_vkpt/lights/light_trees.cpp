@@ -63,7 +63,7 @@ Bound bound_emitter(const Emitter& e)
     Bound bound;
     bound.power = source.power;
     bound.is_empty = false;
-    if (e.type == shared::EMITTER_SPHERE) {
+    if (is_sphere(e)) {
         bound.mins = e.p0 - e.p1.x;
         bound.maxs = e.p0 + e.p1.x;
     } else {

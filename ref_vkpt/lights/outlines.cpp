@@ -2,6 +2,8 @@
 #include "ref_vkpt/lights/outlines.hpp"
 
 #include "ref_vkpt/lights/luminance.hpp"
+#include "ref_vkpt/lights/spot_cone.hpp"
+#include "ref_vkpt/scene/entity_geometry.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -26,15 +28,27 @@ uint32_t exponent_above(const glm::vec3& a, const glm::vec3& b)
     return (side + 0x7fffffu) >> 23;
 }
 
+uint32_t pack_cosine(float cosine)
+{
+    return uint32_t(uint16_t(int16_t(std::lround(std::clamp(cosine, -1.0f, 1.0f) * 32767))));
+}
+
 } // namespace
 
 shared::EmitterOutline make_outline(const shared::Emitter& emitter, float lightstyle)
 {
     const uint32_t radiance
         = std::bit_cast<uint32_t>(std::abs(luminance(emitter.radiance * lightstyle))) & shared::OUTLINE_RADIANCE_MASK;
-    if (emitter.type == shared::EMITTER_SPHERE)
-        return { emitter.p0, radiance | 0x80000000u,
+    if (is_sphere(emitter)) {
+        shared::EmitterOutline sphere { emitter.p0, radiance | 0x80000000u,
             { std::bit_cast<uint32_t>(emitter.p1.x), std::bit_cast<uint32_t>(emitter.reach), 0, 0 } };
+        if (has_cone(emitter)) {
+            sphere.shape[2] = encode_octahedral(emitter.p2);
+            sphere.shape[3]
+                = pack_cosine(emitter.p1.z) | pack_cosine(outer_cosine(emitter) - shared::CONE_SLACK) << 16;
+        }
+        return sphere;
+    }
     const glm::vec3 first = emitter.p1 - emitter.p0, second = emitter.p2 - emitter.p0;
     constexpr uint32_t bits = shared::OUTLINE_BITS, more_bits = shared::OUTLINE_MORE_BITS,
                        left = (1u << (32 - bits)) - 1;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Point light entities as small spheres.
+// Light entities as small spheres: point lights and spots.
 #include "formats/byte_reader.hpp"
 #include "formats/entities.hpp"
 #include "ref_vkpt/lights/cluster_finder.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
+#include "ref_vkpt/lights/light_aim.hpp"
+#include "ref_vkpt/lights/light_entities.hpp"
+#include "ref_vkpt/lights/spot_cone.hpp"
 #include "ref_vkpt/lights/work_limit.hpp"
 
 #include <algorithm>
@@ -24,7 +27,9 @@ using formats::EntityText;
 constexpr float default_light_value = 300;
 constexpr float least_radius = 0.5f;
 constexpr int farthest_rescue = 16; // how far a light inside a wall may be moved to come out of it, units
-constexpr int lightstyle_count = 256;
+constexpr float default_cone = 10; // degrees between axis and edge
+// The classic cone's edge is sharp. Here it fades over so much of the cone's angle, half of it outside.
+constexpr float edge_share = 0.1f;
 constexpr uint64_t most_steps = 100'000'000; // nodes visited for all lights, per megabyte of the map
 
 // The nearest free place around a light whose origin lies in a wall.
@@ -53,29 +58,10 @@ float fit_radius(const Bsp& bsp, glm::vec3 centre, float wanted, uint64_t& steps
     return std::max(radius, least_radius);
 }
 
-glm::vec3 read_colour(const EntityText& entity)
-{
-    std::optional<glm::vec3> colour = entity.vector("_color");
-    if (!colour)
-        colour = entity.vector("color");
-    if (!colour)
-        return glm::vec3(1);
-    // Editors write 0..1 or 0..255; the classic compilers scale either to a greatest component of 1.
-    const glm::vec3 positive = glm::max(*colour, glm::vec3(0));
-    const float greatest = std::max({ positive.x, positive.y, positive.z });
-    return greatest > 0 && std::isfinite(greatest) ? positive / greatest : glm::vec3(1);
-}
-
 float read_value(const EntityText& entity)
 {
     const float value = entity.number("light", entity.number("_light", default_light_value));
     return value == 0 ? default_light_value : value;
-}
-
-uint32_t read_lightstyle(const EntityText& entity)
-{
-    const float style = entity.number("style", entity.number("_style", 0));
-    return style >= 0 && style < lightstyle_count ? uint32_t(style) : 0;
 }
 
 shared::Emitter make_sphere(const EntityText& entity, glm::vec3 centre, float radius, const EmissionScales& scales)
@@ -88,20 +74,19 @@ shared::Emitter make_sphere(const EntityText& entity, glm::vec3 centre, float ra
     emitter.p0 = centre;
     emitter.p1 = glm::vec3(radius, 0, 0);
     emitter.area = 4 * pi * radius * radius;
-    emitter.radiance = read_colour(entity) * (intensity / (pi * radius * radius));
-    emitter.lightstyle = read_lightstyle(entity);
+    emitter.radiance = read_light_colour(entity).value_or(glm::vec3(1)) * (intensity / (pi * radius * radius));
+    emitter.lightstyle = read_lightstyle(entity, "style");
     return emitter;
 }
 
-std::vector<EntityText> read_entities(const Bsp& bsp, std::vector<std::string>& messages)
+void add_cone(shared::Emitter& sphere, const EntityText& entity, glm::vec3 axis)
 {
-    try {
-        return formats::parse_entities(bsp.entity_text, bsp.name);
-    } catch (const formats::FormatError& error) {
-        messages.push_back(
-            fmt::format("{}: no point lights: the entity text cannot be read: {}", bsp.name, error.what()));
-        return {};
-    }
+    constexpr float pi = std::numbers::pi_v<float>;
+    const float given = entity.number("_cone", entity.number("cone", 0));
+    const float cone = (given > 0 ? std::min(given, 180.0f) : default_cone) * pi / 180;
+    const float edge = 0.5f * edge_share * cone;
+    if (cone + edge < pi)
+        set_cone(sphere, axis, std::cos(cone - edge), std::cos(cone + edge));
 }
 
 std::string describe(glm::vec3 p) { return fmt::format("{:.0f} {:.0f} {:.0f}", p.x, p.y, p.z); }
@@ -111,11 +96,13 @@ std::string describe(glm::vec3 p) { return fmt::format("{:.0f} {:.0f} {:.0f}", p
 std::vector<shared::Emitter> extract_point_lights(
     const Bsp& bsp, const EmissionScales& scales, std::vector<std::string>& messages)
 {
+    const std::vector<EntityText> entities = read_entities(bsp, messages);
+    const TargetPlaces targets = find_target_places(entities);
     std::vector<shared::Emitter> lights;
-    size_t spotlights = 0, number = 0;
+    size_t number = 0;
     WorkLimit work(bsp, most_steps, "steps to find its point lights' places");
-    for (const EntityText& entity : read_entities(bsp, messages)) {
-        if (entity.class_name() != "light")
+    for (const EntityText& entity : entities) {
+        if (!is_light(entity))
             continue;
         number++;
         const std::optional<glm::vec3> origin = entity.vector("origin");
@@ -139,12 +126,10 @@ std::vector<shared::Emitter> extract_point_lights(
                 bsp.name, describe(*origin)));
             continue;
         }
-        if (!entity.get("target").empty() || !entity.get("_cone").empty())
-            spotlights++;
         lights.push_back(make_sphere(entity, *place, radius, scales));
+        if (const std::optional<glm::vec3> axis = find_aim(entity, *origin, targets))
+            add_cone(lights.back(), entity, *axis);
     }
-    if (spotlights > 0)
-        messages.push_back(fmt::format("{}: {} spotlights shine in all directions", bsp.name, spotlights));
     return lights;
 }
 

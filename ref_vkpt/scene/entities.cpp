@@ -166,6 +166,11 @@ void SnapshotBuilder::add_brush(const Entity& entity, const Model::Brush& brush)
         emitter.p2 = pose.transform.point(emitter.p2);
         if (translucent)
             emitter.type = shared::EMITTER_VEIL;
+        if (world.animated_lights.has(emitter.lightstyle)) { // by the entity's frame, not by time
+            const AnimatedLight& light = world.animated_lights.at(emitter.lightstyle);
+            emitter.radiance *= light.share(entity.frame);
+            emitter.lightstyle = light.lightstyle;
+        }
         snapshot_.emitters.push_back(emitter);
     }
     snapshot_.has_alpha_test |= geometry.has_alpha_test && !translucent;
@@ -185,9 +190,12 @@ shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Mode
     }
     if (skin)
         show_picture(material, *skin);
-    const SurfaceGuess guess = guess_surface(model.name, defaults_);
-    material.roughness = guess.roughness;
-    material.metallic = guess.metallic;
+    SurfaceGuess surface = guess_surface(model.name, defaults_);
+    if (skin)
+        apply_material(surface, skin->material, defaults_);
+    material.tint = glm::vec3(surface.base_factor);
+    material.roughness = surface.roughness;
+    material.metallic = surface.metallic;
     if (entity.flags & RF_FULLBRIGHT)
         material.flags |= shared::MATERIAL_FULLBRIGHT;
     if (entity.flags & RF_TRANSLUCENT) {
@@ -296,7 +304,6 @@ void SnapshotBuilder::add_glow(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, float a
     emitter.p1 = p1;
     emitter.p2 = p2;
     emitter.area = area;
-    emitter.lightstyle = material.lightstyle;
     emitter.radiance = material.emission * material.opacity;
     if (emitter.radiance != glm::vec3(0))
         snapshot_.emitters.push_back(emitter);

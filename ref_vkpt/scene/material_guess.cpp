@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/material_guess.hpp"
 
+#include "ref_vkpt/scene/material_library.hpp"
 #include "ref_vkpt/scene/world.hpp"
 
 namespace vkpt {
@@ -39,6 +40,18 @@ SurfaceGuess guess_surface(std::string_view texture, const MaterialDefaults& def
         if (texture.find(row.part) != std::string_view::npos)
             return row.surface;
     return { defaults.roughness, defaults.metallic };
+}
+
+void apply_material(SurfaceGuess& surface, std::string_view name, const MaterialDefaults& defaults)
+{
+    const MaterialSettings* settings = defaults.library ? defaults.library->find(name) : nullptr;
+    if (!settings)
+        return;
+    if (settings->roughness >= 0)
+        surface.roughness = settings->roughness;
+    if (settings->metalness >= 0)
+        surface.metallic = settings->metalness;
+    surface.base_factor = settings->base_factor;
 }
 
 } // namespace vkpt

@@ -258,6 +258,7 @@ PictureMeasure measure_picture(const formats::Image& image)
         weight += alpha;
         opaque += pixel.a >= 128;
         measure.has_alpha |= pixel.a < 255;
+        measure.brightest = std::max({ measure.brightest, pixel.r, pixel.g, pixel.b });
     }
     if (weight > 0)
         measure.average = glm::vec3(sum / weight);

@@ -92,6 +92,7 @@ struct PictureMeasure {
     glm::vec3 average { 0 }; // linear RGB, weighted by alpha; black where nothing is opaque
     float opaque_fraction = 1; // share of pixels that pass an alpha test at one half
     bool has_alpha = false; // some pixel is not fully opaque
+    uint8_t brightest = 0; // component of all pixels
 };
 PictureMeasure measure_picture(const formats::Image& image);
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/scene.hpp"
 
+#include "formats/entities.hpp"
+#include "formats/material_file.hpp"
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/files/output_folder.hpp"
 #include "ref_vkpt/frame/pass_statistics.hpp"
 #include "ref_vkpt/lights/luminance.hpp"
 #include "ref_vkpt/scene/entities.hpp"
@@ -12,6 +15,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <span>
 #include <utility>
 
 namespace vkpt {
@@ -40,10 +44,69 @@ void list_lights(SceneSnapshot& snapshot, World& world)
             world.bsp.name, LightLists::most_dynamic_entries, unlisted);
 }
 
+// maps/NAME.lights: what players and authors add to a map's lights, as entity text.
+std::string load_more_entities(std::string_view map)
+{
+    constexpr size_t most_bytes = 1 << 20;
+    const std::string path = "maps/" + std::string(map) + ".lights";
+    const std::optional<engine::FileData> file = engine::load_file(path);
+    if (!file)
+        return {};
+    if (file->bytes().size() > most_bytes) {
+        engine::print("vkpt: {} is left out: it has more than {} bytes", path, most_bytes);
+        return {};
+    }
+    const std::string text(reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size());
+    try {
+        formats::parse_entities(text, path);
+    } catch (const formats::FormatError& error) {
+        engine::print("vkpt: {}; its lights are left out", error.what());
+        return {};
+    }
+    return '\n' + text;
+}
+
+// Nothing where there is none.
+formats::MaterialFile load_material_file(const std::string& path)
+{
+    const std::optional<engine::FileData> file = engine::load_file(path);
+    if (!file)
+        return {};
+    try {
+        const std::string_view text(reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size());
+        formats::MaterialFile materials = formats::read_materials(text, path);
+        for (const std::string& message : materials.messages)
+            engine::print("vkpt: {}", message);
+        return materials;
+    } catch (const formats::FormatError& error) {
+        engine::print("vkpt: {}; the file is left out", error.what());
+        return {};
+    }
+}
+
+// Whether the picture's bright parts shine without a light value, by its material or by pt_glow_threshold.
+bool is_glowing(const Texture& texture, const MaterialSettings* material)
+{
+    const int threshold = material && material->glow_threshold >= 0 ? material->glow_threshold
+                                                                    : cvars::values().pt_glow_threshold;
+    return threshold > 0 && texture.brightest >= threshold;
+}
+
+// First of the moving emitters, so that they keep their places; a change of pt_sun_scale counts at once.
+void add_suns(SceneSnapshot& snapshot, std::span<const Sun> suns, glm::vec3 sky_colour)
+{
+    for (const Sun& sun : suns) {
+        shared::Emitter emitter = make_sun(sun, sky_colour);
+        if (emitter.lightstyle == 0)
+            emitter.lightstyle = lightstyle_sun;
+        snapshot.emitters.push_back(emitter);
+    }
+}
+
 WorldPicture describe(const Texture& texture)
 {
     return { texture.slot, texture.packed_size, texture.width, texture.height, texture.average, texture.has_alpha,
-        texture.missing, texture.parts };
+        texture.missing, texture.parts, false };
 }
 
 } // namespace
@@ -69,11 +132,16 @@ void Scene::begin_registration(std::string_view map)
     const std::optional<engine::FileData> file = engine::load_file(path);
     if (!file)
         throw LevelError(path + " does not exist: is the map's package installed?");
+    load_materials(map);
     EmissionScales scales;
     scales.point_light_radius = cvars::values().pt_point_light_radius;
-    const FindWorldPicture find
-        = [&](const std::string& texture) { return describe(*textures_.find(texture, TextureUse::wall)); };
-    world_ = load_world(file->bytes(), path, find, scales);
+    const FindWorldPicture find = [&](const std::string& name) {
+        const Texture& texture = *textures_.find(name, TextureUse::wall);
+        WorldPicture picture = describe(texture);
+        picture.glows = is_glowing(texture, materials_.find(texture.material));
+        return picture;
+    };
+    world_ = load_world(file->bytes(), path, find, scales, load_more_entities(map));
     for (const std::string& message : world_->messages)
         engine::print_developer(message);
     sky_ = {};
@@ -84,6 +152,22 @@ Model* Scene::find_model(std::string_view name)
 {
     const auto known = std::ranges::find_if(models_, [&](const Model& m) { return m.registration && m.name == name; });
     return known != models_.end() ? &*known : nullptr;
+}
+
+// Of the game's own files, from the most general to the map's; what the player saved goes before them.
+void Scene::load_materials(std::string_view map)
+{
+    materials_.forget_files();
+    const engine::Cvar* cvar = engine::get_cvar("game", "", engine::CVAR_NONE);
+    const std::string game = cvar && cvar->text ? cvar->text : "";
+    std::vector<std::string> paths { "materials/baseq2.mat" };
+    if (is_plain_name(game) && game != "baseq2")
+        paths.push_back("materials/" + game + ".mat");
+    paths.push_back("maps/" + std::string(map) + ".mat");
+    for (const std::string& path : paths)
+        materials_.add(load_material_file(path));
+    if (!std::exchange(has_edits_, true))
+        materials_.take_edits(load_material_file(saved_materials_path));
 }
 
 Model* Scene::register_model(std::string_view name)
@@ -196,9 +280,36 @@ void Scene::end_registration()
         const float sky_luminance = luminance(sky_.average);
         sky_.scale = world_->lit_sky_luminance > 0 && sky_luminance > 0 ? world_->lit_sky_luminance / sky_luminance
                                                                         : EmissionScales().sky;
+        find_sky_sun();
         set_sky_radiance(*world_, sky_.average * sky_.scale);
     }
     textures_.end_registration();
+}
+
+// Where a map has no sun of its own, the one in its sky's pictures takes over a share of the sky's light: as much as
+// falls on level ground without anything in the way.
+void Scene::find_sky_sun()
+{
+    constexpr float lowest = 0.15f; // sine of the elevation
+    sky_.sun.reset();
+    const float share = cvars::values().pt_sky_sun;
+    if (share <= 0 || !world_->suns.empty())
+        return;
+    for (size_t side = 0; side < sky_.pictures.size(); side++) {
+        const Texture* picture = sky_.pictures[side];
+        if (!picture || !picture->sun)
+            continue;
+        Sun sun;
+        sun.to_sun = direction_on_sky(side, picture->sun->centre);
+        if (sun.to_sun.z < lowest)
+            continue;
+        sun.light = 128 * share * luminance(sky_.average) * sky_.scale / sun.to_sun.z;
+        sun.colour = picture->sun->colour / luminance(picture->sun->colour);
+        sun.half_angle = glm::radians(0.5f * sun_diameter);
+        sky_.sun = sun;
+        sky_.scale *= 1 - share;
+        return;
+    }
 }
 
 shared::Sky Scene::make_sky(float time) const
@@ -236,8 +347,10 @@ SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef)
         snapshot.lightstyles[i] = refdef.lightstyles[i].white / 3 * cvars.pt_emission_scale;
     snapshot.lightstyles[lightstyle_dlight] = cvars.pt_dlight_scale;
     snapshot.lightstyles[lightstyle_sky] = cvars.pt_sky_scale;
-    const MaterialDefaults defaults { cvars.pt_roughness_default, cvars.pt_metallic_default };
+    snapshot.lightstyles[lightstyle_none] = 0;
+    snapshot.lightstyles[lightstyle_sun] = cvars.pt_sun_scale;
     std::vector<engine::Entity> player_body;
+    const MaterialDefaults defaults { cvars.pt_roughness_default, cvars.pt_metallic_default, &materials_ };
     if (!(refdef.flags & engine::RDF_NOWORLDMODEL) && world_) {
         snapshot.world = world_.get();
         snapshot.has_alpha_test = world_->models[0].has_alpha_test;
@@ -245,6 +358,14 @@ SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef)
         snapshot.materials = world_->make_materials(refdef.time, defaults);
         snapshot.sky = make_sky(refdef.time);
         player_body = find_player_body(refdef);
+        world_->animated_lights.append_rows(snapshot.lightstyles, refdef.time);
+        std::vector<Sun> suns = world_->suns;
+        if (sky_.sun) {
+            suns.push_back(*sky_.sun);
+            const glm::vec3 in_sky = sky_.sun->to_sun;
+            suns.back().to_sun = glm::mat3(snapshot.sky.rotation[0], snapshot.sky.rotation[1], snapshot.sky.rotation[2]) * in_sky;
+        }
+        add_suns(snapshot, suns, sky_.average);
     }
     add_entities(snapshot, refdef, player_body, textures_, defaults);
     if (snapshot.world)

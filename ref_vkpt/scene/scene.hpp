@@ -6,6 +6,7 @@
 #include "formats/model.hpp"
 #include "ref_vkpt/engine/contract.hpp"
 #include "ref_vkpt/scene/player_body.hpp"
+#include "ref_vkpt/scene/material_library.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
 #include "ref_vkpt/scene/textures.hpp"
 
@@ -17,6 +18,10 @@
 #include <vector>
 
 namespace vkpt {
+
+// The player's edits of materials, below the game's folder; the file begins with this line.
+inline constexpr const char* saved_materials_path = "vkpt/materials.mat";
+inline constexpr std::string_view saved_materials_head = "# Materials saved by ref_vkpt's command mat\n";
 
 // A handle that the engine holds. Brush models belong to the current map.
 struct Model {
@@ -55,6 +60,9 @@ public:
     World* world() { return world_.get(); }
     const World* world() const { return world_.get(); }
 
+    MaterialLibrary& materials() { return materials_; }
+    const MaterialLibrary& materials() const { return materials_; }
+
     // The scene of a refdef. RDF_NOWORLDMODEL: models alone, with a light of their own.
     SceneSnapshot take_snapshot(const engine::RefDef& refdef);
 
@@ -68,6 +76,7 @@ private:
         glm::vec3 axis { 0, 0, 1 };
         glm::vec3 average { 0 };
         float scale = 1; // from picture to radiance
+        std::optional<Sun> sun; // in the sky's space: painted on it, and made to shine
     };
     std::optional<Model> load_model(const std::string& name) const;
     Model* keep_model(Model model);
@@ -75,6 +84,8 @@ private:
     shared::Sky make_sky(float time) const;
     Model* find_model(std::string_view name);
     std::vector<engine::Entity> find_player_body(const engine::RefDef& refdef);
+    void find_sky_sun();
+    void load_materials(std::string_view map);
 
     TextureStore& textures_;
     std::string map_path_;
@@ -84,6 +95,8 @@ private:
     uint32_t registration_ = 0;
     SkyState sky_;
     PlayerBody player_body_;
+    MaterialLibrary materials_;
+    bool has_edits_ = false; // those that an earlier run saved are there
 };
 
 } // namespace vkpt

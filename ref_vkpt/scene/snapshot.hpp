@@ -27,7 +27,7 @@ struct SceneSnapshot {
     std::vector<shared::Emitter> emitters;
     std::vector<shared::DarkLight> dark_lights;
     std::vector<shared::Material> materials; // all: the world's first
-    std::vector<float> lightstyles; // lightstyle_count of them
+    std::vector<float> lightstyles; // lightstyle_count of them, then those of animated faces
     shared::Sky sky {};
     bool has_alpha_test = false;
     float time = 0; // seconds of the game

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/textures.hpp"
 
+#include "formats/material_file.hpp"
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/scene/bright_parts.hpp"
@@ -105,6 +106,7 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
         return nullptr;
     texture->name = name;
     texture->path = picture->path;
+    texture->material = formats::material_name(picture->path);
     texture->file = picture->file;
     texture->use = use;
     const int limit = int(gpu_.device.properties.limits.maxImageDimension2D);
@@ -181,8 +183,11 @@ void TextureStore::upload(Texture& texture, const formats::Image& pixels)
     texture.average = measure.average;
     if (texture.use == TextureUse::wall)
         texture.parts = find_bright_parts(pixels);
+    if (texture.use == TextureUse::sky)
+        texture.sun = find_painted_sun(pixels);
     texture.opaque_fraction = measure.opaque_fraction;
     texture.has_alpha = measure.has_alpha;
+    texture.brightest = measure.brightest;
 }
 
 void TextureStore::begin_registration()

@@ -4,12 +4,14 @@
 
 #include "ref_vkpt/lights/face_pieces.hpp"
 #include "ref_vkpt/scene/picture_files.hpp"
+#include "ref_vkpt/scene/sky_sun.hpp"
 #include "ref_vkpt/vulkan/bindings.hpp"
 #include "ref_vkpt/vulkan/uploader.hpp"
 
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -22,6 +24,7 @@ struct Texture {
     std::string name; // as asked for
     std::string path; // of the original picture: "textures/e1u1/floor.wal"
     std::string file; // what was read; empty: missing
+    std::string material; // formats::material_name of `path`
     TextureUse use = TextureUse::wall;
     uint32_t slot = 0; // bindless index
     uint32_t packed_size = 0x10001; // of what is in the slot, see shared::Material::texture_size
@@ -29,6 +32,8 @@ struct Texture {
     glm::vec3 average { 1 }; // see PictureMeasure
     std::vector<BrightPart> parts; // of walls
     float opaque_fraction = 1;
+    std::optional<PaintedSun> sun; // of skies
+    uint8_t brightest = 0; // component of all texels
     bool has_alpha = false;
     bool missing = false; // grey in place of a wall that was not found
     uint32_t registration = 0; // the last one that used it; 0: free

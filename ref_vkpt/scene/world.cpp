@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/world.hpp"
 
+#include "formats/material_file.hpp"
+#include "ref_vkpt/lights/light_entities.hpp"
 #include "ref_vkpt/lights/luminance.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
 #include "ref_vkpt/scene/material_guess.hpp"
@@ -49,20 +51,6 @@ uint32_t triangle_mask(const BspTexinfo& texinfo)
     return texinfo.flags & SURF_ALPHATEST ? shared::MASK_ALPHA_TEST : shared::MASK_OPAQUE;
 }
 
-// Calls `visit` with the texinfos of an animation, starting with `first`, which may be the only one. read_bsp cut chains
-// that never come back, and refuses long ones.
-template <class Visit> void for_each_frame(const Bsp& bsp, uint32_t first, Visit visit)
-{
-    uint32_t frame = first;
-    while (true) {
-        visit(frame);
-        const int next = bsp.texinfos[frame].next;
-        if (next < 0 || uint32_t(next) == first)
-            return;
-        frame = uint32_t(next);
-    }
-}
-
 // One frame of an animation with holes makes all of them count: structures on the device are built before it is known
 // which frame is shown.
 bool has_holes(const Bsp& bsp, uint32_t texinfo)
@@ -86,6 +74,7 @@ PictureColour colour_of(const WorldPicture& picture)
 {
     PictureColour colour(picture.average, picture.missing ? missing_picture_strength : 1.0f);
     colour.parts = picture.parts;
+    colour.glows = picture.glows;
     colour.size = { picture.width, picture.height };
     return colour;
 }
@@ -99,7 +88,9 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
     const WorldPicture& picture = context.pictures[texinfo_index];
     const uint32_t normal = encode_octahedral(bsp.face_normal(face));
     const uint8_t holes = has_holes(bsp, texinfo_index) ? 1 : 0;
-    const std::vector<FaceTriangle> parts = triangles_of_face(bsp, face, colour_of(picture), context.pieces);
+    const PictureColour colour = colour_of(picture);
+    const bool glows = is_glowing(texinfo, colour);
+    const std::vector<FaceTriangle> parts = triangles_of_face(bsp, face, colour, context.pieces);
     context.triangles.spend(parts.size(), "face", face);
     for (const FaceTriangle& part : parts) {
         shared::Triangle triangle {};
@@ -111,8 +102,13 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
         }
         triangle.material = texinfo_index;
         triangle.emitter = shared::EMITTER_UNLISTED;
-        if (first_emitter >= 0)
+        triangle.lightstyle = face_lightstyle(bsp.faces[face]);
+        if (glows && part.part < 0)
+            triangle.lightstyle = lightstyle_none;
+        else if (first_emitter >= 0)
             triangle.emitter = part.part == FacePiece::dark ? shared::EMITTER_DIM : first_emitter++;
+        else if (glows)
+            triangle.emitter = shared::EMITTER_DIM; // a light entity sends its light
         triangle.cluster = context.is_world ? std::max(context.face_clusters[face], -1) : -1;
         geometry.triangles.push_back(triangle);
         geometry.masks.push_back(triangle_mask(texinfo));
@@ -135,8 +131,8 @@ MapGeometry make_world_geometry(const FaceContext& context, StaticEmitters emitt
     return geometry;
 }
 
-MapGeometry make_brush_geometry(
-    const FaceContext& context, size_t index, const AverageColour& colour, const EmissionScales& scales)
+MapGeometry make_brush_geometry(const FaceContext& context, size_t index, const AverageColour& colour,
+    const EmissionScales& scales, AnimatedLights& animated)
 {
     MapGeometry geometry;
     const BspModel& model = context.bsp.models[index];
@@ -144,6 +140,7 @@ MapGeometry make_brush_geometry(
         if (!is_drawn(context.bsp.texinfos[context.bsp.faces[face].texinfo]))
             continue;
         std::vector<shared::Emitter> emitters = emitters_of_face(context.bsp, face, colour, scales, context.pieces);
+        animated.add(context.bsp, face, emitters, colour, scales);
         append_face(geometry, context, face, emitters.empty() ? -1 : int(geometry.emitters.size()));
         geometry.emitters.insert(geometry.emitters.end(), emitters.begin(), emitters.end());
     }
@@ -195,14 +192,15 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
     std::vector<shared::Material> materials(count * 2);
     for (uint32_t i = 0; i < count; i++) {
         const BspTexinfo& texinfo = bsp.texinfos[i];
-        const SurfaceGuess guess = guess_surface(texinfo.texture, defaults);
+        SurfaceGuess surface = guess_surface(texinfo.texture, defaults);
+        apply_material(surface, material_names[i], defaults);
         shared::Material& material = materials[count + i];
         material = {};
-        material.tint = glm::vec3(1);
+        material.tint = glm::vec3(surface.base_factor);
         material.opacity = texinfo.flags & SURF_TRANS33 ? 0.33f : texinfo.flags & SURF_TRANS66 ? 0.66f : 1.0f;
         material.emission = emission[i];
-        material.roughness = guess.roughness;
-        material.metallic = guess.metallic;
+        material.roughness = surface.roughness;
+        material.metallic = surface.metallic;
         material.texture = pictures[i].slot;
         material.texture_size = pictures[i].packed_size;
         material.flags = (texinfo.flags & SURF_SKY ? shared::MATERIAL_SKY : 0)
@@ -211,8 +209,7 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
             | (texinfo.flags & SURF_ALPHATEST ? shared::MATERIAL_ALPHA_TEST : 0);
         material.uv_scroll = scroll_of(texinfo, time);
     }
-    // Two pictures a second, as the classic renderers show them.
-    const int tick = time > 0 ? int(std::min(time * 2, 1e9f)) : 0; // any number may be a view's time
+    const int tick = animation_tick(time);
     for (uint32_t i = 0; i < count; i++)
         materials[i] = materials[animation_frame(i, tick)];
     return materials;
@@ -231,7 +228,8 @@ uint32_t World::animation_frame(uint32_t texinfo, int frame) const
 }
 
 std::unique_ptr<World> load_world(
-    formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture, const EmissionScales& scales)
+    formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture, const EmissionScales& scales,
+    std::string_view more_entities)
 {
     // In place from the start: the light lists keep a pointer to the map.
     auto made = std::make_unique<World>();
@@ -241,21 +239,33 @@ std::unique_ptr<World> load_world(
     if (world.bsp.models.empty())
         throw FormatError(name, 0, "the map has no world model");
 
+    world.bsp.entity_text += more_entities;
+    std::vector<std::string> messages;
+    world.suns = find_suns(read_entities(world.bsp, messages));
+
     std::map<std::string, WorldPicture> by_name;
     for (const BspTexinfo& texinfo : world.bsp.texinfos) {
         auto [entry, is_new] = by_name.try_emplace(texinfo.texture);
         if (is_new && is_drawn(texinfo) && !(texinfo.flags & SURF_SKY))
             entry->second = find_picture(texinfo.texture);
         world.pictures.push_back(entry->second);
+        world.material_names.push_back(material_name(texinfo.texture));
     }
     const AverageColour colour = [&](const std::string& texture) -> PictureColour {
         const auto entry = by_name.find(texture);
         return colour_of(entry != by_name.end() ? entry->second : WorldPicture());
     };
     StaticEmitters emitters = extract_emitters(world.bsp, colour, scales);
+    for (size_t face = 0; face < world.bsp.faces.size(); face++)
+        if (emitters.first_of_face[face] >= 0)
+            world.animated_lights.add(world.bsp, face,
+                std::span(emitters.emitters).subspan(size_t(emitters.first_of_face[face]), emitters.count_of_face[face]),
+                colour, scales);
     world.emission = emitters.face_emission;
-    world.messages = emitters.messages;
-    world.lit_sky_luminance = find_lit_sky_luminance(world.bsp, emitters);
+    messages.insert(messages.end(), emitters.messages.begin(), emitters.messages.end());
+    world.messages = std::move(messages);
+    // Under a sun, the light value of a sky face only says that sunlight comes from there.
+    world.lit_sky_luminance = world.suns.empty() ? find_lit_sky_luminance(world.bsp, emitters) : 0;
 
     const std::vector<int> face_clusters = find_face_clusters(world.bsp);
     WorkLimit pieces = limit_of_pieces(world.bsp), triangles(world.bsp, most_triangles, "triangles");
@@ -265,7 +275,7 @@ std::unique_ptr<World> load_world(
     for (size_t i = 1; i < world.bsp.models.size(); i++) {
         const MapGeometry& geometry = world.models.emplace_back(
             make_brush_geometry(
-            { world.bsp, world.pictures, face_clusters, pieces, triangles, false }, i, colour, scales));
+            { world.bsp, world.pictures, face_clusters, pieces, triangles, false }, i, colour, scales, world.animated_lights));
         world.brush_meshes.push_back(make_brush_mesh(geometry.triangles, geometry.masks));
     }
     world.bvh_future

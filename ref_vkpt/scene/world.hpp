@@ -3,9 +3,11 @@
 #pragma once
 
 #include "formats/bsp.hpp"
+#include "ref_vkpt/lights/animated_lights.hpp"
 #include "ref_vkpt/lights/dynamic_lights.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
+#include "ref_vkpt/lights/suns.hpp"
 #include "ref_vkpt/scene/brush_mesh.hpp"
 #include "ref_vkpt/trace/bvh.hpp"
 #include "shaders/shared/scene.h"
@@ -21,7 +23,9 @@ namespace vkpt {
 // Rows of the lightstyle table: the engine's 256, then these.
 inline constexpr uint32_t lightstyle_dlight = 256; // engine dlights, scaled by pt_dlight_scale
 inline constexpr uint32_t lightstyle_sky = 257;    // sky faces, scaled by pt_sky_scale
-inline constexpr uint32_t lightstyle_count = 258;
+inline constexpr uint32_t lightstyle_sun = 258; // suns without a lightstyle of their own
+inline constexpr uint32_t lightstyle_none = 259; // always 0: what does not shine of a face that glows in parts
+inline constexpr uint32_t lightstyle_count = 260; // and then those of World::animated_lights
 
 // Geometry of the world (model 0) or of a brush model, in model space.
 struct MapGeometry {
@@ -40,11 +44,15 @@ struct WorldPicture {
     bool has_alpha = false;
     bool missing = false; // a stand-in
     std::vector<BrightPart> parts;
+    bool glows = false; // see PictureColour
 };
 using FindWorldPicture = std::function<WorldPicture(const std::string& texture)>;
 
+class MaterialLibrary;
+
 struct MaterialDefaults {
     float roughness = 0.7f, metallic = 0;
+    const MaterialLibrary* library = nullptr; // goes before guesses
 };
 
 struct World {
@@ -53,7 +61,10 @@ struct World {
     std::vector<MapGeometry> models; // 0: the world
     std::vector<BrushMesh> brush_meshes; // of `models`; [0] is empty
     std::vector<WorldPicture> pictures; // per texinfo
+    std::vector<std::string> material_names; // per texinfo
     std::vector<glm::vec3> emission;    // per texinfo: Material::emission
+    std::vector<Sun> suns;
+    AnimatedLights animated_lights { lightstyle_count };
     LightLists light_lists;
     bool said_unlisted = false; // that some moving lights found no room there
     DynamicLights dynamic_lights;
@@ -73,8 +84,9 @@ struct World {
 };
 
 // Reads and prepares maps/NAME.bsp. Throws formats::FormatError.
+// `more_entities`: entity text that counts as if it stood behind the map's own.
 std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture,
-    const EmissionScales& scales);
+    const EmissionScales& scales, std::string_view more_entities = {});
 
 // Sets what sky emitters are expected to send, once the sky is known: the average of its pictures.
 void set_sky_radiance(World& world, glm::vec3 average);

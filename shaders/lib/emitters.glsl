@@ -36,6 +36,11 @@ const float least_projected_angle = 3e-4f;
 
 // Whether bounce rays meet all of the emitter's front, wherever it is not hidden. Spheres are lights without a surface in the
 // scene, and rays pass what is translucent or cut out: light sampling alone accounts for those.
+bool is_sphere(Emitter e)
+{
+    return e.type == EMITTER_SPHERE || e.type == EMITTER_SUN;
+}
+
 bool is_met_by_rays(Emitter e)
 {
     return e.type == EMITTER_TRIANGLE || e.type == EMITTER_SKY;
@@ -51,10 +56,21 @@ float reach_window(vec3 to_emitter, float reach)
     return window * window;
 }
 
+// How much of a spot's light arrives, by CONE_SLACK's rule. Without branches: a slope of 0 gives 1.
+float cone_window(vec3 to_emitter, vec3 axis, float inner_cosine, float slope)
+{
+    float cosine = -dot(to_emitter, axis) * inversesqrt(quick_max(dot(to_emitter, to_emitter), 1e-20f));
+    return quick_clamp(1.0f + slope * (cosine - inner_cosine), 0.0f, 1.0f);
+}
+
 // What a ray from `receiver` that hits the emitter's front sees (for hits found by BSDF sampling, too).
 vec3 emitted_radiance(Emitter e, vec3 receiver)
 {
-    return e.radiance * reach_window(e.p0 - receiver, e.reach);
+    vec3 to_emitter = e.p0 - receiver;
+    float window = reach_window(to_emitter, e.reach);
+    if (e.type == EMITTER_SPHERE)
+        window *= cone_window(to_emitter, e.p2, e.p1.z, e.p1.y);
+    return e.radiance * window;
 }
 
 // The angle of (x, y) from the axis, y > 0, given that of the same lengths with the shorter one upright.
@@ -246,7 +262,7 @@ EmitterSample sample_sphere_point(Emitter e, vec3 receiver, vec2 xi)
 // `xi` in [0, 1)^2. Triangles by options.point, spheres by the cone under which they appear.
 EmitterSample sample_emitter_point(Emitter e, Surface s, vec2 xi, LightOptions options)
 {
-    if (e.type == EMITTER_SPHERE)
+    if (is_sphere(e))
         return sample_sphere_point(e, s.position, xi);
     return sample_triangle_point(e, s, xi, options);
 }
@@ -254,7 +270,7 @@ EmitterSample sample_emitter_point(Emitter e, Surface s, vec2 xi, LightOptions o
 // Density with which sample_emitter_point picks `point` (on the emitter, visible from the surface), per solid angle.
 float pdf_emitter_point(Emitter e, Surface s, vec3 point, LightOptions options)
 {
-    if (e.type == EMITTER_SPHERE) {
+    if (is_sphere(e)) {
         float cone_depth = sphere_cone_depth(e.p0 - s.position, e.p1.x);
         return e.p1.x > 0.0f ? 1.0f / (2.0f * emitter_pi * cone_depth) : 0.0f;
     }

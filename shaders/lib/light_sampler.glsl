@@ -111,6 +111,8 @@ LightShape unpack_outline(EmitterOutline outline)
     light.side = uintBitsToFloat(outline.radiance << 23u);
     light.radius = uintBitsToFloat(w0);
     light.reach = uintBitsToFloat(w1);
+    light.axis = w2;
+    light.cosines = w3;
     light.is_sphere = int(outline.radiance) < 0;
     light.radiance = uintBitsToFloat(outline.radiance & OUTLINE_RADIANCE_MASK);
     return light;

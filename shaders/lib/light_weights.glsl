@@ -10,6 +10,7 @@
 #include "../shared/ltc.h"
 #include "bsdf.glsl"
 #include "emitters.glsl"
+#include "packing.glsl"
 #include "projected_triangle.glsl"
 #include "whole_numbers.glsl"
 
@@ -220,6 +221,7 @@ struct LightShape {
     vec3 first, second; // a triangle's edges from there
     float side;          // no less than any component of the two edges
     float radius, reach; // of a sphere
+    uint axis, cosines;  // of its cone, as in EmitterOutline; 0: it has none
     bool is_sphere;
     float radiance; // luminance
 };
@@ -350,13 +352,23 @@ float predict_by_ltc(LightPredictor p, LightShape light, EmitterAspect aspect)
     return p.diffuse * quick_max(shares.x, 1e-4f * aspect.solid_angle) + p.specular * quick_max(shares.y, tail);
 }
 
+// cone_window of a sphere's shape.
+float shape_window(LightShape light, vec3 to_centre)
+{
+    if (light.cosines == 0u)
+        return 1.0f;
+    vec2 cosines = unpack_snorm2(light.cosines);
+    return cone_window(to_centre, unpack_direction(light.axis), cosines.x, 1.0f / (cosines.x - cosines.y));
+}
+
 // The weight: reflected luminance, visibility unknown. 0 only where the emitter cannot contribute.
 float light_contribution(LightPredictor p, LightShape light)
 {
     float radiance = light.radiance;
     EmitterAspect aspect = view_emitter_triangle(p.s, light);
     if (light.is_sphere) {
-        radiance *= reach_window(light.p0 - p.s.position, light.reach); // no triangle has a reach
+        vec3 to_centre = light.p0 - p.s.position;
+        radiance *= reach_window(to_centre, light.reach) * shape_window(light, to_centre); // no triangle has a reach, or a cone
         aspect = view_emitter_sphere(p.s, light);
     }
     float share = p.weight == LIGHT_WEIGHT_LTC ? predict_by_ltc(p, light, aspect) : predict_by_chapter(p, aspect);
@@ -373,7 +385,13 @@ float light_contribution(LightPredictor p, Emitter e)
     light.side = quick_max3(quick_max(abs(light.first), abs(light.second)));
     light.radius = e.p1.x;
     light.reach = e.reach;
-    light.is_sphere = e.type == EMITTER_SPHERE;
+    light.is_sphere = is_sphere(e);
+    light.axis = 0u;
+    light.cosines = 0u;
+    if (e.type == EMITTER_SPHERE && e.p1.y > 0.0f) {
+        light.axis = pack_direction(e.p2);
+        light.cosines = pack_snorm2(vec2(e.p1.z, max(e.p1.z - 1.0f / e.p1.y - CONE_SLACK, -1.0f)));
+    }
     light.radiance = luminance(e.radiance);
     return light_contribution(p, light);
 }

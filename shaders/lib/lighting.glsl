@@ -35,6 +35,17 @@ uint bsdf_ray_count()
     return light_sampler_mis ? max(bounces, 1u) : bounces;
 }
 
+// Whether light gets to the ray's origin. A sun's does where the first thing on the ray is the sky, not beyond: maps are closed, and
+// behind their skies stand other rooms.
+bool arrives(Ray shadow, bool from_sun)
+{
+    RawHit hit = trace_shadow(shadow, mask_shadow, !from_sun);
+    if (!from_sun || hit.triangle == TRACE_MISS)
+        return !from_sun && hit.triangle == TRACE_MISS;
+    uint material = fetch_Triangle(frame.scene.triangles, hit.triangle).material;
+    return (fetch_Material(frame.scene.materials, material).flags & MATERIAL_SKY) != 0u;
+}
+
 ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bool bsdf_ray_follows)
 {
     ReflectedLight result = ReflectedLight(vec3(0.0), vec3(0.0));
@@ -59,7 +70,7 @@ ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bo
     vec3 to_light = point.point - origin;
     float distance = length(to_light);
     Ray shadow = Ray(origin, to_light / distance, 0.0, distance - quick_max(0.02, distance * 1e-4));
-    if (!trace_visible(shadow, mask_shadow))
+    if (!arrives(shadow, emitter.type == EMITTER_SUN))
         return result;
     float density = point.pdf * light.probability;
 #ifdef VKPT_SAMPLER_MIS

@@ -108,7 +108,7 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
     s.roughness = material.roughness;
     s.metallic = material.metallic;
     result.surface = s;
-    result.emission = material.emission * picture.rgb * lightstyle_scale(material.lightstyle) * result.front;
+    result.emission = material.emission * picture.rgb * lightstyle_scale(triangle.lightstyle) * result.front;
     result.opacity = material.opacity;
     result.flags = material.flags;
     result.emitter = triangle.emitter;

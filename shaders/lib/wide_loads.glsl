@@ -96,6 +96,7 @@ Triangle fetch_Triangle(uint64_t table, uint index)
     result.material = e.z;
     result.emitter = int(e.w);
     result.cluster = int(f.x);
+    result.lightstyle = f.y;
     return result;
 }
 
@@ -112,8 +113,7 @@ Material fetch_Material(uint64_t table, uint index)
     result.texture = c.y;
     result.flags = c.z;
     result.uv_scroll = uintBitsToFloat(uvec2(c.w, d.x));
-    result.lightstyle = d.y;
-    result.texture_size = d.z;
+    result.texture_size = d.y;
     return result;
 }
 

@@ -29,7 +29,8 @@ struct Triangle {
     uint material;     // index into the material table
     int emitter;       // index into the emitter table, or EMITTER_UNLISTED, EMITTER_DIM
     int cluster;       // PVS cluster if all of it lies in one, else -1: look it up by position
-    uint padding[3];   // to whole texels, see texels.h
+    uint lightstyle;   // scales the material's emission
+    uint padding[2];   // to whole texels, see texels.h
 };
 VKPT_ASSERT_SIZE(Triangle, 96);
 
@@ -48,16 +49,23 @@ struct Material {
     uint texture;         // bindless index
     uint flags;           // MATERIAL_*
     vec2 uv_scroll;       // added to uv, already multiplied by time
-    uint lightstyle;      // scales emission
     uint texture_size;    // width | height << 16 of its first level; it has all levels down to one texel
-    uint padding;         // to whole texels, see texels.h
+    uint padding[2];      // to whole texels, see texels.h
 };
 VKPT_ASSERT_SIZE(Material, 64);
 
 VKPT_CONST uint EMITTER_TRIANGLE = 0u; // one-sided, front as in Triangle
-VKPT_CONST uint EMITTER_SPHERE = 1u;   // p0 centre, p1.x radius
+VKPT_CONST uint EMITTER_SPHERE = 1u;   // p0 centre, p1.x radius; a spot has a cone, see CONE_SLACK
 VKPT_CONST uint EMITTER_SKY = 2u;      // triangle whose radiance is the sky's in the ray's direction; `radiance` is the average
 VKPT_CONST uint EMITTER_VEIL = 3u;     // triangle that bounce rays pass, all of it or its holes: translucent or alpha-tested
+
+VKPT_CONST uint EMITTER_SUN = 4u; // sphere as far away as SUN_DISTANCE: shines where nothing is between it and the sky
+
+// The light of a spot fades with the cosine between its axis, p2, and the direction to the receiver: all of it at the cosine p1.z, none
+// below that less 1 / p1.y. p1.y = 0: no cone. Outlines hold the lower cosine less CONE_SLACK, so that rounding hides no light.
+VKPT_CONST float CONE_SLACK = 3e-4f;
+
+VKPT_CONST float SUN_DISTANCE = 1e7f; // its direction then differs by less than 0.05 degrees over a map
 
 struct Emitter {
     vec3 p0;
@@ -79,7 +87,8 @@ struct EmitterOutline {
     // that is no less than any component of p1 - p0 and p2 - p0, with a float's bias.
     uint radiance;
     // Triangle: six floats without their lowest bits, OUTLINE_BITS of p1 - p0 and p2.x - p0.x at the top of a word each; what the four
-    // words have left holds the highest OUTLINE_MORE_BITS of p2.y - p0.y (words 0 and 1) and p2.z - p0.z. Sphere: radius and reach.
+    // words have left holds the highest OUTLINE_MORE_BITS of p2.y - p0.y (words 0 and 1) and p2.z - p0.z. Sphere: radius, reach, a cone's
+    // axis (octahedral) and its inner and outer cosine (2 x 16 bit snorm; 0: no cone).
     uint shape[4];
 };
 VKPT_CONST uint OUTLINE_BITS = 21u; // of a float: relative error 2^-13

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "glsl_libraries.hpp"
 
+#include "ref_vkpt/lights/spot_cone.hpp"
+
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
@@ -236,6 +238,31 @@ TEST(EmitterSampling, LightEndsAtItsReach)
     EXPECT_EQ(contribution_of(beyond, e), 0);
 }
 
+// A spot by the cosine at which its light begins to fade, and ends.
+Emitter make_spot(vec3 centre, float radius, vec3 axis, float inner, float outer)
+{
+    Emitter e = make_sphere(centre, radius);
+    set_cone(e, axis, inner, outer);
+    return e;
+}
+
+TEST(EmitterSampling, SpotsShineInTheirConesOnly)
+{
+    const Emitter spot = make_spot(vec3(0, 0, 100), 2, vec3(0, 0, -1), 0.95f, 0.85f);
+    const Emitter ball = make_sphere(vec3(0, 0, 100), 2);
+    for (const float angle : { 0.0f, 0.2f, 0.4f, 0.5f, 0.6f, 1.0f, 2.0f }) {
+        const vec3 receiver(100 * std::sin(angle), 0, 100 - 100 * std::cos(angle));
+        const vec3 normal = normalize(spot.p0 - receiver);
+        const double share = std::clamp((std::cos(double(angle)) - 0.85) / 0.1, 0.0, 1.0);
+        const double whole = estimate_irradiance(ball, receiver, normal, 64);
+        EXPECT_NEAR(estimate_irradiance(spot, receiver, normal, 64), share * whole, 1e-4 * whole) << angle;
+        const Surface s = make_surface(receiver, normal);
+        const double weight = contribution_of(s, spot), weight_of_ball = contribution_of(s, ball);
+        EXPECT_NEAR(weight, share * weight_of_ball, 0.01 * weight_of_ball) << angle;
+        EXPECT_TRUE(weight > 0 || share == 0) << angle;
+    }
+}
+
 Emitter make_random_emitter(std::mt19937& rng)
 {
     std::normal_distribution<float> gauss;
@@ -244,6 +271,11 @@ Emitter make_random_emitter(std::mt19937& rng)
     const vec3 centre = point() * scale * 10.0f;
     if (rng() % 3 == 0)
         return make_sphere(centre, scale * spread);
+    if (rng() % 6 == 0) {
+        const float outer = 1 - 2 * float(rng() % 1000) / 1001;
+        return make_spot(centre, scale * spread, normalize(-centre + 0.5f * length(centre) * point()),
+            outer + 0.02f * (1 - outer), outer);
+    }
     return make_triangle(centre + point() * spread, centre + point() * spread, centre + point() * spread);
 }
 

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/lights/animated_lights.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
+#include "ref_vkpt/lights/spot_cone.hpp"
 #include "synthetic_bsp.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
 namespace vkpt::test {
@@ -129,6 +134,89 @@ TEST(Emitters, FollowTheOrderOfLeaves)
     }
 }
 
+TEST(Emitters, FollowTheFirstLightstyleThatIsNotSteady)
+{
+    struct Case {
+        uint8_t styles[4];
+        uint32_t wanted;
+    };
+    for (const auto& [styles, wanted] : { Case { { 0, 255, 255, 255 }, 0 }, Case { { 0, 40, 33, 255 }, 40 },
+             Case { { 7, 0, 255, 255 }, 7 }, Case { { 255, 255, 255, 255 }, 0 }, Case { { 0, 255, 12, 255 }, 12 } }) {
+        formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+        for (const size_t face : { 1, 3 })
+            std::copy_n(styles, 4, bsp.faces[face].styles);
+        const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
+        EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[1])].lightstyle, wanted);
+        EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[2])].lightstyle, 0u);
+        EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[3])].lightstyle, 0u) << "a sky is not switched";
+    }
+}
+
+// Three pictures by turns, the second without light: emitters have the brightest one's radiance, a table has the shares.
+TEST(Emitters, FollowAnAnimation)
+{
+    formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+    bsp.texinfos[0].next = 1; // plain, 100, 200
+    bsp.texinfos[1].next = 2;
+    bsp.texinfos[2].next = 0;
+    bsp.faces[2].styles[0] = 9;
+    const EmissionScales scales { .face = 0.01f };
+    StaticEmitters emitters = extract_emitters(bsp, reddish, scales);
+    AnimatedLights animated(300);
+    for (size_t face = 0; face < 3; face++) {
+        ASSERT_EQ(emitters.count_of_face[face], 2u);
+        const std::span of_face = std::span(emitters.emitters).subspan(size_t(emitters.first_of_face[face]), 2);
+        EXPECT_FLOAT_EQ(of_face[0].radiance.x, 2);
+        animated.add(bsp, face, of_face, reddish, scales);
+        EXPECT_EQ(of_face[0].lightstyle, 300u + uint32_t(face));
+        EXPECT_EQ(of_face[1].lightstyle, of_face[0].lightstyle);
+    }
+    std::vector<float> lightstyles(300, 1.0f);
+    lightstyles[9] = 0.5f;
+    animated.append_rows(lightstyles, 0.6f); // the second picture of each
+    ASSERT_EQ(lightstyles.size(), 303u);
+    EXPECT_FLOAT_EQ(lightstyles[300], 0.5f);
+    EXPECT_FLOAT_EQ(lightstyles[301], 1);
+    EXPECT_FLOAT_EQ(lightstyles[302], 0);
+    EXPECT_EQ(animated.at(300).share(0), 0);
+    EXPECT_FLOAT_EQ(animated.at(302).share(3), 1);
+    EXPECT_FALSE(animated.has(299) || animated.has(303));
+}
+
+// A picture with a lamp in its middle on faces without a light value.
+PictureColour make_glowing(const std::string&)
+{
+    PictureColour picture(glm::vec3(0.1f));
+    picture.parts = { { { 0.25f, 0.25f }, { 0.5f, 0.5f }, { 0.8f, 0.4f, 0.2f } } };
+    picture.glows = true;
+    return picture;
+}
+
+TEST(Emitters, GlowWithoutALightValueWherePicturesAreBright)
+{
+    formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+    const EmissionScales scales { .glow = 3 };
+    const StaticEmitters emitters = extract_emitters(bsp, make_glowing, scales);
+    ASSERT_GE(emitters.first_of_face[0], 0);
+    float area = 0;
+    for (uint32_t i = 0; i < emitters.count_of_face[0]; i++) {
+        const shared::Emitter& e = emitters.emitters[size_t(emitters.first_of_face[0]) + i];
+        EXPECT_NEAR(glm::distance(e.radiance, 3.0f * glm::vec3(0.8f, 0.4f, 0.2f)), 0, 1e-5);
+        area += e.area;
+    }
+    EXPECT_NEAR(area, cell_size * cell_size / 16, 1);
+    EXPECT_EQ(emitters.face_emission[0], glm::vec3(3));
+    // A light entity right before it sends its light.
+    const shared::Emitter& lamp = emitters.emitters[size_t(emitters.first_of_face[0])];
+    const glm::vec3 before = (lamp.p0 + lamp.p1 + lamp.p2) / 3.0f + glm::vec3(0, 0, 20);
+    bsp.entity_text = fmt::format(R"({{ "classname" "light" "origin" "{} {} {}" }})", before.x, before.y, before.z);
+    const StaticEmitters with_light = extract_emitters(bsp, make_glowing, scales);
+    EXPECT_EQ(with_light.first_of_face[0], -1);
+    EXPECT_EQ(with_light.face_emission[0], glm::vec3(3)); // it is still seen to shine
+    bsp.texinfos[0].flags |= formats::SURF_NODRAW;
+    EXPECT_EQ(extract_emitters(bsp, make_glowing, scales).first_of_face[0], -1);
+}
+
 TEST(Emitters, BrushModelsAreSeparate)
 {
     formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
@@ -147,7 +235,7 @@ TEST(PointLights, HaveTheirValueColourAndStyle)
     scales.point = 0.002f;
     const StaticEmitters emitters = extract_with_entities(
         R"({ "classname" "worldspawn" } { "classname" "light" "origin" "64 64 64" "light" "150" "_color" "1 .5 0" "style" "5" }
-           { "classname" "light" "origin" "200 64 64" } { "classname" "light_mine1" "origin" "64 64 32" })",
+           { "classname" "light" "origin" "200 64 64" } { "classname" "lamp" "origin" "64 64 32" })",
         scales);
     ASSERT_EQ(emitters.emitters.size(), 2u);
     const shared::Emitter& first = emitters.emitters[0].lightstyle == 5 ? emitters.emitters[0] : emitters.emitters[1];
@@ -188,11 +276,63 @@ TEST(PointLights, BadEntitiesAreNamedNotFatal)
     EXPECT_TRUE(mentions(extract_with_entities(R"({ "classname" "light" "origin" "nowhere" })"), "origin"));
     EXPECT_TRUE(
         mentions(extract_with_entities(R"({ "classname" "light" "origin" "64 64 64" "light" "-200" })"), "-200"));
-    EXPECT_TRUE(
-        mentions(extract_with_entities(R"({ "classname" "light" "origin" "64 64 64" "target" "t1" })"), "spotlight"));
     const StaticEmitters broken = extract_with_entities(R"({ "classname" "light)");
     EXPECT_TRUE(broken.emitters.empty());
     EXPECT_FALSE(broken.messages.empty());
+}
+
+TEST(PointLights, AreAllClassesThatBeginSo)
+{
+    for (const char* name : { "light", "light_mine1", "light_torch", "lightflare", "light_spot" })
+        EXPECT_EQ(extract_with_entities(
+                      R"({ "classname" ")" + std::string(name) + R"(" "origin" "64 64 64" })")
+                      .emitters.size(),
+            1u)
+            << name;
+    EXPECT_TRUE(extract_with_entities(R"({ "classname" "func_light" "origin" "64 64 64" })").emitters.empty());
+}
+
+shared::Emitter extract_spot(const std::string& keys)
+{
+    const StaticEmitters emitters = extract_with_entities(R"({ "classname" "info_null" "targetname" "t1" "origin" "64 64 10" }
+        { "classname" "light" "origin" "64 64 64" )" + keys + " }");
+    return emitters.emitters.size() == 1 ? emitters.emitters[0] : shared::Emitter {};
+}
+
+TEST(Spots, AreAimedAsTheCompilersAimThem)
+{
+    const auto axis_of = [](const std::string& keys) {
+        const shared::Emitter e = extract_spot(keys);
+        return has_cone(e) ? e.p2 : glm::vec3(0);
+    };
+    const auto expect_axis = [&](const std::string& keys, glm::vec3 axis) {
+        EXPECT_NEAR(glm::distance(axis_of(keys), axis), 0, 1e-5) << keys;
+    };
+    const float half_root = std::sqrt(0.5f);
+    expect_axis(R"("target" "t1")", { 0, 0, -1 });
+    expect_axis(R"("_spotangle" "0 -90")", { 0, 0, -1 });
+    expect_axis(R"("_mangle" "90 45")", { 0, half_root, half_root });
+    expect_axis(R"("_spotvector" "0 -3 0")", { 0, -1, 0 });
+    expect_axis(R"("_spotpoint" "64 100 64")", { 0, 1, 0 });
+    expect_axis(R"("classname" "light_spot" "angle" "-1")", { 0, 0, 1 });
+    expect_axis(R"("classname" "light_spot" "angle" "180")", { -1, 0, 0 });
+    // A cone alone aims nothing; nor do targets that are not there, and places that are its own.
+    for (const char* keys : { "", R"("_cone" "20")", R"("target" "t2")", R"("_spotvector" "0 0 0")",
+             R"("_spotpoint" "64 64 64")", R"("_spotvector" "nan 0 inf")" })
+        EXPECT_FALSE(has_cone(extract_spot(keys))) << keys;
+}
+
+TEST(Spots, HaveTheirConesInside)
+{
+    const auto middle_of = [](const shared::Emitter& e) { // degrees
+        return 0.5f * (glm::degrees(std::acos(e.p1.z)) + glm::degrees(std::acos(outer_cosine(e))));
+    };
+    EXPECT_NEAR(middle_of(extract_spot(R"("target" "t1")")), 10, 0.01);
+    EXPECT_NEAR(middle_of(extract_spot(R"("target" "t1" "_cone" "35")")), 35, 0.01);
+    EXPECT_NEAR(middle_of(extract_spot(R"("target" "t1" "cone" "120")")), 120, 0.01);
+    EXPECT_FALSE(has_cone(extract_spot(R"("target" "t1" "_cone" "180")"))); // all round
+    // As bright along the axis as the point light.
+    EXPECT_EQ(extract_spot(R"("target" "t1")").radiance, extract_spot("").radiance);
 }
 
 TEST(DynamicLight, MatchesTheEngineAtHalfItsReach)

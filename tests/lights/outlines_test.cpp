@@ -3,6 +3,8 @@
 // seen which can.
 #include "glsl_libraries.hpp"
 
+#include "ref_vkpt/lights/spot_cone.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -93,6 +95,38 @@ TEST(Outlines, KeepSpheresExactly)
     EXPECT_FLOAT_EQ(found.radiance, 2);
     EXPECT_EQ(unpack_outline(make_outline(e, 0)).radiance, 0);
     EXPECT_TRUE(unpack_outline(make_outline(e, 0)).is_sphere);
+}
+
+// Directions at the very edge of cones of every width.
+TEST(Outlines, NeverHideASpotThatCanBeSeen)
+{
+    std::mt19937 rng(9);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    int seen = 0;
+    for (int i = 0; i < 100000; i++) {
+        Emitter e {};
+        e.type = EMITTER_SPHERE;
+        e.p0 = 4096.0f * vec3(unit(rng), unit(rng), unit(rng));
+        e.p1 = vec3(4, 0, 0);
+        e.radiance = vec3(2);
+        const vec3 axis = normalize(vec3(unit(rng), unit(rng), unit(rng)) + 1e-4f);
+        const float outer = 0.999f * unit(rng), width = 1e-3f + 0.1f * (1 - outer) * (0.5f + 0.5f * unit(rng));
+        set_cone(e, axis, std::min(outer + width, 1.0f), outer);
+        const float cosine = outer + 2e-4f * unit(rng), sine = std::sqrt(1 - cosine * cosine);
+        const vec3 to_receiver = axis * cosine + any_tangent(axis) * sine;
+        Surface s {};
+        s.position = e.p0 + 300.0f * to_receiver;
+        s.normal = s.geometric_normal = s.view = -to_receiver;
+        s.albedo = vec3(0.5f);
+        s.roughness = 0.7f;
+        const LightOptions options { 8, LIGHT_WEIGHT_CHAPTER, LIGHT_POINT_SOLID_ANGLE, {} };
+        const LightShape found = unpack_outline(make_outline(e, 1));
+        const bool arrives = emitted_radiance(e, s.position).x > 0;
+        seen += arrives;
+        ASSERT_TRUE(!arrives || light_contribution(make_predictor(s, options), found) > 0) << i;
+    }
+    EXPECT_GT(seen, 20000);
+    EXPECT_LT(seen, 80000);
 }
 
 // Triangles of which only the last bit stands above the surface's horizon, and surfaces that see an emitter nearly from

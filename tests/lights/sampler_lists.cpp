@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "sampler_lists.hpp"
 
+#include "ref_vkpt/lights/spot_cone.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -42,10 +44,21 @@ shared::Emitter make_random_light(std::mt19937& rng)
     e.radiance = glm::vec3(radiance);
     e.p0 = centre;
     e.p1 = glm::vec3(1 + 8 * unit(rng), 0, 0);
+    if (rng() % 4 == 0) // the point lies in the cone, in its edge, or beyond
+        set_cone(e, glm::normalize(around(2) - glm::normalize(centre)), 0.8f, 0.5f);
     return e;
 }
 
-// The list's second part is the dynamic one; both begin somewhere in their tables.
+// Seen as before, but far away.
+void make_sun(shared::Emitter& sphere)
+{
+    const float half_angle = sphere.p1.x / glm::length(sphere.p0);
+    sphere.type = shared::EMITTER_SUN;
+    sphere.p0 = glm::normalize(sphere.p0) * shared::SUN_DISTANCE;
+    sphere.p1.x = shared::SUN_DISTANCE * half_angle;
+}
+
+// The list's second part is the dynamic one, which suns belong to; both begin somewhere in their tables.
 void fill_list(ListCase& list, const std::vector<uint32_t>& indices)
 {
     constexpr uint32_t first_static = 5, first_dynamic = 2;
@@ -54,6 +67,9 @@ void fill_list(ListCase& list, const std::vector<uint32_t>& indices)
     list.static_indices.assign(first_static, 0);
     list.dynamic_indices.assign(first_dynamic, 0);
     const auto middle = indices.end() - long(dynamic_count);
+    for (auto index = middle; index != indices.end(); ++index)
+        if (shared::Emitter& e = list.emitters[*index]; e.type == shared::EMITTER_SPHERE && !has_cone(e) && *index % 2 == 0)
+            make_sun(e);
     list.static_indices.insert(list.static_indices.end(), indices.begin(), middle);
     list.dynamic_indices.insert(list.dynamic_indices.end(), middle, indices.end());
     // Behind the list, each light once, twice, four or eight times: any numbers are right, but where what is near is rare,
@@ -71,12 +87,20 @@ void fill_list(ListCase& list, const std::vector<uint32_t>& indices)
     list.make_tree();
 }
 
+void lower(shared::Emitter& e)
+{
+    constexpr float below = -500;
+    e.p0.z = below;
+    if (!is_sphere(e))
+        e.p1.z = e.p2.z = below;
+}
+
 void make_dark(shared::Emitter& e, size_t how)
 {
     if (how % 3 == 0)
         e.radiance = glm::vec3(0);
     else if (how % 3 == 1 || e.type == shared::EMITTER_SPHERE)
-        e.p0.z = e.p1.z = e.p2.z = -500;
+        lower(e);
     else
         std::swap(e.p1, e.p2);
 }

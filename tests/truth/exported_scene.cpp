@@ -47,6 +47,8 @@ Emitter read_emitter(const Json& json)
         for (size_t corner = 0; corner < 3; corner++)
             emitter.corners[corner] = read_vector(json.at("vertices").at(corner));
     }
+    if (type == "sun" || json.contains("cone"))
+        throw std::runtime_error("suns and spots are not modelled");
     if (json.contains("reach"))
         throw std::runtime_error("lights that end at a distance are not modelled");
     emitter.radiance = read_vector(json.at("radiance"));

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "formats/material_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace formats {
+
+namespace {
+
+constexpr size_t longest_name = 64, longest_value = 128;
+
+std::string_view trim(std::string_view text)
+{
+    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+    while (!text.empty() && is_space(text.front()))
+        text.remove_prefix(1);
+    while (!text.empty() && is_space(text.back()))
+        text.remove_suffix(1);
+    return text;
+}
+
+std::string_view take_line(std::string_view& text)
+{
+    const size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return trim(line.substr(0, line.find('#')));
+}
+
+bool is_printable(std::string_view text)
+{
+    return std::ranges::all_of(text, [](char c) { return c > ' ' && c < 127; });
+}
+
+class Reader {
+public:
+    Reader(std::string_view text, std::string_view file)
+        : text_(text)
+        , file_(file)
+    {
+    }
+
+    MaterialFile read()
+    {
+        while (!text_.empty()) {
+            line_++;
+            if (const std::string_view line = take_line(text_); !line.empty())
+                read_line(line);
+        }
+        if (!names_.empty())
+            complain("no colon behind the names, so they have no attributes");
+        return std::move(result_);
+    }
+
+private:
+    // Names end in a comma or colon, attributes in neither.
+    void read_line(std::string_view line)
+    {
+        if (line.back() == ':' || line.back() == ',' || !names_.empty())
+            read_names(line);
+        else
+            read_attribute(line);
+    }
+
+    void read_names(std::string_view line)
+    {
+        const bool ends = line.back() == ':';
+        if (ends)
+            line.remove_suffix(1);
+        while (!line.empty()) {
+            const size_t comma = std::min(line.find(','), line.size());
+            read_name(trim(line.substr(0, comma)));
+            line.remove_prefix(std::min(comma + 1, line.size()));
+        }
+        if (!ends)
+            return;
+        is_open_ = !names_.empty();
+        if (!is_open_)
+            return complain("a colon without names before it");
+        result_.entries.push_back({ std::exchange(names_, {}), {} });
+    }
+
+    void read_name(std::string_view name)
+    {
+        if (name.empty())
+            return;
+        if (name.size() > longest_name || !is_printable(name))
+            return complain("a picture's name that is too long or has spaces in it is left out");
+        if (++name_count_ > most_material_names)
+            throw FormatError(file_, size_t(line_), "more than " + std::to_string(most_material_names) + " names");
+        if (std::string plain = material_name(name); !plain.empty())
+            names_.push_back(std::move(plain));
+    }
+
+    void read_attribute(std::string_view line)
+    {
+        const size_t space = std::min(line.find_first_of(" \t"), line.size());
+        const std::string_view name = line.substr(0, space), value = trim(line.substr(space));
+        const AttributeRow* row = find_attribute(name);
+        if (!is_open_)
+            return complain("an attribute before the first name is left out");
+        if (!row)
+            return complain("there is no such attribute: ", name);
+        if (!is_attribute_value(*row, value))
+            return complain(row->type == AttributeType::number ? "its value is a number: " : "its value is one word: ", line);
+        result_.entries.back().attributes.emplace_back(name, value);
+    }
+
+    void complain(std::string_view reason, std::string_view text = {})
+    {
+        if (result_.messages.size() >= MaterialFile::most_messages)
+            return;
+        std::string message = file_;
+        message += ", line ";
+        message += std::to_string(line_);
+        message += ": ";
+        message += reason;
+        message += text.substr(0, longest_name);
+        result_.messages.push_back(std::move(message));
+    }
+
+    std::string_view text_;
+    std::string file_;
+    int line_ = 0;
+    size_t name_count_ = 0;
+    bool is_open_ = false;
+    std::vector<std::string> names_;
+    MaterialFile result_;
+};
+
+} // namespace
+
+const std::vector<AttributeRow>& material_attributes()
+{
+    using enum AttributeType;
+    static const std::vector<AttributeRow> rows {
+        { "roughness_override", number, "roughness, 0 to 1; below 0: not given" },
+        { "metalness_override", number, "metalness, 0 to 1; ours, Q2RTX has none" },
+        { "metalness_factor", number, "read, without effect" },
+        { "specular_factor", number, "read, without effect" },
+        { "base_factor", number, "times the picture's colour" },
+        { "bump_scale", number, "read, without effect" },
+        { "emissive_factor", number, "read, without effect" },
+        { "emissive_threshold", number, "of synth_emissive: texels as bright as this glow, 0 to 255" },
+        { "synth_emissive", number, "1: bright texels glow, though no picture says which" },
+        { "is_light", number, "read, without effect" },
+        { "light_styles", number, "read, without effect" },
+        { "bsp_radiance", number, "read, without effect" },
+        { "default_radiance", number, "read, without effect" },
+        { "kind", word, "CHROME: a mirror; others without effect" },
+        { "texture_base", word, "read, without effect" },
+        { "texture_normals", word, "read, without effect" },
+        { "texture_emissive", word, "read, without effect" },
+        { "texture_mask", word, "read, without effect" },
+        { "correct_albedo", number, "read, without effect" },
+    };
+    return rows;
+}
+
+const AttributeRow* find_attribute(std::string_view name)
+{
+    const auto& rows = material_attributes();
+    const auto row = std::ranges::find(rows, name, &AttributeRow::name);
+    return row == rows.end() ? nullptr : &*row;
+}
+
+bool is_attribute_value(const AttributeRow& row, std::string_view value)
+{
+    if (value.empty() || value.size() > longest_value)
+        return false;
+    if (row.type == AttributeType::word)
+        return is_printable(value) && value.find_first_of(",:#") == std::string_view::npos;
+    float number = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    return error == std::errc() && end == value.data() + value.size() && std::isfinite(number);
+}
+
+std::string material_name(std::string_view picture)
+{
+    std::string name(picture);
+    for (char& c : name)
+        c = c == '\\' ? '/' : char(std::tolower(static_cast<unsigned char>(c)));
+    constexpr std::string_view folder = "textures/";
+    while (name.starts_with(folder))
+        name.erase(0, folder.size());
+    constexpr std::string_view endings[] = { ".wal", ".tga", ".png", ".jpg", ".pcx", ".m8", ".m32" };
+    const auto ending = [&] { return std::ranges::find_if(endings, [&](std::string_view e) { return name.ends_with(e); }); };
+    for (auto found = ending(); found != std::end(endings); found = ending())
+        name.resize(name.size() - found->size());
+    return name;
+}
+
+MaterialFile read_materials(std::string_view text, std::string_view file)
+{
+    if (text.size() > most_material_bytes)
+        throw FormatError(file, most_material_bytes, "materials of more than " + std::to_string(most_material_bytes) + " bytes");
+    return Reader(text, file).read();
+}
+
+std::string write_materials(const std::vector<MaterialEntry>& entries)
+{
+    std::string text;
+    for (const MaterialEntry& entry : entries) {
+        for (size_t i = 0; i < entry.names.size(); i++)
+            text += entry.names[i] + (i + 1 < entry.names.size() ? ",\n" : ":\n");
+        for (const auto& [name, value] : entry.attributes)
+            text += "    " + name + ' ' + value + '\n';
+        text += '\n';
+    }
+    return text;
+}
+
+} // namespace formats

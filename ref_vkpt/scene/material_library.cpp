@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/scene/material_library.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace vkpt {
+
+namespace {
+
+using Attributes = std::map<std::string, std::string, std::less<>>;
+
+float number_of(const Attributes& attributes, std::string_view name, float fallback)
+{
+    const auto found = attributes.find(name);
+    float value = fallback;
+    if (found != attributes.end()) // a number: the reader has seen to it
+        std::from_chars(found->second.data(), found->second.data() + found->second.size(), value);
+    return value;
+}
+
+std::string word_of(const Attributes& attributes, std::string_view name)
+{
+    const auto found = attributes.find(name);
+    return found != attributes.end() ? found->second : std::string();
+}
+
+MaterialSettings make_settings(const Attributes& attributes)
+{
+    constexpr float brightest = 16, usual_threshold = 215;
+    MaterialSettings settings;
+    settings.roughness = std::min(number_of(attributes, "roughness_override", -1), 1.0f);
+    settings.metalness = std::min(number_of(attributes, "metalness_override", -1), 1.0f);
+    if (word_of(attributes, "kind") == "CHROME") { // a mirror, unless it says more
+        settings.roughness = settings.roughness < 0 ? 0 : settings.roughness;
+        settings.metalness = settings.metalness < 0 ? 1 : settings.metalness;
+    }
+    if (attributes.contains("synth_emissive"))
+        settings.glow_threshold = number_of(attributes, "synth_emissive", 0) > 0
+            ? int(std::clamp(number_of(attributes, "emissive_threshold", usual_threshold), 1.0f, 255.0f))
+            : 0;
+    settings.base_factor = std::clamp(number_of(attributes, "base_factor", 1), 0.0f, brightest);
+    settings.attributes = attributes;
+    return settings;
+}
+
+} // namespace
+
+void MaterialLibrary::add_to(Names& names, const formats::MaterialFile& file)
+{
+    for (const formats::MaterialEntry& entry : file.entries)
+        for (const std::string& name : entry.names)
+            for (const auto& [attribute, value] : entry.attributes)
+                names[name].insert_or_assign(attribute, value);
+}
+
+void MaterialLibrary::refresh(const std::string& name)
+{
+    Attributes all;
+    if (const auto found = edits_.find(name); found != edits_.end())
+        all = found->second;
+    if (const auto found = files_.find(name); found != files_.end())
+        all.insert(found->second.begin(), found->second.end());
+    if (all.empty())
+        settings_.erase(name);
+    else
+        settings_.insert_or_assign(name, make_settings(all));
+}
+
+void MaterialLibrary::add(const formats::MaterialFile& file)
+{
+    add_to(files_, file);
+    for (const formats::MaterialEntry& entry : file.entries)
+        for (const std::string& name : entry.names)
+            refresh(name);
+}
+
+void MaterialLibrary::take_edits(const formats::MaterialFile& file)
+{
+    add_to(edits_, file);
+    for (const formats::MaterialEntry& entry : file.entries)
+        for (const std::string& name : entry.names)
+            refresh(name);
+}
+
+void MaterialLibrary::forget_files()
+{
+    files_.clear();
+    settings_.clear();
+    for (const auto& [name, attributes] : edits_)
+        refresh(name);
+}
+
+void MaterialLibrary::edit(std::string_view picture, std::string_view attribute, std::string_view value)
+{
+    const std::string name = formats::material_name(picture);
+    Attributes& attributes = edits_[name];
+    if (value.empty())
+        attributes.erase(std::string(attribute));
+    else
+        attributes.insert_or_assign(std::string(attribute), std::string(value));
+    if (attributes.empty())
+        edits_.erase(name);
+    refresh(name);
+}
+
+std::vector<formats::MaterialEntry> MaterialLibrary::edits() const
+{
+    std::vector<formats::MaterialEntry> entries;
+    for (const auto& [name, attributes] : edits_)
+        entries.push_back({ { name }, { attributes.begin(), attributes.end() } });
+    return entries;
+}
+
+const MaterialSettings* MaterialLibrary::find(std::string_view name) const
+{
+    const auto found = settings_.find(name);
+    return found != settings_.end() ? &found->second : nullptr;
+}
+
+} // namespace vkpt

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lamps that are switched, that flicker, and whose pictures change: what they light and what is seen of them go together.
+#include "ref_vkpt/lights/emitters.hpp"
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <gtest/gtest.h>
+
+namespace vkpt::tests {
+namespace {
+
+const CvarList matte { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } };
+
+// Of a square of 32 at a distance of 100: four times that of a corner's, 1 / pi * x / sqrt(1 + x^2) * atan(x / sqrt(1 + x^2)), x = .16.
+constexpr double form_factor = 0.031522;
+
+class Lamps : public testing::Test {
+protected:
+    // A lamp of 32 x 32 that faces down, 100 over the floor.
+    Lamps()
+    {
+        folder_.add_wall("floor", white_index);
+        folder_.add_wall("lamp", white_index);
+        folder_.add_wall("dark", white_index);
+        lamp_ = map_.add_material("lamp", formats::SURF_LIGHT, 500);
+        dark_ = map_.add_material("dark");
+        map_.add(rectangle({ 0, 0, 0 }, { 200, 0, 0 }, { 0, 200, 0 }), map_.add_material("floor"));
+    }
+    void add_lamp(uint16_t material) { map_.add(rectangle({ 0, 0, 100 }, { 0, 16, 0 }, { 16, 0, 0 }), material); }
+
+    struct Light {
+        double on_floor; // irradiance / pi below the lamp
+        double seen; // radiance
+    };
+    static Light measure(Session& session)
+    {
+        session.look({ 0, 0, 60 }, { 0, 0, 100 }, 20);
+        session.draw();
+        Light light { 0, double(session.capture().mean().y) };
+        const std::vector<IrradianceProbe> probes(64, { { 0, 0, 0 }, { 0, 0, 1 } });
+        for (const glm::vec3& measured : session.probe(probes, 64))
+            light.on_floor += double(measured.y) / double(probes.size());
+        return light;
+    }
+
+    MapBuilder map_;
+    GameFolder folder_;
+    uint16_t lamp_ = 0, dark_ = 0;
+};
+
+TEST_F(Lamps, GoWithTheirSwitch)
+{
+    add_lamp(lamp_);
+    formats::Bsp bsp = map_.finish();
+    for (formats::BspFace& face : bsp.faces)
+        if (face.texinfo == lamp_)
+            face.styles[1] = 40;
+    folder_.add_map("lamps", bsp);
+    Session session(folder_, matte);
+    session.load_map("lamps");
+    const Light on = measure(session);
+    EXPECT_NEAR(on.seen, 500 * 0.0095, 0.05);
+    EXPECT_NEAR(on.on_floor / on.seen, form_factor, 0.0003);
+    session.light_style(40, 0.25f);
+    const Light dim = measure(session);
+    EXPECT_NEAR(dim.on_floor / on.on_floor, 0.25, 0.005);
+    EXPECT_NEAR(dim.seen / on.seen, 0.25, 0.005);
+    session.light_style(40, 0);
+    const Light off = measure(session);
+    EXPECT_EQ(off.on_floor, 0);
+    EXPECT_EQ(off.seen, 0);
+    session.light_style(40, 1);
+    session.light_style(0, 0); // another one's
+    EXPECT_NEAR(measure(session).on_floor / on.on_floor, 1, 0.005);
+}
+
+TEST_F(Lamps, ShineAsTheShownPictureSays)
+{
+    add_lamp(dark_);
+    formats::Bsp bsp = map_.finish();
+    bsp.texinfos[dark_].next = lamp_;
+    bsp.texinfos[lamp_].next = dark_;
+    folder_.add_map("lamps", bsp);
+    Session session(folder_, matte);
+    session.load_map("lamps");
+    session.view.time = 0.1f;
+    const Light dark = measure(session);
+    EXPECT_EQ(dark.on_floor, 0);
+    EXPECT_EQ(dark.seen, 0);
+    session.view.time = 0.6f;
+    const Light lit = measure(session);
+    EXPECT_NEAR(lit.on_floor / lit.seen, form_factor, 0.0003);
+    session.view.time = 1.1f;
+    EXPECT_EQ(measure(session).on_floor, 0);
+}
+
+// One bright square of 8 x 8 texels in a dark picture of 32 x 32 on a face without a light value: it shines where a cvar or a
+// material says so, and nothing else does.
+TEST_F(Lamps, GlowWhereTheirPictureIsBright)
+{
+    formats::IndexedImage picture { 32, 32, std::vector<uint8_t>(32 * 32, 0), {} };
+    for (size_t y = 8; y < 16; y++)
+        std::fill_n(picture.pixels.begin() + long(y * 32 + 8), 8, white_index);
+    folder_.add("textures/spot.wal", formats::write_wal(picture, {}));
+    add_lamp(map_.add_material("spot"));
+    folder_.add_map("lamps", map_.finish());
+    const double average = double(EmissionScales().glow) / 16;
+    double on_floor = 0;
+    {
+        Session session(folder_, matte);
+        session.load_map("lamps");
+        EXPECT_EQ(measure(session).on_floor, 0);
+        session.set("pt_glow_threshold", 215);
+        session.load_map("lamps");
+        on_floor = measure(session).on_floor;
+        EXPECT_NEAR(on_floor / (average * form_factor), 1, 0.05);
+        session.look({ 0, 0, 60 }, { 0, 0, 100 }, 43); // the lamp and nothing else
+        session.draw();
+        EXPECT_GT(session.capture().mean().y, 0.3 * average);
+    }
+    const std::string text = "spot:\n    synth_emissive 1\n";
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    folder_.add("maps/lamps.mat", { bytes, bytes + text.size() });
+    Session session(folder_, matte);
+    session.load_map("lamps");
+    EXPECT_NEAR(measure(session).on_floor / on_floor, 1, 0.02);
+}
+
+// A button's picture is chosen by its entity's frame.
+TEST_F(Lamps, OnButtonsShineByFrame)
+{
+    map_.begin_brush_model();
+    add_lamp(dark_);
+    formats::Bsp bsp = map_.finish();
+    bsp.texinfos[dark_].next = lamp_;
+    bsp.texinfos[lamp_].next = dark_;
+    folder_.add_map("lamps", bsp);
+    Session session(folder_, matte);
+    session.load_map("lamps");
+    engine::Entity button = make_entity(session.module().register_model("*1"), {});
+    session.view.entities = &button;
+    session.view.entity_count = 1;
+    for (const int frame : { 0, 1, 2 }) {
+        button.frame = frame;
+        const Light light = measure(session);
+        EXPECT_EQ(light.on_floor > 0, frame == 1) << frame;
+        EXPECT_EQ(light.seen > 0, frame == 1) << frame;
+    }
+}
+
+} // namespace
+} // namespace vkpt::tests

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Files of materials, and the command that edits them.
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace vkpt::tests {
+namespace {
+
+const CvarList matte { { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "pt_light_sampler", "full" } };
+
+class Materials : public testing::Test {
+protected:
+    // A white floor under the sky of one colour.
+    Materials()
+    {
+        Session::end_idle(); // edits last as long as the module
+        folder_.add_wall("test/floor", white_index);
+        MapBuilder map;
+        map.add_room({ -512, -512, -1 }, { 512, 512, 511 }, map.add_material("sky", formats::SURF_SKY));
+        map.add(rectangle({ 0, 0, 0 }, { 64, 0, 0 }, { 0, 64, 0 }), map.add_material("test/floor"));
+        folder_.add_map("floor", map.finish());
+    }
+    ~Materials() override { Session::end_idle(); }
+
+    void add_text(const std::string& name, const std::string& text) const
+    {
+        const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+        folder_.add(name, { bytes, bytes + text.size() });
+    }
+    // Radiance of the floor.
+    static double see_floor(Session& session)
+    {
+        session.look({ 0, 0, 40 }, { 1, 0, 0 }, 60);
+        session.draw();
+        return double(session.accumulate(64).mean().y);
+    }
+    static double find_roughness(Session& session)
+    {
+        session.set("pt_debug_view", "roughness");
+        session.look({ 0, 0, 40 }, { 1, 0, 0 }, 60);
+        session.draw();
+        const double shown = double(session.capture_display().at(32, 24).r) / 255;
+        session.set("pt_debug_view", "off");
+        return std::pow((shown + 0.055) / 1.055, 2.4); // it is shown sRGB-encoded
+    }
+
+    GameFolder folder_;
+};
+
+TEST_F(Materials, ComeFromFiles)
+{
+    double plain = 0;
+    {
+        Session session(folder_, matte);
+        session.load_map("floor");
+        plain = see_floor(session);
+    }
+    add_text("materials/baseq2.mat", "textures/test/floor:\n    base_factor 0.5\n    roughness_override 0.4\n    shine 3\n");
+    {
+        Session session(folder_, matte);
+        session.load_map("floor");
+        EXPECT_TRUE(session.has_line("materials/baseq2.mat, line 4"));
+        EXPECT_NEAR(find_roughness(session), 0.4, 0.01);
+        session.set("pt_roughness_default", 0.9); // of what no file speaks
+        EXPECT_NEAR(find_roughness(session), 0.4, 0.01);
+    }
+    // The map's own goes before the game's.
+    add_text("maps/floor.mat", "test/floor:\n    roughness_override 1\n");
+    Session session(folder_, matte);
+    session.load_map("floor");
+    EXPECT_NEAR(see_floor(session) / plain, 0.5, 0.01);
+}
+
+TEST_F(Materials, AreEditedUnderTheCrosshair)
+{
+    Session session(folder_, matte);
+    session.load_map("floor");
+    const double plain = see_floor(session);
+    session.host().run_text("mat\n");
+    EXPECT_TRUE(session.has_line("test/floor: roughness 1.00"));
+    session.host().run_text("mat base_factor 0.25\n");
+    EXPECT_NEAR(see_floor(session) / plain, 0.25, 0.01);
+    session.host().run_text("mat base_factor bright\n");
+    EXPECT_TRUE(session.has_line("says nothing of a material"));
+    session.host().run_text("mat reset\n");
+    EXPECT_NEAR(see_floor(session) / plain, 1, 0.01);
+}
+
+TEST_F(Materials, AreSavedAndReadAgain)
+{
+    std::string written;
+    {
+        Session session(folder_, matte);
+        session.load_map("floor");
+        see_floor(session);
+        session.host().run_text("mat roughness_override 0.3\nmat save\n");
+        for (const std::string& line : session.lines())
+            if (const size_t at = line.find("wrote "); at != std::string::npos)
+                written = line.substr(at + 6, line.find_last_not_of("\n") - at - 5);
+    }
+    ASSERT_TRUE(written.ends_with("/vkpt/materials.mat")) << written;
+    std::ifstream file(written);
+    std::stringstream text;
+    text << file.rdbuf();
+    std::filesystem::remove(written);
+    EXPECT_NE(text.str().find("test/floor:\n    roughness_override 0.3\n"), std::string::npos) << text.str();
+    Session::end_idle();
+    add_text("vkpt/materials.mat", text.str());
+    add_text("materials/baseq2.mat", "test/floor:\n    roughness_override 0.6\n");
+    Session session(folder_, matte);
+    session.load_map("floor");
+    EXPECT_NEAR(find_roughness(session), 0.3, 0.01);
+}
+
+} // namespace
+} // namespace vkpt::tests
