@@ -90,12 +90,14 @@ void fill_trace(ModuleInfo& info, const Module& m)
 ModuleInfo module_info()
 {
     static std::string version;
-    static std::vector<std::string> sampler_texts;
     static std::vector<const char*> samplers;
-    sampler_texts.assign(light_sampler_names().begin(), light_sampler_names().end());
+    static std::vector<uint32_t> sampler_traits;
     samplers.clear();
-    for (const std::string& name : sampler_texts)
-        samplers.push_back(name.c_str());
+    sampler_traits.clear();
+    for (const LightSampler& sampler : light_samplers()) {
+        samplers.push_back(sampler.name);
+        sampler_traits.push_back(sampler.traits);
+    }
     samplers.push_back(nullptr);
 
     ModuleInfo info {};
@@ -104,6 +106,7 @@ ModuleInfo module_info()
     static const char* const no_backends[] = { nullptr };
     info.trace_backends = no_backends;
     info.light_samplers = samplers.data();
+    info.light_sampler_traits = sampler_traits.data();
     info.denoisers = denoisers;
     const int32_t apis[] = { 5, 6, 7, 8 };
     std::ranges::copy(apis, info.api_versions);

@@ -7,10 +7,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace vkpt {
 
-inline constexpr uint32_t extension_version = 6;
+inline constexpr uint32_t extension_version = 7;
 
 inline constexpr uint32_t view_count = 4; // that select_view can tell apart
 
@@ -31,6 +32,7 @@ struct ModuleInfo {
     const char* trace_backend; // the one in use
     const char* const* trace_backends;
     const char* const* light_samplers;
+    const uint32_t* light_sampler_traits; // one each: SAMPLER_* of shaders/shared/light_sampler.h
     const char* const* denoisers;
     int32_t api_versions[8]; // zero-terminated
     int32_t max_entities, max_dlights, max_particles, max_image_size;
@@ -43,6 +45,15 @@ struct ModuleInfo {
     uint64_t nearest_rays, visibility_rays;
     double emitted_power[3]; // of all emitters of the last view: radiance * units^2 * sr, RGB
 };
+
+// SAMPLER_* of a light sampler; 0: the module has none of that name.
+inline uint32_t find_sampler_traits(const ModuleInfo& info, std::string_view sampler)
+{
+    for (size_t i = 0; info.light_samplers[i]; i++)
+        if (info.light_samplers[i] == sampler)
+            return info.light_sampler_traits[i];
+    return 0;
+}
 
 // Times of one pass, or of one of the CPU's tasks ("cpu scene"), over many frames.
 struct PassSamples {

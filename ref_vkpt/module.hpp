@@ -6,6 +6,7 @@
 #include "ref_vkpt/frame/capture.hpp"
 #include "ref_vkpt/frame/frame.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
+#include "ref_vkpt/frame/sampler_choice.hpp"
 #include "ref_vkpt/frame/shader_warm_up.hpp"
 #include "ref_vkpt/overlay/overlay.hpp"
 #include "ref_vkpt/preset_command.hpp"
@@ -32,6 +33,7 @@ struct Module {
     Scene scene;
     Frame frame;
     GpuWorld gpu_world; // of scene.world()
+    SamplerChoice sampler_choice;
     // The scene that pt_accumulate froze; also what measure_irradiance lights.
     std::optional<SceneSnapshot> snapshot;
     bool snapshot_is_frozen = false;

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <memory>
 
 namespace vkpt {
@@ -63,12 +64,11 @@ GraphicsSettings graphics_settings(void* sdl_window)
 void check_light_sampler()
 {
     const std::string& name = cvars::values().pt_light_sampler;
-    const auto names = light_sampler_names();
-    if (std::ranges::find(names, name) != names.end())
+    if (find_light_sampler(name))
         return;
     std::string known;
-    for (std::string_view sampler : names)
-        known += known.empty() ? std::string(sampler) : ", " + std::string(sampler);
+    for (const LightSampler& sampler : light_samplers())
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", sampler.name);
     engine::print("vkpt: there is no pt_light_sampler \"{}\"; there are: {}", name, known);
     cvars::set("pt_light_sampler", find_cvar_row("pt_light_sampler")->initial);
     cvars::update();
@@ -313,6 +313,7 @@ void begin_registration(std::string_view map)
     for (Module::ParkedScene& parked : m.parked_views)
         parked = {};
     m.gpu_world = {};
+    m.sampler_choice.forget_world();
     m.frame.forget_world();
     m.frame.restart_accumulation();
     if (!m.warm_up)
@@ -333,8 +334,9 @@ void set_sky(std::string_view name, float rotate, const float axis[3])
 static void upload_world_if_needed()
 {
     Module& m = *running;
-    if (m.gpu_world.version == 0 && m.scene.world())
-        m.gpu_world = upload_world(*m.scene.world(), m.graphics.uploader);
+    if (const World* world = m.scene.world(); world && m.gpu_world.version == 0)
+        m.gpu_world = upload_world(*world,
+            make_sampler_tables(*world, world->light_lists, SamplerChoice::wanted_needs()), m.graphics.uploader);
 }
 
 void end_registration()
@@ -348,6 +350,20 @@ void end_registration()
 
 // ---- the frame
 
+// Pictures that are compared, and times, are of the sampler that was asked for.
+static void choose_light_sampler(Module& m)
+{
+    const CvarValues& cvars = cvars::values();
+    const bool waits = cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
+    const LightSampler& sampler
+        = m.sampler_choice.choose(m.scene.world(), m.gpu_world, waits, [&](const SamplerTables& tables) {
+              m.graphics.finish();
+              upload_sampler_tables(m.gpu_world, *m.scene.world(), tables, m.graphics.uploader);
+              m.graphics.uploader.flush();
+          });
+    m.frame.set_light_sampler(sampler.name);
+}
+
 void begin_frame(float)
 {
     Module& m = *running;
@@ -359,6 +375,8 @@ void begin_frame(float)
     if (m.trace_choice.wants_measurement() && m.snapshot && !m.graphics.is_recording())
         measure_trace_backends(m);
     m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
+    if (!m.graphics.is_recording()) // else the engine left a frame by its error exit
+        choose_light_sampler(m);
     PassStatistics* const statistics = wanted_statistics();
     m.graphics.timer.collect_into(statistics);
     CpuTimer::collect_into(statistics);

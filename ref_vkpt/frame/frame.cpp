@@ -164,7 +164,7 @@ uint32_t Frame::write_uniforms(const shared::FrameUniforms& uniforms)
 
 void Frame::bind(uint32_t uniform_offset)
 {
-    recorder_.begin(commands_, backend_);
+    recorder_.begin(commands_, { backend_, light_sampler_ });
     const Bindings::ViewSets sets { scene_texels_, graphics_.screen.texels() };
     graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, uniform_offset, sets);
     if (backend_ == TraceBackend::pipeline)

@@ -4,6 +4,7 @@
 
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/extension.hpp"
+#include "ref_vkpt/frame/gpu_world.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/frame/outline_upload.hpp"
 #include "ref_vkpt/frame/pass_recorder.hpp"
@@ -20,16 +21,6 @@
 #include <span>
 
 namespace vkpt {
-
-// A map's data that does not change, on the device.
-struct GpuWorld {
-    Buffer light_indices, light_multisets, light_trees, light_tree_roots, light_tree_places;
-    uint32_t light_tree_lights = 0; // where their order begins in light_indices
-    Buffer bsp_tree;
-    uint64_t version = 0; // another for every map; 0: not uploaded yet
-};
-// Usable after uploader.flush().
-GpuWorld upload_world(const World& world, Uploader& uploader);
 
 // What a view of the world keeps from one of its frames to the next, beside its buffers.
 struct ViewState {
@@ -67,6 +58,13 @@ public:
     // How the next views' rays are traced; the device offers it.
     void set_trace_backend(TraceBackend backend) { backend_ = backend; }
     TraceBackend trace_backend() const { return backend_; }
+    // The light sampler of the next views; the device has its tables.
+    void set_light_sampler(std::string_view sampler)
+    {
+        if (sampler != light_sampler_)
+            restart_accumulation();
+        light_sampler_ = sampler;
+    }
     // The map has gone; the device is idle.
     void forget_world()
     {
@@ -152,6 +150,7 @@ private:
     MovingWriter moving_writer_;
     AccelerationStructures structures_;
     TraceBackend backend_ = TraceBackend::software;
+    std::string light_sampler_;
     Buffer uniforms_, exposure_, ltc_, blue_noise_, readback_, statistics_, ray_counts_, read_ray_counts_;
     VkDeviceSize uniform_stride_;
     uint32_t views_this_frame_ = 0;

@@ -2,8 +2,6 @@
 // The part of the frame that brings the scene to the device: triangles, trees, emitters, light lists.
 #include "ref_vkpt/frame/frame.hpp"
 
-#include "ref_vkpt/lights/light_multisets.hpp"
-#include "ref_vkpt/lights/light_trees.hpp"
 #include "ref_vkpt/trace/wide_tree.hpp"
 
 #include <algorithm>
@@ -33,25 +31,6 @@ NoWorld make_no_world(size_t emitter_count)
 }
 
 } // namespace
-
-GpuWorld upload_world(const World& world, Uploader& uploader)
-{
-    static uint64_t versions = 0;
-    GpuWorld gpu;
-    LightMultisets multisets = make_light_multisets(world.bsp, world.light_lists, world.models[0].emitters);
-    const LightTrees trees
-        = make_light_trees(world.light_lists.lists(), world.light_lists.static_indices(), world.models[0].emitters);
-    gpu.light_tree_lights = uint32_t(multisets.entries.size());
-    multisets.entries.insert(multisets.entries.end(), trees.lights.begin(), trees.lights.end());
-    gpu.light_indices = uploader.make_buffer(multisets.entries, MemoryKind::lights, "light lists");
-    gpu.light_multisets = uploader.make_buffer(multisets.ranges, MemoryKind::lights, "light multisets");
-    gpu.light_tree_roots = uploader.make_buffer(trees.roots, MemoryKind::lights, "light tree roots");
-    gpu.light_tree_places = uploader.make_buffer(trees.places, MemoryKind::lights, "light tree places");
-    gpu.light_trees = uploader.make_buffer(trees.nodes, MemoryKind::lights, "light trees");
-    gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
-    gpu.version = ++versions;
-    return gpu;
-}
 
 Frame::SceneUploads::SceneUploads(const Gpu& gpu, const Bindings& bindings)
     : texels(std::make_unique<SceneTexels>(gpu, bindings))

@@ -143,7 +143,7 @@ TEST(MeasureScene, TellsVariantsApart)
     options.frames = 3;
     options.warmup = 6;
     options.reference = { 512, "", references.path() };
-    const std::vector<Variant> variants { make_variant("uniform", 8), make_variant("subset", 8),
+    const std::vector<Variant> variants { make_variant("uniform"), make_variant("subset", 8),
         make_variant("subset", 8, "asvgf") };
     SceneResult results[2];
     testing::internal::CaptureStderr();

@@ -69,8 +69,8 @@ private:
     std::array<engine::Lightstyle, engine::max_lightstyles> lightstyles_ {};
 };
 
-// Samplers whose name says so are there to be compared: their pictures are wrong.
-inline bool is_biased_sampler(std::string_view name) { return name.find("biased") != std::string_view::npos; }
+// Biased ones are there to be compared: their pictures are wrong.
+std::vector<std::string> unbiased_samplers(const ModuleInfo& info);
 
 engine::Entity make_entity(void* model, glm::vec3 origin, int32_t flags = 0);
 
