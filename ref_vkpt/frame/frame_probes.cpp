@@ -11,7 +11,6 @@ namespace vkpt {
 void Frame::measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t samples, SceneSnapshot& scene,
     const GpuWorld& gpu_world, float* rgb)
 {
-    static_assert(sizeof(IrradianceProbe) == 6 * sizeof(float));
     constexpr uint32_t row = 1024;
     View view;
     view.size = { std::min<uint32_t>(row, uint32_t(probes.size())), (uint32_t(probes.size()) + row - 1) / row };
@@ -59,7 +58,6 @@ double Frame::trace_rays(std::span<const TracedRay> rays, const TraceRequest& re
 void Frame::trace_chunk(std::span<const TracedRay> rays, uint32_t row, const TraceRequest& request,
     SceneSnapshot& scene, const GpuWorld& gpu_world, TracedHit* hits, double& seconds)
 {
-    static_assert(sizeof(TracedRay) == 8 * sizeof(float) && sizeof(TracedHit) == 5 * sizeof(float));
     const Buffer result(
         graphics_.gpu, rays.size() * sizeof(TracedHit), BufferHome::readback, MemoryKind::staging, "traced hits");
     View view;

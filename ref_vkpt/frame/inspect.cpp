@@ -19,7 +19,6 @@ constexpr uint32_t max_groups = 64;
 bool Frame::inspect_pixel(glm::uvec2 pixel, SceneSnapshot& scene, const GpuWorld& gpu_world, InspectedSurface& surface,
     std::span<InspectedLight> lights)
 {
-    static_assert(sizeof(InspectedSurface) == 21 * 4 && sizeof(InspectedLight) == 13 * 4);
     const glm::ivec2 inside = glm::ivec2(pixel) - state_.view.origin;
     if (state_.size.x == 0 || inside.x < 0 || inside.y < 0 || uint32_t(inside.x) >= state_.view.size.x
         || uint32_t(inside.y) >= state_.view.size.y)

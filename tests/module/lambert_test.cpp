@@ -115,10 +115,10 @@ TEST_P(Lambert, ProbesAgree)
         double sum = 0;
         for (size_t copy = 0; copy < copies; copy++)
             sum += measured[i * copies + copy].y;
-        const float(&p)[3] = places[i].position;
-        const float(&n)[3] = places[i].normal;
+        const glm::vec3 p = places[i].position;
+        const glm::vec3 n = places[i].normal;
         const double expected
-            = emission * lambert_irradiance(GetParam().light, { p[0], p[1], p[2] }, { n[0], n[1], n[2] });
+            = emission * lambert_irradiance(GetParam().light, p, n);
         EXPECT_NEAR(sum / copies / expected, 1, tolerance) << "probe " << i;
     }
 }
