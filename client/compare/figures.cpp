@@ -26,8 +26,8 @@ public:
         plan_.scenes.push_back({ scene, {} });
         return plan_.scenes.size() - 1;
     }
-    FigurePicture use(
-        size_t scene, const std::string& sampler, std::optional<int> subset, const char* denoiser, const std::string& caption)
+    FigurePicture use(size_t scene, const std::string& sampler, std::optional<int> subset, const char* denoiser,
+        const std::string& caption)
     {
         const Variant variant = make_variant(sampler, subset, denoiser);
         std::vector<Variant>& known = plan_.scenes[scene].variants;

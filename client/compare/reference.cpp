@@ -184,8 +184,7 @@ try {
 fs::path find_reference_folder()
 {
     const PrivateFolder cache = open_cache_folder();
-    const PrivateFolder folder
-        = cache.path.empty() ? cache : open_private_folder(cache.path / "references");
+    const PrivateFolder folder = cache.path.empty() ? cache : open_private_folder(cache.path / "references");
     if (folder.path.empty())
         fmt::print(stderr, "vkpt: references are not cached: {}\n", folder.problem);
     return folder.path;

@@ -5,8 +5,9 @@
 
 namespace vkpt {
 
-SamplerTables make_sampler_tables(const World& world, const LightLists& lists, uint32_t needs)
+SamplerTables make_sampler_tables(const World& world, uint32_t needs)
 {
+    const LightLists& lists = world.light_lists;
     const std::vector<shared::Emitter>& emitters = world.models[0].emitters;
     SamplerTables tables { needs & shared::SAMPLER_NEEDS, {}, {} };
     if (needs & shared::SAMPLER_NEEDS_MULTISETS)
@@ -30,9 +31,9 @@ GpuWorld upload_world(const World& world, const SamplerTables& tables, Uploader&
 void upload_sampler_tables(GpuWorld& gpu, const World& world, const SamplerTables& tables, Uploader& uploader)
 {
     gpu.sampler_needs = tables.needs;
-    gpu.light_multisets = gpu.light_trees = gpu.light_tree_roots = gpu.light_tree_places = Buffer();
-    std::vector<uint32_t> indices
-        = tables.multisets ? tables.multisets->entries : world.light_lists.static_indices();
+    for (Buffer* buffer : { &gpu.light_multisets, &gpu.light_trees, &gpu.light_tree_roots, &gpu.light_tree_places })
+        *buffer = Buffer();
+    std::vector<uint32_t> indices = tables.multisets ? tables.multisets->entries : world.light_lists.static_indices();
     if (tables.multisets)
         gpu.light_multisets = uploader.make_buffer(tables.multisets->ranges, MemoryKind::lights, "light multisets");
     if (tables.trees) {

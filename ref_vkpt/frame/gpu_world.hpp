@@ -17,8 +17,8 @@ struct SamplerTables {
     std::optional<LightMultisets> multisets;
     std::optional<LightTrees> trees;
 };
-// Large maps take a while; from any thread. `lists`: the map's own, or a copy, for the map's change with every frame.
-SamplerTables make_sampler_tables(const World& world, const LightLists& lists, uint32_t needs);
+// Large maps take a while; from any thread.
+SamplerTables make_sampler_tables(const World& world, uint32_t needs);
 
 struct GpuWorld {
     Buffer light_indices, light_multisets, light_trees, light_tree_roots, light_tree_places;

@@ -31,8 +31,8 @@ void SamplerChoice::forget_world()
     chosen_ = nullptr;
 }
 
-const LightSampler& SamplerChoice::choose(const World* world, const GpuWorld& gpu_world, bool waits,
-    const std::function<void(const SamplerTables&)>& upload)
+const LightSampler& SamplerChoice::choose(
+    const World* world, const GpuWorld& gpu_world, bool waits, const std::function<void(const SamplerTables&)>& upload)
 {
     const LightSampler& wanted = wanted_sampler();
     const uint32_t missing = wanted_needs() & ~gpu_world.sampler_needs;
@@ -40,9 +40,8 @@ const LightSampler& SamplerChoice::choose(const World* world, const GpuWorld& gp
         return *(chosen_ = &wanted);
     if (!tables_.valid() || (missing & ~needs_)) {
         needs_ = missing | gpu_world.sampler_needs;
-        tables_ = std::async(std::launch::async, [world, lists = world->light_lists, needs = needs_] {
-            return make_sampler_tables(*world, lists, needs);
-        });
+        tables_
+            = std::async(std::launch::async, [world, needs = needs_] { return make_sampler_tables(*world, needs); });
     }
     if (waits || !chosen_ || is_ready(tables_)) {
         upload(tables_.get());

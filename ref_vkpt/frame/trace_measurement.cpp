@@ -21,8 +21,7 @@ std::vector<TracedRay> camera_rays(const shared::Camera& camera)
         for (uint32_t x = 0; x < width; x++) {
             const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / glm::vec2(width, height) * 2.0f - 1.0f;
             rays.push_back(
-                { camera.eye, 0,
-                    glm::normalize(camera.forward + camera.right * at.x - camera.up * at.y), ray_far });
+                { camera.eye, 0, glm::normalize(camera.forward + camera.right * at.x - camera.up * at.y), ray_far });
         }
     return rays;
 }
@@ -33,9 +32,8 @@ std::vector<TracedRay> next_rays(std::span<const TracedRay> rays, std::span<cons
 {
     std::minstd_rand random(1);
     std::uniform_real_distribution<float> uniform(-1, 1);
-    const auto place = [&](size_t i) {
-        return rays[i].origin + rays[i].direction * (std::min(hits[i].t, ray_far) * 0.999f - 0.1f);
-    };
+    const auto place
+        = [&](size_t i) { return rays[i].origin + rays[i].direction * (std::min(hits[i].t, ray_far) * 0.999f - 0.1f); };
     std::vector<TracedRay> next;
     for (size_t i = 0; i < rays.size(); i++) {
         const glm::vec3 from = place(i);
@@ -52,10 +50,10 @@ std::vector<TracedRay> next_rays(std::span<const TracedRay> rays, std::span<cons
 
 } // namespace
 
-double measure_trace_backend(Frame& frame, TraceBackend backend, SceneSnapshot& scene, const GpuWorld& gpu_world)
+double measure_trace_backend(const SceneQueries& queries, TraceBackend backend)
 {
-    const TraceBackend before = frame.trace_backend();
-    frame.set_trace_backend(backend);
+    const TraceBackend before = queries.frame.trace_backend();
+    queries.frame.set_trace_backend(backend);
     TraceRequest request;
     request.ray_mask = ray_mask;
     request.row_length = width;
@@ -63,15 +61,15 @@ double measure_trace_backend(Frame& frame, TraceBackend backend, SceneSnapshot& 
     double seconds = 0;
     const auto trace = [&](const std::vector<TracedRay>& rays) {
         std::vector<TracedHit> hits(rays.size());
-        seconds += frame.trace_rays(rays, request, scene, gpu_world, hits.data());
+        seconds += queries.trace_rays(rays, request, hits.data());
         return hits;
     };
-    const std::vector<TracedRay> primary = camera_rays(frame.last_view().camera);
+    const std::vector<TracedRay> primary = camera_rays(queries.view.viewpoint.camera);
     const std::vector<TracedHit> hits = trace(primary);
     trace(next_rays(primary, hits, false));
     request.visibility = true;
     trace(next_rays(primary, hits, true));
-    frame.set_trace_backend(before);
+    queries.frame.set_trace_backend(before);
     return seconds * 1e9 / (3.0 * width * height);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A map as the renderer sees it: triangles, materials and emitters of the world and of its brush models. No Vulkan in here.
+// A map as the renderer sees it: triangles, materials and emitters of the world and of its brush models. Nothing of it
+// changes once it is loaded. No Vulkan in here.
 #pragma once
 
 #include "formats/bsp.hpp"
-#include "ref_vkpt/lights/dynamic_lights.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "ref_vkpt/scene/brush_mesh.hpp"
@@ -20,13 +20,13 @@ namespace vkpt {
 
 // Rows of the lightstyle table: the engine's 256, then these.
 inline constexpr uint32_t lightstyle_dlight = 256; // engine dlights, scaled by pt_dlight_scale
-inline constexpr uint32_t lightstyle_sky = 257;    // sky faces, scaled by pt_sky_scale
+inline constexpr uint32_t lightstyle_sky = 257; // sky faces, scaled by pt_sky_scale
 inline constexpr uint32_t lightstyle_count = 258;
 
 // Geometry of the world (model 0) or of a brush model, in model space.
 struct MapGeometry {
     std::vector<shared::Triangle> triangles; // material = texinfo; emitter = index into `emitters`
-    std::vector<uint32_t> masks;             // MASK_* per triangle
+    std::vector<uint32_t> masks; // MASK_* per triangle
     std::vector<uint8_t> has_holes; // per triangle, 1: the alpha of one of its pictures decides what is met
     std::vector<shared::Emitter> emitters;
     bool has_alpha_test = false;
@@ -36,7 +36,7 @@ struct MapGeometry {
 struct WorldPicture {
     uint32_t slot = 0, packed_size = 0x10001; // see Texture
     int width = 64, height = 64; // texels of texinfo space
-    glm::vec3 average { 0.5f };  // linear
+    glm::vec3 average { 0.5f }; // linear
     bool has_alpha = false;
     bool missing = false; // a stand-in
     std::vector<BrightPart> parts;
@@ -53,18 +53,18 @@ struct World {
     std::vector<MapGeometry> models; // 0: the world
     std::vector<BrushMesh> brush_meshes; // of `models`; [0] is empty
     std::vector<WorldPicture> pictures; // per texinfo
-    std::vector<glm::vec3> emission;    // per texinfo: Material::emission
-    LightLists light_lists;
-    DynamicLights dynamic_lights;
+    std::vector<glm::vec3> emission; // per texinfo: Material::emission
+    LightLists light_lists; // of the map's own emitters
     // Of model 0: made on a thread of its own while pictures and models are read.
     const Bvh& bvh() const { return bvh_future.get(); }
     std::shared_future<Bvh> bvh_future; // behind `models`, which it reads
-    // Mean luminance of the sky faces that the map's author gave a light value; 0: none. Their sky is as bright as that.
+    // Mean luminance of the sky faces that the map's author gave a light value; 0: none. Their sky is as bright as
+    // that.
     float lit_sky_luminance = 0;
     std::vector<std::string> messages; // what could not be used; for the console
 
-    // The materials of a moment: [0, n) animate with time; [n, 2n) show each texinfo's own picture, for brush models that
-    // choose their picture by frame (see animation_frame).
+    // The materials of a moment: [0, n) animate with time; [n, 2n) show each texinfo's own picture, for brush models
+    // that choose their picture by frame (see animation_frame).
     std::vector<shared::Material> make_materials(float time, const MaterialDefaults& defaults) const;
     size_t material_count() const { return bsp.texinfos.size() * 2; }
     // The material that a brush model's frame shows in place of texinfo material `texinfo`.
@@ -72,8 +72,8 @@ struct World {
 };
 
 // Reads and prepares maps/NAME.bsp. Throws formats::FormatError.
-std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture,
-    const EmissionScales& scales);
+std::unique_ptr<World> load_world(
+    formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture, const EmissionScales& scales);
 
 // Sets what sky emitters are expected to send, once the sky is known: the average of its pictures.
 void set_sky_radiance(World& world, glm::vec3 average);

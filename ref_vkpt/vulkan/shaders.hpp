@@ -8,7 +8,8 @@
 
 namespace vkpt {
 
-// SPIR-V; empty: no such shader. Names: "tone_map.comp"; where a light sampler is part of a pass: "direct_light.comp:subset".
+// SPIR-V; empty: no such shader. Names: "tone_map.comp"; where a light sampler is part of a pass:
+// "direct_light.comp:subset".
 std::span<const uint32_t> find_shader(std::string_view name);
 // The light samplers that the build found, sorted.
 struct LightSampler {

@@ -4,9 +4,9 @@
 #include "client/compare/measure.hpp"
 #include "client/host/errors.hpp"
 
+#include "shaders/shared/light_sampler.h"
 #include <algorithm>
 #include <cmath>
-#include "shaders/shared/light_sampler.h"
 
 #include <gtest/gtest.h>
 

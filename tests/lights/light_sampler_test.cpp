@@ -115,7 +115,8 @@ TEST_P(LightSampler, WeightsOfEachLightAverageToOne)
         // Samplers of whole lights know what they reported.
         if (i % 64 == 0 && picked.point == draw.point && !sampler().has(shared::SAMPLER_DRAWS_ENTRIES)) {
             const float told = sampler().probability(lights, uint32_t(picked.emitter), draw, options());
-            ASSERT_NEAR(told, picked.probability, sampler().has(shared::SAMPLER_BIASED) ? 1 : 1e-4f * picked.probability);
+            ASSERT_NEAR(
+                told, picked.probability, sampler().has(shared::SAMPLER_BIASED) ? 1 : 1e-4f * picked.probability);
         }
     }
     if (is_long() || sampler().has(shared::SAMPLER_DRAWS_POINTS))

@@ -22,7 +22,8 @@ struct ShadingPoint {
     float roughness = 0.5f, metallic = 0;
 };
 
-// A light list in memory, its static part once more as a multiset and as a tree. Emitters that are not in it are part of the scene, too: BSDF rays may meet them.
+// A light list in memory, its static part once more as a multiset and as a tree. Emitters that are not in it are part
+// of the scene, too: BSDF rays may meet them.
 struct ListCase {
     std::vector<shared::Emitter> emitters;
     std::vector<uint32_t> static_indices, dynamic_indices;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The light samplers as the Vulkan driver runs them: unbiased, as frequent as they report, and equal to the same files
 // compiled as C++, so that what the other tests here prove of those holds on the device.
-#include "ref_vkpt/lights/outlines.hpp"
 #include "ref_vkpt/lights/ltc_table.hpp"
+#include "ref_vkpt/lights/outlines.hpp"
 #include "sampler_device.h"
 #include "sampler_lists.hpp"
 #include "tests/trace/headless_compute.hpp"

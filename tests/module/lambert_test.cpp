@@ -117,8 +117,7 @@ TEST_P(Lambert, ProbesAgree)
             sum += measured[i * copies + copy].y;
         const glm::vec3 p = places[i].position;
         const glm::vec3 n = places[i].normal;
-        const double expected
-            = emission * lambert_irradiance(GetParam().light, p, n);
+        const double expected = emission * lambert_irradiance(GetParam().light, p, n);
         EXPECT_NEAR(sum / copies / expected, 1, tolerance) << "probe " << i;
     }
 }
