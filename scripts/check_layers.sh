@@ -11,13 +11,14 @@ top=${1:-$root}
 # From below to above; of two entries that fit a file the longer one counts. docs/architecture.md says what each part does.
 layers='
 shaders/shared shaders/passes.def formats ref_vkpt/extension.hpp ref_vkpt/renderer.hpp ref_vkpt/engine/contract.hpp
-ref_vkpt/engine ref_vkpt/cvars ref_vkpt/files ref_vkpt/noise ref_vkpt/pass_statistics ref_vkpt/workers
+ref_vkpt/engine ref_vkpt/cvars ref_vkpt/files ref_vkpt/noise ref_vkpt/preset ref_vkpt/pass_statistics ref_vkpt/workers
 ref_vkpt/vulkan
 ref_vkpt/lights
 ref_vkpt/trace
 ref_vkpt/scene
 ref_vkpt/draw2d
 ref_vkpt/frame
+ref_vkpt/overlay
 ref_vkpt/module.hpp ref_vkpt/scene_contents
 ref_vkpt/renderer.cpp ref_vkpt/extension.cpp ref_vkpt/engine/exports.cpp'
 
