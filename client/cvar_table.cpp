@@ -31,14 +31,28 @@ const char* describe_keep(CvarKeep keep)
     return keep == CvarKeep::session ? "no" : keep == CvarKeep::start ? "no; at the start only" : "yes";
 }
 
-std::string make_table(CvarOwner owner)
+const char* describe_counts(CvarCounts counts)
 {
-    std::string table = "| name | default | values | saved | what it does |\n|---|---|---|---|---|\n";
+    switch (counts) {
+    case CvarCounts::at_once:
+        return "at once";
+    case CvarCounts::map:
+        return "with the next map";
+    case CvarCounts::restart:
+        return "after `vid_restart`";
+    }
+    return "";
+}
+
+std::string make_table(CvarOwner owner, bool diagnostic = false)
+{
+    std::string table
+        = "| name | default | values | saved | a change counts | what it does |\n|---|---|---|---|---|---|\n";
     for (const CvarRow& row : cvar_rows)
-        if (row.owner == owner)
-            table += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.name,
+        if (row.owner == owner && row.diagnostic == diagnostic)
+            table += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.name,
                 *row.initial ? fmt::format("`{}`", row.initial) : std::string("(empty)"), show_values(row),
-                describe_keep(row.keep), escape_bars(row.help));
+                describe_keep(row.keep), describe_counts(row.counts), escape_bars(row.help));
     return table;
 }
 
@@ -51,9 +65,12 @@ std::string make_cvar_page()
            "Set one in the game's console (`pt_bounces 2`), on the engine's command line (`+set pt_bounces 2`) or for "
            "the tools\n"
            "(`--set pt_bounces=2`). A value out of range is put right, with a line in the console.\n"
-           "What is for the start only belongs on the command line or into autoexec.cfg, out of the reach of servers.\n\n"
+           "What is for the start only belongs on the command line or into autoexec.cfg, out of the reach of "
+           "servers.\n\n"
            "## The renderer's own\n\n"
-        + make_table(CvarOwner::module) + "\n## Shared with the engine's renderers\n\n" + make_table(CvarOwner::engine);
+        + make_table(CvarOwner::module) + "\n## For measuring and finding faults\n\n"
+        + make_table(CvarOwner::module, true) + "\n## Shared with the engine's renderers\n\n"
+        + make_table(CvarOwner::engine);
 }
 
 } // namespace vkpt::client

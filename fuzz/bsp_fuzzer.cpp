@@ -5,6 +5,7 @@
 #include "ref_vkpt/lights/light_multisets.hpp"
 #include "ref_vkpt/lights/light_trees.hpp"
 #include "ref_vkpt/lights/outlines.hpp"
+#include "ref_vkpt/lights/view_lights.hpp"
 #include "ref_vkpt/scene/world.hpp"
 #include "ref_vkpt/trace/triangle_groups.hpp"
 
@@ -46,16 +47,17 @@ void check_lights(World& world)
     write_outlines(outlines.data(), outlines.size(), emitters, std::vector<float>(lightstyle_count, 1.0f));
 }
 
-void move_lights(World& world)
+void move_lights(const World& world)
 {
     const formats::BspModel& whole = world.bsp.models[0];
+    ViewLights lights { {}, world.light_lists };
     for (const float share : { 0.1f, 0.5f }) {
         const glm::vec3 place = whole.mins + (whole.maxs - whole.mins) * share;
         std::vector<shared::Emitter> moving { make_dynamic_light(place, { 1, 0.5f, 0 }, 300) };
         moving[0].lightstyle = lightstyle_dlight;
-        world.dynamic_lights.arrange(moving);
-        world.light_lists.update(moving);
-        fuzz::use(world.light_lists.repeat());
+        lights.dynamic.arrange(moving);
+        lights.lists.update(moving);
+        fuzz::use(lights.lists.repeat());
         fuzz::use(world.bsp.find_cluster(place));
     }
 }

@@ -99,6 +99,7 @@ private:
     {
         before_.reset();
         scene_->begin_registration("sample");
+        lights_ = { {}, scene_->world()->light_lists };
         scene_->set_sky("sky_", 1, { 0, 0, 1 });
         for (size_t i = 0; i < names.size(); i++)
             models_[i] = scene_->register_model(names[i]);
@@ -161,12 +162,12 @@ private:
         refdef.dlights = dlights_.data();
         refdef.particle_count = int32_t(particles_.size());
         refdef.particles = particles_.data();
-        const View view = make_view(refdef, { 640, 480 });
+        const Viewpoint view = make_viewpoint(refdef, { 640, 480 });
         fuzz::require(view.size.x > 0 && view.size.y > 0 && view.origin.x >= 0 && view.origin.y >= 0
                 && view.size.x + uint32_t(view.origin.x) <= 640 && view.size.y + uint32_t(view.origin.y) <= 480,
             "a view lies in the picture");
         client::ViewPlacement(640, 480, 1280, 720).place_view(refdef);
-        SceneSnapshot snapshot = scene_->take_snapshot(refdef);
+        SceneSnapshot snapshot = scene_->take_snapshot(refdef, lights_);
         if (before_)
             find_previous_poses(snapshot, *before_);
         fuzz::write_moving(snapshot.moving);
@@ -234,6 +235,7 @@ private:
     std::unique_ptr<Draw2d> draw2d_;
     std::array<void*, names.size()> models_ {};
     const Texture* skin_ = nullptr;
+    ViewLights lights_;
     std::unique_ptr<SceneSnapshot> before_;
     std::vector<engine::Entity> entities_;
     std::vector<engine::DynamicLight> dlights_;

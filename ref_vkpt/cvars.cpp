@@ -16,21 +16,21 @@ namespace {
 
 constexpr size_t row_count = std::size(cvar_rows);
 
-static_assert(std::string_view(find_cvar_row("pt_light_weight")->choices) == "chapter|ltc");
-static_assert(std::string_view(find_cvar_row("pt_light_point")->choices) == "area|solid_angle|projected");
-static_assert(std::string_view(find_cvar_row("pt_noise")->choices) == "blue|white");
-static_assert(std::string_view(find_cvar_row("pt_tone_map")->choices) == "none|filmic");
 static_assert(std::string_view(find_cvar_row("pt_table_reads")->choices) == "auto|texels|address"); // enum TableReads
-static_assert(std::string_view(find_cvar_row("flt_denoiser")->choices) == "off|temporal|svgf|asvgf");
-constexpr int debug_view(std::string_view name) { return find_choice(find_cvar_row("pt_debug_view")->choices, name); }
-static_assert(debug_view("off") == shared::DEBUG_VIEW_OFF && debug_view("albedo") == shared::DEBUG_VIEW_ALBEDO
-    && debug_view("normal") == shared::DEBUG_VIEW_NORMAL && debug_view("depth") == shared::DEBUG_VIEW_DEPTH
-    && debug_view("emission") == shared::DEBUG_VIEW_EMISSION && debug_view("cluster") == shared::DEBUG_VIEW_CLUSTER
-    && debug_view("list_length") == shared::DEBUG_VIEW_LIST_LENGTH
-    && debug_view("irradiance") == shared::DEBUG_VIEW_IRRADIANCE
-    && debug_view("roughness") == shared::DEBUG_VIEW_ROUGHNESS && debug_view("motion") == shared::DEBUG_VIEW_MOTION
-    && debug_view("variance") == shared::DEBUG_VIEW_VARIANCE && debug_view("gradient") == shared::DEBUG_VIEW_GRADIENT
-    && debug_view("alpha") == shared::DEBUG_VIEW_ALPHA && debug_view("rays") == shared::DEBUG_VIEW_RAYS);
+
+constexpr std::string_view choices_of(std::string_view cvar) { return find_cvar_row(cvar)->choices; }
+
+// The constants of a list of choices are their places in its text.
+#define VKPT_CHOICE_IS_ITS_PLACE(constant, number, text)                                                               \
+    static_assert(find_choice(row_choices, text) == shared::constant);
+#define VKPT_SHADER_CHOICE(name, initial, choices, keep, help)                                                         \
+    namespace name##_choices                                                                                           \
+    {                                                                                                                  \
+        constexpr std::string_view row_choices = choices_of(#name);                                                    \
+        choices(VKPT_CHOICE_IS_ITS_PLACE)                                                                              \
+    }
+#include "shaders/shared/cvars.def"
+#undef VKPT_CHOICE_IS_ITS_PLACE
 
 struct State {
     std::array<engine::Cvar*, row_count> cvars {}; // the engine's, in the order of the rows
@@ -155,10 +155,23 @@ void register_all()
     read_all(state.values);
 }
 
+// A change that shows nothing at first is told of.
+void tell_late_changes(const std::array<std::optional<std::string>, row_count>& before)
+{
+    for (size_t i = 0; i < row_count; i++) {
+        const CvarRow& row = cvar_rows[i];
+        if (row.counts != CvarCounts::at_once && row.owner == CvarOwner::module && before[i] != state.texts[i])
+            engine::print("ref_vkpt: {} counts {}", row.name,
+                row.counts == CvarCounts::map ? "with the next map" : "after vid_restart");
+    }
+}
+
 bool update()
 {
-    CvarValues before = state.values;
+    const CvarValues before = state.values;
+    const auto texts_before = state.texts;
     read_all(state.values);
+    tell_late_changes(texts_before);
     return !(state.values == before);
 }
 
@@ -169,7 +182,11 @@ shared::ShaderCvars shader_values()
     shared::ShaderCvars numbers {};
 #define VKPT_SHADER_INT(name, initial, lowest, highest, keep, help) numbers.name = state.values.name;
 #define VKPT_SHADER_FLOAT(name, initial, lowest, highest, keep, help) numbers.name = state.values.name;
-#define VKPT_SHADER_CHOICE(name, initial, choices, keep, help) numbers.name = find_choice(choices, state.values.name);
+#define VKPT_SHADER_CHOICE(name, initial, choices, keep, help)                                                         \
+    {                                                                                                                  \
+        static constexpr std::string_view row_choices = choices_of(#name);                                             \
+        numbers.name = find_choice(row_choices, state.values.name);                                                    \
+    }
 #include "shaders/shared/cvars.def"
     return numbers;
 }

@@ -27,7 +27,7 @@ bool capture_display(uint8_t* rgba)
     Module* m = module();
     if (!m || m->graphics.frame_number() == 0 || m->graphics.is_recording())
         return false;
-    const OutputPicture& output = m->graphics.screen.output();
+    const OutputPicture& output = m->graphics.output;
     const size_t bytes = size_t(output.size.width) * output.size.height * sizeof(uint32_t);
     std::memcpy(rgba, m->graphics.read_back(output.words, bytes).mapped(), bytes);
     return true;
@@ -36,10 +36,10 @@ bool capture_display(uint8_t* rgba)
 bool capture_radiance(float* rgb)
 {
     Module* m = module();
-    return m && m->frame.has_radiance() && !m->graphics.is_recording() && m->frame.read_radiance(rgb);
+    return m && !m->graphics.is_recording() && m->frame.read_radiance(m->view(), rgb);
 }
 
-uint32_t accumulated_frames() { return module() ? module()->frame.accumulated_frames() : 0; }
+uint32_t accumulated_frames() { return module() ? module()->view().accumulated_frames : 0; }
 
 const PassTime* pass_times(size_t* count)
 {
@@ -65,13 +65,14 @@ void fill_world_counts(ModuleInfo& info, const Module& m)
     if (!world)
         return;
     info.triangles = world->models[0].triangles.size();
-    info.dynamic_triangles = m.snapshot ? m.snapshot->moving.triangle_count() : 0;
+    info.dynamic_triangles = m.view().snapshot ? m.view().snapshot->moving.triangle_count() : 0;
     info.clusters = world->light_lists.lists().size() - 1;
-    info.emitters = world->models[0].emitters.size() + (m.snapshot ? m.snapshot->emitters.size() : 0);
-    const glm::dvec3 power = m.snapshot ? emitted_power(*m.snapshot) : glm::dvec3(0);
+    info.emitters = world->models[0].emitters.size() + (m.view().snapshot ? m.view().snapshot->emitters.size() : 0);
+    const glm::dvec3 power = m.view().snapshot ? emitted_power(*m.view().snapshot) : glm::dvec3(0);
     for (int i = 0; i < 3; i++)
         info.emitted_power[i] = power[i];
-    info.light_list_entries = world->light_lists.static_indices().size() + world->light_lists.dynamic_indices().size();
+    info.light_list_entries
+        = world->light_lists.static_indices().size() + m.view().lights.lists.dynamic_indices().size();
 }
 
 void fill_trace(ModuleInfo& info, const Module& m)
@@ -90,12 +91,14 @@ void fill_trace(ModuleInfo& info, const Module& m)
 ModuleInfo module_info()
 {
     static std::string version;
-    static std::vector<std::string> sampler_texts;
     static std::vector<const char*> samplers;
-    sampler_texts.assign(light_sampler_names().begin(), light_sampler_names().end());
+    static std::vector<uint32_t> sampler_traits;
     samplers.clear();
-    for (const std::string& name : sampler_texts)
-        samplers.push_back(name.c_str());
+    sampler_traits.clear();
+    for (const LightSampler& sampler : light_samplers()) {
+        samplers.push_back(sampler.name);
+        sampler_traits.push_back(sampler.traits);
+    }
     samplers.push_back(nullptr);
 
     ModuleInfo info {};
@@ -104,6 +107,7 @@ ModuleInfo module_info()
     static const char* const no_backends[] = { nullptr };
     info.trace_backends = no_backends;
     info.light_samplers = samplers.data();
+    info.light_sampler_traits = sampler_traits.data();
     info.denoisers = denoisers;
     const int32_t apis[] = { 5, 6, 7, 8 };
     std::ranges::copy(apis, info.api_versions);
@@ -141,19 +145,19 @@ ModuleInfo module_info()
 bool measure_irradiance(const IrradianceProbe* probes, size_t count, uint32_t samples, float* rgb)
 {
     Module* m = module();
-    if (!m || !m->snapshot || m->graphics.is_recording())
+    if (!m || !m->view().snapshot || m->graphics.is_recording())
         return false;
     if (count > 0)
-        m->frame.measure_irradiance({ probes, count }, samples, *m->snapshot, m->gpu_world, rgb);
+        m->queries().measure_irradiance({ probes, count }, samples, rgb);
     return true;
 }
 
 double trace_rays(const TracedRay* rays, size_t count, const TraceRequest* request, TracedHit* hits)
 {
     Module* m = module();
-    if (!m || !m->snapshot || m->graphics.is_recording())
+    if (!m || !m->view().snapshot || m->graphics.is_recording())
         return -1;
-    return m->frame.trace_rays({ rays, count }, *request, *m->snapshot, m->gpu_world, hits);
+    return m->queries().trace_rays({ rays, count }, *request, hits);
 }
 
 const PassSamples* collected_times(size_t* count)
@@ -183,13 +187,13 @@ void forget_times()
 void thaw_scene()
 {
     if (Module* m = module())
-        m->snapshot_is_frozen = false;
+        m->view().is_frozen = false;
 }
 
 bool read_scene(SceneContents* contents)
 {
     Module* m = module();
-    if (!m || !m->snapshot || !m->snapshot->world || m->graphics.is_recording())
+    if (!m || !m->view().snapshot || !m->view().snapshot->world || m->graphics.is_recording())
         return false;
     *contents = read_scene_contents(*m);
     return true;
@@ -200,15 +204,15 @@ bool select_view(uint32_t view)
     Module* m = module();
     if (!m || view >= view_count || m->graphics.is_recording())
         return false;
-    select_view(*m, view);
+    m->selected_view = view;
     return true;
 }
 
 bool inspect_pixel(uint32_t x, uint32_t y, InspectedSurface* surface, InspectedLight* lights, size_t capacity)
 {
     Module* m = module();
-    return m && m->snapshot && !m->graphics.is_recording()
-        && m->frame.inspect_pixel({ x, y }, *m->snapshot, m->gpu_world, *surface, { lights, capacity });
+    return m && m->view().snapshot && !m->graphics.is_recording()
+        && m->queries().inspect_pixel({ x, y }, *surface, { lights, capacity });
 }
 
 } // namespace
@@ -236,7 +240,7 @@ void print_info()
         info.emitted_power[0], info.emitted_power[1], info.emitted_power[2]);
     if (const Module* m = module()) {
         engine::print("table reads    {}", m->graphics.device.table_reads());
-        const glm::uvec2 size = m->frame.rendered_size();
+        const glm::uvec2 size = m->view().rendered_size;
         engine::print(
             "rendered       {} x {} pixels, {} non-finite since the start", size.x, size.y, m->frame.broken_pixels());
     }

@@ -5,10 +5,19 @@
 // window".
 #pragma once
 
+#include "shaders/shared/probes.h"
+
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace vkpt {
+
+using shared::InspectedLight;
+using shared::InspectedSurface;
+using shared::IrradianceProbe;
+using shared::TracedHit;
+using shared::TracedRay;
 
 inline constexpr uint32_t extension_version = 7;
 
@@ -31,6 +40,7 @@ struct ModuleInfo {
     const char* trace_backend; // the one in use
     const char* const* trace_backends;
     const char* const* light_samplers;
+    const uint32_t* light_sampler_traits; // one each: SAMPLER_* of shaders/shared/light_sampler.h
     const char* const* denoisers;
     int32_t api_versions[8]; // zero-terminated
     int32_t max_entities, max_dlights, max_particles, max_image_size;
@@ -44,30 +54,20 @@ struct ModuleInfo {
     double emitted_power[3]; // of all emitters of the last view: radiance * units^2 * sr, RGB
 };
 
+// SAMPLER_* of a light sampler; 0: the module has none of that name.
+inline uint32_t find_sampler_traits(const ModuleInfo& info, std::string_view sampler)
+{
+    for (size_t i = 0; info.light_samplers[i]; i++)
+        if (info.light_samplers[i] == sampler)
+            return info.light_sampler_traits[i];
+    return 0;
+}
+
 // Times of one pass, or of one of the CPU's tasks ("cpu scene"), over many frames.
 struct PassSamples {
     const char* name;
     const float* milliseconds; // one a frame that was timed, oldest first
     uint64_t count;
-};
-
-// A surface point to be lit: Quake world units, unit normal.
-struct IrradianceProbe {
-    float position[3];
-    float normal[3];
-};
-
-// A ray through the scene: Quake world units, unit direction. It meets triangles between t_min and t_max.
-struct TracedRay {
-    float origin[3], t_min;
-    float direction[3], t_max;
-};
-
-struct TracedHit {
-    uint32_t triangle; // id, or 0xffffffff: nothing was met. Where visibility is asked for, any other number: something
-    float t;
-    float barycentrics[2]; // weights of the triangle's second and third corner
-    uint32_t front; // 1: met from its front
 };
 
 struct TraceRequest {
@@ -136,34 +136,6 @@ struct SceneContents {
     SceneCamera camera;
     SceneSky sky;
     float time; // seconds of the game, which liquids move by
-};
-
-// The surface that a pixel of the last view shows. Quake world units, linear colours.
-struct InspectedSurface {
-    float position[3];
-    float depth; // path length from the eye; < 0: sky or an unlit picture, the other fields but `emitted` mean nothing
-    float normal[3];
-    float roughness;
-    float geometric_normal[3];
-    float metallic;
-    float albedo[3];
-    int32_t cluster; // of the PVS, -1: outside of the map
-    float emitted[3]; // radiance to the eye without the surface's reflection
-    uint32_t light_count; // of the cluster's list
-    uint32_t choices; // how often the light sampler was asked to count InspectedLight::picked
-};
-
-// A light of that surface's list, as the light sampler in use sees it.
-struct InspectedLight {
-    uint32_t emitter; // index into the emitter table
-    uint32_t type; // EMITTER_* of shaders/shared/scene.h
-    float centre[3];
-    float area; // square units
-    float radiance[3]; // average, with its lightstyle applied
-    uint32_t lightstyle;
-    float weight; // the predicted contribution that importance samplers choose by, shadows unknown
-    float probability; // light_probability, averaged over random numbers
-    uint32_t picked; // by how many of InspectedSurface::choices
 };
 
 struct Extension {

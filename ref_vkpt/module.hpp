@@ -4,8 +4,9 @@
 
 #include "ref_vkpt/draw2d/draw2d.hpp"
 #include "ref_vkpt/frame/capture.hpp"
-#include "ref_vkpt/frame/frame.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
+#include "ref_vkpt/frame/sampler_choice.hpp"
+#include "ref_vkpt/frame/scene_queries.hpp"
 #include "ref_vkpt/frame/shader_warm_up.hpp"
 #include "ref_vkpt/overlay/overlay.hpp"
 #include "ref_vkpt/preset_command.hpp"
@@ -32,19 +33,16 @@ struct Module {
     Scene scene;
     Frame frame;
     GpuWorld gpu_world; // of scene.world()
-    // The scene that pt_accumulate froze; also what measure_irradiance lights.
-    std::optional<SceneSnapshot> snapshot;
-    bool snapshot_is_frozen = false;
+    SamplerChoice sampler_choice;
     std::optional<shared::Camera> last_camera; // of the last view of a map
     bool frame_has_view = false; // the frame that is being recorded
+    // See Extension::select_view: views that are drawn in turn, so that settings can be compared side by side.
+    std::array<View, view_count> views;
     uint32_t selected_view = 0;
-    // The views of select_view that are not selected.
-    struct ParkedScene {
-        ParkedView view;
-        std::optional<SceneSnapshot> snapshot;
-        bool snapshot_is_frozen = false;
-    };
-    std::array<ParkedScene, view_count> parked_views;
+    View& view() { return views[selected_view]; }
+    const View& view() const { return views[selected_view]; }
+    // About the selected view's scene, if it has one.
+    SceneQueries queries() { return { graphics, frame, view(), gpu_world }; }
     std::optional<ShaderWarmUp> warm_up; // from the first map's registration on
     FrameCapture capture;
     PresetCommand preset;
@@ -56,9 +54,6 @@ struct Module {
 
 // nullptr outside of InitContext .. ShutdownContext.
 Module* module();
-
-// See Extension: views that are drawn in turn (frame/view_slots.cpp).
-void select_view(Module& module, uint32_t view);
 
 // `pt_info`: what runs where, and what it holds.
 void print_info();

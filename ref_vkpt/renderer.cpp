@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <memory>
 
 namespace vkpt {
@@ -64,12 +65,11 @@ GraphicsSettings graphics_settings(void* sdl_window)
 void check_light_sampler()
 {
     const std::string& name = cvars::values().pt_light_sampler;
-    const auto names = light_sampler_names();
-    if (std::ranges::find(names, name) != names.end())
+    if (find_light_sampler(name))
         return;
     std::string known;
-    for (std::string_view sampler : names)
-        known += known.empty() ? std::string(sampler) : ", " + std::string(sampler);
+    for (const LightSampler& sampler : light_samplers())
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", sampler.name);
     engine::print("vkpt: there is no pt_light_sampler \"{}\"; there are: {}", name, known);
     cvars::set("pt_light_sampler", find_cvar_row("pt_light_sampler")->initial);
     cvars::update();
@@ -191,12 +191,11 @@ void close_module()
 // In the last view; the device is between frames.
 void measure_trace_backends(Module& m)
 {
-    if (!m.snapshot || m.graphics.is_recording()) {
+    if (!m.view().snapshot || m.graphics.is_recording()) {
         engine::print("ref_vkpt: rays are measured in a map: start one first");
         return;
     }
-    m.trace_choice.measure(
-        [&](TraceBackend backend) { return measure_trace_backend(m.frame, backend, *m.snapshot, m.gpu_world); });
+    m.trace_choice.measure([&](TraceBackend backend) { return measure_trace_backend(m.queries(), backend); });
 }
 
 struct Command {
@@ -313,15 +312,18 @@ void begin_registration(std::string_view map)
     // A level that was dropped half-way through a frame leaves one open.
     m.graphics.end_frame();
     m.graphics.finish();
-    m.snapshot.reset();
-    for (Module::ParkedScene& parked : m.parked_views)
-        parked = {};
+    for (View& view : m.views)
+        if (&view != &m.view())
+            view = {}; // gives its memory back
+    m.view().begin_world({});
     m.gpu_world = {};
+    m.sampler_choice.forget_world();
     m.frame.forget_world();
-    m.frame.restart_accumulation();
     if (!m.warm_up)
         m.warm_up.emplace(m.graphics.device, m.graphics.pipelines, frame_shaders(m.frame.trace_backend()));
     m.scene.begin_registration(map);
+    for (View& view : m.views)
+        view.begin_world(m.scene.world()->light_lists);
 }
 
 void* register_model(std::string_view name) { return running->scene.register_model(name); }
@@ -337,8 +339,9 @@ void set_sky(std::string_view name, float rotate, const float axis[3])
 static void upload_world_if_needed()
 {
     Module& m = *running;
-    if (m.gpu_world.version == 0 && m.scene.world())
-        m.gpu_world = upload_world(*m.scene.world(), m.graphics.uploader);
+    if (const World* world = m.scene.world(); world && m.gpu_world.version == 0)
+        m.gpu_world
+            = upload_world(*world, make_sampler_tables(*world, SamplerChoice::wanted_needs()), m.graphics.uploader);
 }
 
 void end_registration()
@@ -352,6 +355,20 @@ void end_registration()
 
 // ---- the frame
 
+// Pictures that are compared, and times, are of the sampler that was asked for.
+static void choose_light_sampler(Module& m)
+{
+    const CvarValues& cvars = cvars::values();
+    const bool waits = cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
+    const LightSampler& sampler
+        = m.sampler_choice.choose(m.scene.world(), m.gpu_world, waits, [&](const SamplerTables& tables) {
+              m.graphics.finish();
+              upload_sampler_tables(m.gpu_world, *m.scene.world(), tables, m.graphics.uploader);
+              m.graphics.uploader.flush();
+          });
+    m.frame.set_light_sampler(sampler.name);
+}
+
 void begin_frame(float)
 {
     Module& m = *running;
@@ -360,35 +377,38 @@ void begin_frame(float)
         check_light_sampler();
         m.graphics.set_vsync(vsync());
     }
-    if (m.trace_choice.wants_measurement() && m.snapshot && !m.graphics.is_recording())
+    if (m.trace_choice.wants_measurement() && m.view().snapshot && !m.graphics.is_recording())
         measure_trace_backends(m);
     m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
+    if (!m.graphics.is_recording()) // else the engine left a frame by its error exit
+        choose_light_sampler(m);
     PassStatistics* const statistics = wanted_statistics();
     m.graphics.timer.collect_into(statistics);
     CpuTimer::collect_into(statistics);
     m.frame_has_view = false;
     if (m.graphics.begin_frame())
-        m.draw2d.set_output(m.graphics.screen.output().words.address(), m.graphics.size());
+        m.draw2d.set_output(m.graphics.output.words.address(), m.graphics.size());
     m.draw2d.begin_frame(m.graphics.slot(), filtering(), brightness());
-    m.frame.begin();
+    m.frame.begin(m.view());
 }
 
 static SceneSnapshot take_snapshot(const engine::RefDef& refdef)
 {
     const CpuTimer timer("cpu scene");
-    return running->scene.take_snapshot(refdef);
+    return running->scene.take_snapshot(refdef, running->view().lights);
 }
 
-static void record_view(const engine::RefDef& refdef, SceneSnapshot& snapshot, const GpuWorld* gpu_world, bool average)
+static void record_view(
+    const engine::RefDef& refdef, const SceneSnapshot& snapshot, const GpuWorld* gpu_world, bool average)
 {
     Module& m = *running;
     const CpuTimer timer("cpu record");
     m.textures.flush_if_needed();
     m.draw2d.record(m.graphics.commands());
-    const View view = make_view(refdef, m.graphics.size());
+    const Viewpoint from = make_viewpoint(refdef, m.graphics.size());
     if (gpu_world)
-        m.last_camera = view.camera;
-    m.frame.record_view(view, snapshot, gpu_world, average);
+        m.last_camera = from.camera;
+    m.frame.record_view(m.view(), from, snapshot, gpu_world, average);
 }
 
 void render_view(const engine::RefDef& refdef)
@@ -403,8 +423,7 @@ void render_view(const engine::RefDef& refdef)
     if (m.warm_up)
         m.warm_up->wait();
     if (!has_world) {
-        SceneSnapshot snapshot = take_snapshot(refdef);
-        record_view(refdef, snapshot, nullptr, false);
+        record_view(refdef, take_snapshot(refdef), nullptr, false);
         return;
     }
     if (m.gpu_world.version == 0) { // drawn during registration
@@ -412,30 +431,31 @@ void render_view(const engine::RefDef& refdef)
         m.graphics.uploader.flush();
     }
     const bool freeze = cvars::values().pt_accumulate != 0;
-    if (!freeze || !m.snapshot_is_frozen || !m.snapshot) {
+    View& view = m.view();
+    if (!freeze || !view.is_frozen || !view.snapshot) {
         SceneSnapshot snapshot = take_snapshot(refdef);
-        find_previous_poses(snapshot, m.snapshot ? *m.snapshot : SceneSnapshot());
-        m.snapshot = std::move(snapshot);
-        m.snapshot_is_frozen = freeze;
-        m.frame.restart_accumulation();
+        find_previous_poses(snapshot, view.snapshot ? *view.snapshot : SceneSnapshot());
+        view.snapshot = std::move(snapshot);
+        view.is_frozen = freeze;
+        view.accumulated_frames = 0;
     }
-    record_view(refdef, *m.snapshot, &m.gpu_world, freeze);
+    record_view(refdef, *view.snapshot, &m.gpu_world, freeze);
 }
 
 // r_speeds
 static void print_speeds(const Module& m)
 {
-    if (cvars::values().r_speeds == 0 || !m.snapshot || !m.scene.world())
+    if (cvars::values().r_speeds == 0 || !m.view().snapshot || !m.scene.world())
         return;
     engine::print("{:6} triangles {:6} of models {:5} lights {:7.1f} ms", m.scene.world()->models[0].triangles.size(),
-        m.snapshot->moving.triangle_count(),
-        m.scene.world()->models[0].emitters.size() + m.snapshot->emitters.size(),
+        m.view().snapshot->moving.triangle_count(),
+        m.scene.world()->models[0].emitters.size() + m.view().snapshot->emitters.size(),
         m.graphics.timer.frame_milliseconds());
 }
 
 static OverlayFacts overlay_facts(const Module& m)
 {
-    return { m.graphics.size(), m.frame.rendered_size(), m.graphics.timer.frame_milliseconds(), &m.graphics.timer.times() };
+    return { m.graphics.size(), m.view().rendered_size, m.graphics.timer.frame_milliseconds(), &m.graphics.timer.times() };
 }
 
 void end_frame()

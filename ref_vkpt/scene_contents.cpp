@@ -45,7 +45,7 @@ SceneTriangle make_triangle(const shared::Triangle& from, uint32_t mask)
 
 void add_triangles(std::vector<SceneTriangle>& out, Module& m)
 {
-    const SceneSnapshot& snapshot = *m.snapshot;
+    const SceneSnapshot& snapshot = *m.view().snapshot;
     const MapGeometry& world = snapshot.world->models[0];
     for (size_t i = 0; i < world.triangles.size(); i++)
         out.push_back(make_triangle(world.triangles[i], world.masks[i]));
@@ -135,7 +135,7 @@ SceneContents read_scene_contents(Module& m)
     triangles.clear();
     materials.clear();
     emitters.clear();
-    const SceneSnapshot& snapshot = *m.snapshot;
+    const SceneSnapshot& snapshot = *m.view().snapshot;
     add_triangles(triangles, m);
     const Pictures pictures = m.textures.by_slot();
     for (const shared::Material& material : snapshot.materials)
@@ -146,7 +146,7 @@ SceneContents read_scene_contents(Module& m)
     });
     SceneContents contents { triangles.data(), triangles.size(), materials.data(), materials.size(), emitters.data(),
         emitters.size(), {}, make_sky(snapshot.sky, pictures), snapshot.time };
-    const shared::Camera& camera = m.frame.last_view().camera;
+    const shared::Camera& camera = m.view().viewpoint.camera;
     copy_vector(contents.camera.eye, camera.eye);
     copy_vector(contents.camera.forward, camera.forward);
     copy_vector(contents.camera.right, camera.right);

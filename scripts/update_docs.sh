@@ -17,7 +17,7 @@ trap 'rm -rf "$folder"' EXIT
 players_cvars='pt_bounces pt_light_sampler pt_accumulate flt_denoiser flt_taa pt_render_scale pt_target_ms pt_exposure_bias
     pt_bloom pt_emission_scale pt_sky_scale pt_dlight_scale pt_trace pt_device'
 awk '/^## /{ table++ } table == 1 && /^\|/' "$folder/cvars.md" | sed 's/\\|/\x01/g' \
-    | awk -F'|' '{ print "|" $2 "|" $3 "|" $6 "|" }' | sed 's/\x01/\\|/g' >"$folder/whole_table"
+    | awk -F'|' '{ print "|" $2 "|" $3 "|" $7 ($6 ~ /vid_restart/ ? "Counts after `vid_restart`. |" : "|") }' | sed 's/\x01/\\|/g' >"$folder/whole_table"
 head -n 2 "$folder/whole_table" >"$folder/table"
 for name in $players_cvars; do
     grep -F "| \`$name\` |" "$folder/whole_table" >>"$folder/table" || die "vkpt info --cvars has no $name, which the README names"

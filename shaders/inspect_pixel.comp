@@ -5,35 +5,11 @@
 // it is really picked. For people who look at samplers (Extension::inspect_pixel); no part of a frame.
 #include "lib/frame.glsl"
 #include "lib/light_choice.glsl"
+#include "shared/probes.h"
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
 VKPT_PUSH_CONSTANTS
 
-// As in ref_vkpt/extension.hpp.
-struct InspectedSurface {
-    vec3 position;
-    float depth;
-    vec3 normal;
-    float roughness;
-    vec3 geometric_normal;
-    float metallic;
-    vec3 albedo;
-    int cluster;
-    vec3 emitted;
-    uint light_count;
-    uint choices;
-};
-struct InspectedLight {
-    uint emitter;
-    uint type;
-    vec3 centre;
-    float area;
-    vec3 radiance;
-    uint lightstyle;
-    float weight;
-    float probability;
-    uint picked;
-};
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer InspectedSurfaceBuffer { InspectedSurface v; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer InspectedLightBuffer { InspectedLight v[]; };
 

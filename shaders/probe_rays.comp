@@ -4,21 +4,16 @@
 // Traces a list of rays, one per pixel, and writes what each met: for tests, benches, and the choice of a trace backend.
 #include "lib/frame.glsl"
 #include "lib/trace.glsl"
+#include "shared/probes.h"
 
-struct ProbeRay {
-    vec3 origin;
-    float t_min;
-    vec3 direction;
-    float t_max;
-};
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ProbeRayBuffer { ProbeRay v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer ProbeHitBuffer { RawHit v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TracedRayBuffer { TracedRay v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer TracedHitBuffer { TracedHit v[]; };
 
 void trace_probe(uvec2 pixel, uint index)
 {
     if (index >= frame.probe_count)
         return;
-    ProbeRay probe = ProbeRayBuffer(frame.probes).v[index];
+    TracedRay probe = TracedRayBuffer(frame.probes).v[index];
     Ray ray = Ray(probe.origin, probe.direction, probe.t_min, probe.t_max);
     RawHit hit;
     if ((frame.flags & FRAME_PROBE_VISIBILITY) != 0u) {
@@ -28,7 +23,7 @@ void trace_probe(uvec2 pixel, uint index)
     } else {
         hit = trace_nearest(ray, frame.probe_mask);
     }
-    ProbeHitBuffer(frame.probe_hits).v[index] = hit;
+    TracedHitBuffer(frame.probe_hits).v[index] = TracedHit(hit.triangle, hit.t, hit.barycentrics, hit.front);
 }
 
 VKPT_RUN_OVER_PIXELS(trace_probe)

@@ -4,12 +4,9 @@
 // Instead of primary_visibility: the surfaces to light are white, diffuse points from a list, one per pixel.
 #include "lib/frame.glsl"
 #include "lib/surfaces.glsl"
+#include "shared/probes.h"
 
-struct Probe {
-    vec3 position;
-    vec3 normal;
-};
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ProbeBuffer { Probe v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ProbeBuffer { IrradianceProbe v[]; };
 
 void place_probe(uvec2 pixel, uint index)
 {
@@ -18,7 +15,7 @@ void place_probe(uvec2 pixel, uint index)
     store_position(index, vec4(0.0, 0.0, 0.0, -1.0));
     if (index >= frame.probe_count)
         return;
-    Probe probe = ProbeBuffer(frame.probes).v[index];
+    IrradianceProbe probe = ProbeBuffer(frame.probes).v[index];
     HitSurface hit;
     hit.surface.position = probe.position;
     hit.surface.normal = hit.surface.geometric_normal = hit.surface.view = normalize(probe.normal);

@@ -26,8 +26,8 @@ public:
         plan_.scenes.push_back({ scene, {} });
         return plan_.scenes.size() - 1;
     }
-    FigurePicture use(
-        size_t scene, const std::string& sampler, int subset, const char* denoiser, const std::string& caption)
+    FigurePicture use(size_t scene, const std::string& sampler, std::optional<int> subset, const char* denoiser,
+        const std::string& caption)
     {
         const Variant variant = make_variant(sampler, subset, denoiser);
         std::vector<Variant>& known = plan_.scenes[scene].variants;
@@ -38,7 +38,7 @@ public:
     // One row without and one with the filter, then the reference in both.
     struct Column {
         std::string sampler;
-        int subset;
+        std::optional<int> subset;
         std::string caption;
     };
     void add(Figure figure, const char* scene, const std::vector<Column>& columns, std::vector<const char*> denoisers)
@@ -82,13 +82,13 @@ FigurePlan plan_chapter_figures(const ModuleInfo& module)
                  "Uniform sampling, importance sampling in a stochastic subset of 8, and the converged picture. Above "
                  "unfiltered, below filtered by A-SVGF.",
                  0, {}, 0.5, 0.5, 1 },
-        many_lights, { { "uniform", 1, "uniform" }, { "subset", 8, "subset of 8" } }, { "off", filter });
+        many_lights, { { "uniform", {}, "uniform" }, { "subset", 8, "subset of 8" } }, { "off", filter });
     plan.add(
         { "Figure 47-4: the length of the subset",
             "The longer the subset, the better it represents all lights; the filter recovers less from bad samples.", 0,
             {}, 0.5, 0.5, 1 },
         many_lights,
-        { { "uniform", 1, "uniform" }, { "subset", 1, "1" }, { "subset", 8, "8" }, { "subset", 16, "16" },
+        { { "uniform", {}, "uniform" }, { "subset", 1, "1" }, { "subset", 8, "8" }, { "subset", 16, "16" },
             { "subset", 32, "32" }, { "subset", 64, "64" } },
         { "off", filter });
     const std::vector<Plan::Column> mis { { "subset", 8, "no MIS" }, { "subset_mis", 8, "MIS" },

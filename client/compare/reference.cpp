@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/compare/reference.hpp"
 
+#include "shaders/shared/light_sampler.h"
+
 #include "client/host/errors.hpp"
 #include "client/host/hash.hpp"
 #include "client/host/output_file.hpp"
@@ -39,7 +41,7 @@ std::string choose_sampler(const std::string& wanted, const ModuleInfo& module)
         const std::string_view known = *name;
         if (known == wanted || (wanted.empty() && known == "subset_mis"))
             return *name;
-        if (first.empty() && known.find("biased") == std::string_view::npos)
+        if (first.empty() && !(find_sampler_traits(module, known) & shared::SAMPLER_BIASED))
             first = known;
     }
     if (!wanted.empty())
@@ -182,8 +184,7 @@ try {
 fs::path find_reference_folder()
 {
     const PrivateFolder cache = open_cache_folder();
-    const PrivateFolder folder
-        = cache.path.empty() ? cache : open_private_folder(cache.path / "references");
+    const PrivateFolder folder = cache.path.empty() ? cache : open_private_folder(cache.path / "references");
     if (folder.path.empty())
         fmt::print(stderr, "vkpt: references are not cached: {}\n", folder.problem);
     return folder.path;
@@ -194,7 +195,8 @@ Reference make_reference(
 {
     const std::string sampler = choose_sampler(options.sampler, stage.info());
     const int samples = std::max(options.samples / batch_count, 1) * batch_count;
-    const Variant variant = make_variant(sampler, 8);
+    const bool has_subset = find_sampler_traits(stage.info(), sampler) & shared::SAMPLER_USES_SUBSET;
+    const Variant variant = make_variant(sampler, has_subset ? std::optional(8) : std::nullopt);
     // The first picture shows its size, and loads what a frame asks for only when it is drawn.
     stage.begin_averaged(variant, 1);
     stage.draw(frame);

@@ -3,6 +3,7 @@
 
 #include "client/host/errors.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
+#include "shaders/shared/light_sampler.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,9 +15,6 @@ namespace vkpt::client {
 namespace {
 
 constexpr int longest_subset = 64;
-
-// They look at one light, or at all of them.
-bool has_subset(std::string_view sampler) { return sampler != "uniform" && sampler != "full"; }
 
 std::vector<std::string> list_of(const char* const* names)
 {
@@ -54,9 +52,9 @@ std::string Variant::label() const
     return sampler + (subset ? fmt::format(" R{}", *subset) : "") + " " + noise + (is_filtered() ? " " + denoiser : "");
 }
 
-Variant make_variant(const std::string& sampler, int subset, const std::string& denoiser)
+Variant make_variant(const std::string& sampler, std::optional<int> subset, const std::string& denoiser)
 {
-    return { sampler, has_subset(sampler) ? std::optional(subset) : std::nullopt, "blue", denoiser };
+    return { sampler, subset, "blue", denoiser };
 }
 
 std::vector<Variant> make_variants(const VariantLists& lists, const ModuleInfo& module)
@@ -72,7 +70,9 @@ std::vector<Variant> make_variants(const VariantLists& lists, const ModuleInfo& 
         for (const int subset : lists.subsets)
             for (const std::string& noise : lists.noises)
                 for (const std::string& denoiser : lists.denoisers) {
-                    Variant variant = make_variant(sampler, subset, denoiser);
+                    const bool has_subset = find_sampler_traits(module, sampler) & shared::SAMPLER_USES_SUBSET;
+                    Variant variant
+                        = make_variant(sampler, has_subset ? std::optional(subset) : std::nullopt, denoiser);
                     variant.noise = noise;
                     if (!std::ranges::count(variants, variant))
                         variants.push_back(std::move(variant));

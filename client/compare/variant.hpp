@@ -29,6 +29,8 @@ struct VariantLists {
 // All combinations, in the lists' order; samplers without subsets once. Throws WrongUse for what the module does not
 // have.
 std::vector<Variant> make_variants(const VariantLists& lists, const ModuleInfo& module);
-Variant make_variant(const std::string& sampler, int subset, const std::string& denoiser = "off");
+// `subset`: nothing for samplers that have none.
+Variant make_variant(
+    const std::string& sampler, std::optional<int> subset = std::nullopt, const std::string& denoiser = "off");
 
 } // namespace vkpt::client

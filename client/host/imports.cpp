@@ -60,9 +60,8 @@ void HostImports::bind(Host* new_host) { host = new_host; }
 
 void HostImports::use_files(Host& reader, FileSystem* files) { reader.files_ = files; }
 
-engine::Imports HostImports::table()
+void HostImports::add_commands(engine::Imports& imports)
 {
-    engine::Imports imports {};
     imports.error = raise_error;
     imports.add_command = [](const char* name, void (*function)()) { host->commands_[name] = function; };
     imports.remove_command = [](const char* name) { host->commands_.erase(name); };
@@ -82,6 +81,10 @@ engine::Imports HostImports::table()
         if (level != engine::PRINT_DEVELOPER || host->options_.verbose)
             host->add_console_text(format_text(format, arguments));
     };
+}
+
+void HostImports::add_files(engine::Imports& imports)
+{
     imports.load_file = [](const char* path, void** buffer) -> int {
         const auto size = host->files_ ? host->files_->size(path) : std::nullopt;
         if (!size || !buffer)
@@ -101,6 +104,10 @@ engine::Imports HostImports::table()
         = [](const char* name, const char* text, int flags) { return host->cvars_.get(name, text, flags); };
     imports.set_cvar = [](const char* name, const char* text) { return host->cvars_.set(name, text); };
     imports.set_cvar_number = [](const char* name, float number) { host->cvars_.set(name, fmt::format("{}", number)); };
+}
+
+void HostImports::add_video(engine::Imports& imports)
+{
     // Every mode is the host's own size: there is no window to fit.
     imports.mode_info = [](int* width, int* height, int) -> engine::QBoolean {
         *width = host->options_.width;
@@ -137,6 +144,14 @@ engine::Imports HostImports::table()
         if (engine::Restart(kind) == engine::Restart::full || engine::Restart(kind) == engine::Restart::partial)
             host->add_console_text("this setting takes effect at the next start\n");
     };
+}
+
+engine::Imports HostImports::table()
+{
+    engine::Imports imports {};
+    add_commands(imports);
+    add_files(imports);
+    add_video(imports);
     return imports;
 }
 

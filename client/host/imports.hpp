@@ -14,6 +14,11 @@ struct HostImports {
     static engine::Imports table();
     // From now on the host reads from these; nullptr: there are none.
     static void use_files(Host& host, FileSystem* files);
+
+private:
+    static void add_commands(engine::Imports& imports);
+    static void add_files(engine::Imports& imports);
+    static void add_video(engine::Imports& imports);
 };
 
 } // namespace vkpt::client

@@ -175,6 +175,55 @@ template <class Coder> void ViewCodec::code_area_bits(Coder& coder, View& view)
         view.area_bits = area_bits_;
 }
 
+namespace {
+
+// For each thing of a view the one of the view before that it goes on from, or not_found.
+
+// The engine sorts entities by model and skin: the next one like it that is near.
+template <class Items, class Known> std::vector<size_t> match_entities(const Items& now_all, const Known& before_all)
+{
+    std::vector<size_t> matches(now_all.size(), not_found);
+    std::vector<bool> taken(before_all.size());
+    for (size_t i = 0; i < now_all.size(); i++)
+        for (size_t k = 0; k < before_all.size() && matches[i] == not_found; k++) {
+            const auto &now = now_all[i], &before = before_all[k].words;
+            if (!taken[k] && now[model_word] == before[model_word] && now[skin_word] == before[skin_word]
+                && is_near(now, before, entity_origin, entity_reach)) {
+                matches[i] = k;
+                taken[k] = true;
+            }
+        }
+    return matches;
+}
+
+template <class Items, class Known> std::vector<size_t> match_by_place(const Items& now_all, const Known& before_all)
+{
+    std::vector<size_t> matches(now_all.size(), not_found);
+    for (size_t i = 0; i < std::min(now_all.size(), before_all.size()); i++)
+        matches[i] = i;
+    return matches;
+}
+
+// The client puts new particles in front and takes the dead out from anywhere: from the end, the next one of this
+// colour that is near.
+template <class Items, class Known> std::vector<size_t> match_particles(const Items& now_all, const Known& before_all)
+{
+    constexpr size_t dead_at_once = 64, color_word = 3;
+    std::vector<size_t> matches(now_all.size(), not_found);
+    size_t end = before_all.size();
+    for (size_t i = now_all.size(); i-- > 0 && end > 0;)
+        for (size_t k = end; k-- > (end > dead_at_once ? end - dead_at_once : 0);) {
+            const auto &now = now_all[i], &before = before_all[k].words;
+            if (now[color_word] == before[color_word] && is_near(now, before, 0, particle_reach)) {
+                matches[i] = end = k;
+                break;
+            }
+        }
+    return matches;
+}
+
+} // namespace
+
 template <class Coder> void ViewCodec::code(Coder& coder, View& view)
 {
     static_assert(offsetof(engine::RefDef, area_bits) == head_words * 4);
@@ -197,43 +246,9 @@ template <class Coder> void ViewCodec::code(Coder& coder, View& view)
         for (const engine::Particle& particle : view.particles)
             particles.push_back(words_of<particle_words>(&particle));
     }
-    // The engine sorts entities by model and skin: the next one like it that is near.
-    code_list(coder, entities, entities_, [&] {
-        std::vector<size_t> matches(entities.size(), not_found);
-        std::vector<bool> taken(entities_.size());
-        for (size_t i = 0; i < entities.size(); i++)
-            for (size_t k = 0; k < entities_.size() && matches[i] == not_found; k++) {
-                const auto &now = entities[i], &before = entities_[k].words;
-                if (!taken[k] && now[model_word] == before[model_word] && now[skin_word] == before[skin_word]
-                    && is_near(now, before, entity_origin, entity_reach)) {
-                    matches[i] = k;
-                    taken[k] = true;
-                }
-            }
-        return matches;
-    });
-    code_list(coder, lights, lights_, [&] {
-        std::vector<size_t> matches(lights.size(), not_found);
-        for (size_t i = 0; i < std::min(lights.size(), lights_.size()); i++)
-            matches[i] = i;
-        return matches;
-    });
-    // The client puts new particles in front and takes the dead out from anywhere: from the end, the next one of this
-    // colour that is near.
-    code_list(coder, particles, particles_, [&] {
-        constexpr size_t dead_at_once = 64, color_word = 3;
-        std::vector<size_t> matches(particles.size(), not_found);
-        size_t end = particles_.size();
-        for (size_t i = particles.size(); i-- > 0 && end > 0;)
-            for (size_t k = end; k-- > (end > dead_at_once ? end - dead_at_once : 0);) {
-                const auto &now = particles[i], &before = particles_[k].words;
-                if (now[color_word] == before[color_word] && is_near(now, before, 0, particle_reach)) {
-                    matches[i] = end = k;
-                    break;
-                }
-            }
-        return matches;
-    });
+    code_list(coder, entities, entities_, [&] { return match_entities(entities, entities_); });
+    code_list(coder, lights, lights_, [&] { return match_by_place(lights, lights_); });
+    code_list(coder, particles, particles_, [&] { return match_particles(particles, particles_); });
     if constexpr (!Coder::is_encoder) {
         std::memcpy(&view.refdef, head.data(), sizeof head);
         if (entities.size() > size_t(engine::max_entities) || lights.size() > size_t(engine::max_dlights))

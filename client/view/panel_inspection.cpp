@@ -37,7 +37,7 @@ void draw_row(const char* name, const std::string& value)
     ImGui::TextUnformatted(value.c_str());
 }
 
-std::string show_vector(const float* v, const char* format)
+std::string show_vector(const glm::vec3& v, const char* format)
 {
     return fmt::format(fmt::runtime(fmt::format("{0}  {0}  {0}", format)), v[0], v[1], v[2]);
 }

@@ -25,12 +25,12 @@ std::vector<std::string> split_choices(std::string_view text)
     return choices;
 }
 
-// Without a restart, and not the business of captures and figures, which the viewer makes itself.
+// At once, and not the business of captures and figures, which the viewer makes itself.
 bool is_live(const CvarRow& row)
 {
     const std::string_view name = row.name;
-    return row.owner == CvarOwner::module && std::string_view(row.help).find("vid_restart") == std::string_view::npos
-        && !name.starts_with("pt_capture_") && !name.starts_with("pt_times") && !name.starts_with("pt_bench");
+    return row.owner == CvarOwner::module && row.counts == CvarCounts::at_once && !name.starts_with("pt_capture_")
+        && !name.starts_with("pt_times") && !name.starts_with("pt_bench");
 }
 
 double parse(std::string_view text) { return std::strtod(std::string(text).c_str(), nullptr); }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "ref_vkpt/extension.hpp"
-#include "ref_vkpt/frame/pass_statistics.hpp"
+#include "ref_vkpt/pass_statistics.hpp"
 
 #include <string>
 #include <string_view>
@@ -11,8 +11,8 @@
 
 namespace vkpt {
 
-// What PassStatistics call the time from one frame's completion to the next one's, and what the names of the CPU's tasks
-// begin with.
+// What PassStatistics call the time from one frame's completion to the next one's, and what the names of the CPU's
+// tasks begin with.
 inline constexpr const char* whole_frame = "frame";
 inline constexpr std::string_view cpu_task = "cpu ";
 

@@ -34,15 +34,12 @@ int most_picture_taps(bool is_cpu) { return std::clamp(cvars::values().r_anisotr
 Frame::Frame(Graphics& graphics, Workers& workers)
     : graphics_(graphics)
     , recorder_(graphics)
-    , uploads_(graphics.gpu, MemoryKind::staging)
-    , moving_writer_(workers)
-    , structures_(graphics.gpu)
+    , scene_upload_(graphics, workers)
 {
     const VkDeviceSize alignment = graphics.device.properties.limits.minUniformBufferOffsetAlignment;
     uniform_stride_ = (sizeof(shared::FrameUniforms) + alignment - 1) / alignment * alignment;
     uniforms_ = Buffer(graphics.gpu, uniform_stride_ * max_views * frames_in_flight, BufferHome::upload,
         MemoryKind::staging, "frame uniforms");
-    exposure_ = make_exposure();
     ltc_ = graphics.uploader.make_buffer(
         std::vector<float>(ltc_table.begin(), ltc_table.end()), MemoryKind::lights, "linearly transformed cosines");
     blue_noise_
@@ -62,11 +59,10 @@ Frame::Frame(Graphics& graphics, Workers& workers)
     graphics.uploader.flush();
 }
 
-void Frame::begin()
+void Frame::begin(View& view)
 {
     views_this_frame_ = 0;
-    uploads_.begin_frame(graphics_.slot());
-    structures_.begin_frame(graphics_.slot());
+    scene_upload_.begin_frame();
     std::array<float, shared::LIGHT_LEVEL_LANES> lanes;
     std::memcpy(lanes.data(), readback_.mapped() + graphics_.slot() * light_level_bytes, light_level_bytes);
     light_level_ = std::accumulate(lanes.begin(), lanes.end(), 0.0f) / float(lanes.size());
@@ -75,7 +71,12 @@ void Frame::begin()
     // Room for the largest view now: once recording refers to the buffers, they cannot be replaced. For the whole
     // window, though fewer pixels may be rendered, so that a change of the render size costs nothing.
     const VkExtent2D output = graphics_.size();
-    reserve({ output.width, output.height });
+    reserve(view, { output.width, output.height });
+    if (!view.exposure) {
+        view.exposure
+            = graphics_.uploader.make_buffer(std::vector<shared::ExposureState>(2), MemoryKind::images, "exposure");
+        graphics_.uploader.flush();
+    }
 }
 
 // Of the slot's last frame, which has finished.
@@ -105,29 +106,29 @@ glm::uvec2 Frame::scaled_size(glm::uvec2 size) const
     return glm::max(size * render_scale_.percent(scale_limits()) / 100u, glm::uvec2(1));
 }
 
-void Frame::reserve(glm::uvec2 size)
+void Frame::reserve(View& view, glm::uvec2 size)
 {
-    if (!graphics_.screen.must_grow(size))
+    if (!view.buffers.must_grow(size))
         return;
     graphics_.finish();
-    graphics_.screen.reserve_pixels(size);
-    state_.radiance = nullptr;
-    restart_accumulation();
-    state_.history.forget();
+    view.buffers.reserve_pixels(graphics_.gpu, graphics_.bindings, size);
+    view.radiance = nullptr;
+    view.accumulated_frames = 0;
+    view.history.forget();
 }
 
-shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
+shared::FrameUniforms Frame::make_uniforms(View& view, const Viewpoint& from, glm::uvec2 size)
 {
     const CvarValues& cvars = cvars::values();
     const auto now = std::chrono::steady_clock::now();
-    const float seconds = std::chrono::duration<float>(now - state_.time).count();
-    state_.time = now;
+    const float seconds = std::chrono::duration<float>(now - view.time).count();
+    view.time = now;
 
     shared::FrameUniforms uniforms {};
-    uniforms.camera = view.camera;
+    uniforms.camera = from.camera;
     uniforms.pixel_offset = glm::vec2(0.5f);
-    uniforms.screen = graphics_.screen.rows();
-    uniforms.exposure = exposure_.address();
+    uniforms.screen = view.buffers.rows();
+    uniforms.exposure = view.exposure.address();
     uniforms.statistics = statistics_.address() + graphics_.slot() * sizeof(shared::FrameStatistics);
     uniforms.ltc = ltc_.address();
     uniforms.blue_noise = blue_noise_.address();
@@ -135,16 +136,16 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.light_level = readback_.address() + graphics_.slot() * light_level_bytes;
     uniforms.size = uniforms.resolved_size = uniforms.previous_size = size;
     uniforms.previous_scale = glm::vec2(1);
-    uniforms.output_words = graphics_.screen.output().words.address();
+    uniforms.output_words = graphics_.output.words.address();
     uniforms.output_across = graphics_.size().width;
-    uniforms.output_origin = glm::uvec2(view.origin);
-    uniforms.output_size = view.size;
+    uniforms.output_origin = glm::uvec2(from.origin);
+    uniforms.output_size = from.size;
     uniforms.frame_seconds = cvars.pt_seed > 0 ? first_frame_seconds : std::min(seconds, 1.0f);
     uniforms.seed = uint32_t(cvars.pt_seed);
-    uniforms.frame_index = cvars.pt_seed > 0 ? state_.accumulated_frames : state_.noise_index++;
+    uniforms.frame_index = cvars.pt_seed > 0 ? view.accumulated_frames : view.noise_index++;
     uniforms.bounce_block = glm::uvec2(1);
-    uniforms.accumulated_frames = state_.accumulated_frames;
-    uniforms.blend = cvars.gl_polyblend != 0 ? view.blend : glm::vec4(0);
+    uniforms.accumulated_frames = view.accumulated_frames;
+    uniforms.blend = cvars.gl_polyblend != 0 ? from.blend : glm::vec4(0);
     uniforms.gamma = cvars.vid_gamma;
     uniforms.overbright = std::clamp(cvars.vk_overbrightbits, 0.0f, 100.0f);
     // The menu's slider has whole numbers from 0 on, of which the engine's Vulkan renderer takes 0 as 1; 2 is its default.
@@ -152,7 +153,7 @@ shared::FrameUniforms Frame::make_uniforms(const View& view, glm::uvec2 size)
     uniforms.intensity = std::clamp(cvars.vk_intensity, 1.0f, 10.0f) / menu_default;
     uniforms.cvars = cvars::shader_values();
     uniforms.picture_taps = float(most_picture_taps(graphics_.device.is_cpu));
-    uniforms.flags = (view.underwater ? shared::FRAME_UNDERWATER : 0)
+    uniforms.flags = (from.underwater ? shared::FRAME_UNDERWATER : 0)
         | (cvars.r_fullbright != 0 ? shared::FRAME_FULLBRIGHT : 0)
         | (cvars.r_lightmap != 0 ? shared::FRAME_LIGHT_ALONE : 0)
         | (cvars.gl3_colorlight == 0 ? shared::FRAME_GREY_LIGHT : 0)
@@ -167,13 +168,13 @@ uint32_t Frame::write_uniforms(const shared::FrameUniforms& uniforms)
     return offset;
 }
 
-void Frame::bind(uint32_t uniform_offset)
+void Frame::bind(VkCommandBuffer commands, const View& view, uint32_t uniform_offset)
 {
-    recorder_.begin(commands_, backend_);
-    const Bindings::ViewSets sets { scene_texels_, graphics_.screen.texels() };
-    graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, uniform_offset, sets);
-    if (backend_ == TraceBackend::pipeline)
-        graphics_.bindings.bind(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, uniform_offset, sets);
+    recorder_.begin(commands, shaders_);
+    const Bindings::ViewSets sets { scene_texels_, view.buffers.texels() };
+    graphics_.bindings.bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, uniform_offset, sets);
+    if (trace_backend() == TraceBackend::pipeline)
+        graphics_.bindings.bind(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, uniform_offset, sets);
 }
 
 // The whole image pipeline, as passes.def has it.
@@ -186,96 +187,127 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms)
 }
 
 // What was averaged holds no longer if anything has changed.
-void Frame::follow_changes(const View& view, bool average)
+void Frame::follow_changes(View& view, const Viewpoint& from, bool average) const
 {
     CvarValues shown_by = cvars::values();
     shown_by.r_lightlevel = 0; // written by ourselves, every frame
-    if (!average || !is_same(view, state_.view) || !(shown_by == state_.cvars))
-        restart_accumulation();
-    state_.view = view;
-    state_.cvars = shown_by;
+    if (!average || !is_same(from, view.viewpoint) || !(shown_by == view.cvars)
+        || shaders_.light_sampler != view.light_sampler)
+        view.accumulated_frames = 0;
+    view.viewpoint = from;
+    view.cvars = shown_by;
+    view.light_sampler = shaders_.light_sampler;
 }
 
+void Frame::fill_scene(shared::FrameUniforms& uniforms, VkCommandBuffer commands, const View& view,
+    const SceneSnapshot& scene, const GpuWorld* gpu_world)
+{
+    const SceneUpload::Use use { commands, views_this_frame_, trace_backend(), view.buffers.trace_stack(),
+        (uniforms.flags & shared::FRAME_HISTORY) != 0 };
+    scene_texels_ = scene_upload_.fill(uniforms.scene, scene, gpu_world, use);
+    uniforms.flags |= scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0;
+}
+
+shared::FrameUniforms Frame::begin_query(
+    VkCommandBuffer commands, View& view, const Viewpoint& from, const SceneSnapshot& scene, const GpuWorld& gpu_world)
+{
+    begin(view);
+    shared::FrameUniforms uniforms = make_uniforms(view, from, from.size);
+    fill_scene(uniforms, commands, view, scene, &gpu_world);
+    return uniforms;
+}
+
+namespace {
+
 // A view without a world, such as the player's model in a menu, leaves what the world's views remember alone.
-void Frame::prepare_menu(shared::FrameUniforms& uniforms) const
+void prepare_menu(shared::FrameUniforms& uniforms)
 {
     uniforms.screen.accumulated = uniforms.screen.radiance;
     uniforms.accumulated_frames = 0;
     uniforms.exposure += sizeof(shared::ExposureState);
+    uniforms.flags |= shared::FRAME_NO_WORLD;
 }
 
-void Frame::record_view(const View& view, SceneSnapshot& scene, const GpuWorld* gpu_world, bool average)
+// What the world's next frame asks about this one.
+void keep_lists(View& view, shared::FrameUniforms& uniforms, const SceneSnapshot& scene)
+{
+    uniforms.scene.oldest_repeatable = view.lists_changed ? view.history_frame_index : 0;
+    view.lists_changed = scene.light_lists->has_changed();
+    view.history_frame_index = uniforms.frame_index;
+}
+
+} // namespace
+
+void Frame::record_view(
+    View& view, const Viewpoint& from, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average)
 {
     if (views_this_frame_ == max_views) {
         engine::print("vkpt: more than {} 3D views in one frame; the others are not shown", max_views);
         return;
     }
+    const bool has_world = scene.world != nullptr;
+    if (has_world)
+        follow_changes(view, from, average);
+    else
+        view.buffers.exchange_history(); // the world's last frame lies safe under the names previous_
     // Averaged pictures and menus are complete.
-    const glm::uvec2 size = average || !scene.world ? view.size : scaled_size(view.size);
-    if (scene.world)
-        follow_changes(view, average);
-    commands_ = graphics_.commands();
-    if (!scene.world)
-        graphics_.screen.exchange_history(); // the world's last view lies safe under the names previous_
-    shared::FrameUniforms uniforms = make_uniforms(view, size);
-    if (!scene.world)
+    const glm::uvec2 size = average || !has_world ? from.size : scaled_size(from.size);
+    shared::FrameUniforms uniforms = make_uniforms(view, from, size);
+    if (!has_world)
         prepare_menu(uniforms);
-    begin_filters(uniforms, scene, gpu_world, average);
-    state_.size = uniforms.resolved_size;
-    state_.radiance = scene.world ? &graphics_.screen.accumulated() : &graphics_.screen.radiance();
-    fill_scene(
-        uniforms.scene, scene, gpu_world, uniforms.flags & shared::FRAME_HISTORY ? Motion::known : Motion::unknown);
-    if (scene.world) {
-        state_.rendered_size = size;
-        uniforms.scene.oldest_repeatable = is_followed_by_another_ ? uniforms.frame_index
-            : state_.lists_changed                                 ? state_.history_frame_index
-                                                                   : 0;
-        is_followed_by_another_ = false;
-        state_.lists_changed = scene.world->light_lists.has_changed();
-        state_.history_frame_index = uniforms.frame_index;
+    begin_filters(uniforms, view, scene, gpu_world, average);
+    view.size = uniforms.resolved_size;
+    view.radiance = has_world ? &view.buffers.accumulated() : &view.buffers.radiance();
+    fill_scene(uniforms, graphics_.commands(), view, scene, gpu_world);
+    if (has_world) {
+        view.rendered_size = size;
+        keep_lists(view, uniforms, scene);
     }
     uniforms.time = scene.time;
     uniforms.dark_light_count = uint32_t(scene.dark_lights.size());
-    uniforms.dark_lights = scene.dark_lights.empty() ? 0 : uploads_.push(scene.dark_lights);
-    uniforms.flags |= (scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0) | (scene.world ? 0 : shared::FRAME_NO_WORLD)
-        | (average ? shared::FRAME_JITTER : 0);
-    if (!average && scene.world)
+    uniforms.dark_lights = scene.dark_lights.empty() ? 0 : uploads().push(scene.dark_lights);
+    uniforms.flags |= average ? shared::FRAME_JITTER : 0;
+    if (!average && has_world)
         begin_bloom(uniforms);
-    const bool counts_rays = cvars::values().pt_count_rays != 0;
-    uniforms.flags |= counts_rays ? shared::FRAME_COUNT_RAYS : 0;
-    bind(write_uniforms(uniforms));
+    uniforms.flags |= cvars::values().pt_count_rays != 0 ? shared::FRAME_COUNT_RAYS : 0;
+    record(graphics_.commands(), view, uniforms);
+    if (has_world)
+        view.accumulated_frames++;
+    else
+        view.buffers.exchange_history();
+}
+
+void Frame::record(VkCommandBuffer commands, const View& view, const shared::FrameUniforms& uniforms)
+{
+    bind(commands, view, write_uniforms(uniforms));
     const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
     // The picture may just have been cleared or drawn on, and the last frame may still be read.
     record_memory_barrier(
-        commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT, shaders, shader_access);
-    graphics_.timer.mark(commands_, "2d");
-    if (counts_rays)
-        record_clear_ray_counts();
+        commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT, shaders, shader_access);
+    graphics_.timer.mark(commands, "2d");
+    if (uniforms.flags & shared::FRAME_COUNT_RAYS)
+        record_clear_ray_counts(commands);
     record_passes(uniforms);
-    if (counts_rays)
-        record_read_ray_counts();
+    if (uniforms.flags & shared::FRAME_COUNT_RAYS)
+        record_read_ray_counts(commands);
     record_memory_barrier(
-        commands_, shaders, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-    if (scene.world)
-        state_.accumulated_frames++;
-    else
-        graphics_.screen.exchange_history();
+        commands, shaders, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
-void Frame::record_clear_ray_counts() const
+void Frame::record_clear_ray_counts(VkCommandBuffer commands) const
 {
-    vkCmdFillBuffer(commands_, ray_counts_.handle(), 0, sizeof(shared::RayCounts), 0);
-    record_memory_barrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+    vkCmdFillBuffer(commands, ray_counts_.handle(), 0, sizeof(shared::RayCounts), 0);
+    record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
         graphics_.device.shader_stages(), shader_access);
 }
 
-void Frame::record_read_ray_counts() const
+void Frame::record_read_ray_counts(VkCommandBuffer commands) const
 {
-    record_memory_barrier(commands_, graphics_.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT,
+    record_memory_barrier(commands, graphics_.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT,
         VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
     const VkBufferCopy region { 0, 0, sizeof(shared::RayCounts) };
-    vkCmdCopyBuffer(commands_, ray_counts_.handle(), read_ray_counts_.handle(), 1, &region);
-    record_memory_barrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+    vkCmdCopyBuffer(commands, ray_counts_.handle(), read_ray_counts_.handle(), 1, &region);
+    record_memory_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
         VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
@@ -286,12 +318,12 @@ shared::RayCounts Frame::read_ray_counts() const
     return counts;
 }
 
-bool Frame::read_radiance(float* rgb)
+bool Frame::read_radiance(const View& view, float* rgb)
 {
-    const size_t pixels = size_t(state_.size.x) * state_.size.y, bytes = pixels * sizeof(glm::vec4);
-    if (bytes == 0 || !state_.radiance)
+    const size_t pixels = size_t(view.size.x) * view.size.y, bytes = pixels * sizeof(glm::vec4);
+    if (bytes == 0 || !view.radiance)
         return false;
-    const Buffer copy = graphics_.read_back(*state_.radiance, bytes);
+    const Buffer copy = graphics_.read_back(*view.radiance, bytes);
     for (size_t i = 0; i < pixels; i++)
         std::memcpy(rgb + 3 * i, copy.mapped() + i * sizeof(glm::vec4), sizeof(glm::vec3));
     return true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The part of the frame that works across frames: the denoiser and its history. docs/denoiser.md explains the passes.
+#include "ref_vkpt/frame/antialiasing.hpp"
 #include "ref_vkpt/frame/denoiser.hpp"
 #include "ref_vkpt/frame/frame.hpp"
 #include "ref_vkpt/frame/frame_flags.hpp"
@@ -9,27 +10,6 @@
 namespace vkpt {
 
 namespace {
-
-// Halton's sequence (radical inverse of index + 1).
-float halton(uint32_t index, uint32_t base)
-{
-    float value = 0, digit = 1;
-    for (uint32_t rest = index + 1; rest > 0; rest /= base) {
-        digit /= float(base);
-        value += digit * float(rest % base);
-    }
-    return value;
-}
-
-// Fewer rendered pixels have more places each, so that all pixels of the result get their samples.
-glm::vec2 offset_in_pixel(uint32_t index, glm::uvec2 rendered, glm::uvec2 resolved)
-{
-    const uint64_t pixels = std::max<uint64_t>(1, uint64_t(rendered.x) * rendered.y);
-    constexpr uint64_t least = shared::OFFSETS_PER_PIXEL, most = 16 * least;
-    const uint64_t places = least * resolved.x * resolved.y / pixels;
-    index = uint32_t(index % std::clamp(places, least, most));
-    return { halton(index, 2), halton(index, 3) };
-}
 
 // Whether anything is seen through something that is lit itself: glass, water, translucent models.
 bool has_layers(const SceneSnapshot& scene)
@@ -44,15 +24,15 @@ bool has_layers(const SceneSnapshot& scene)
 
 // Fills what the filters' passes ask of the uniforms. An averaged view, and one without a world, stays as it is
 // sampled.
-void Frame::begin_filters(
-    shared::FrameUniforms& uniforms, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average)
+void Frame::begin_filters(shared::FrameUniforms& uniforms, View& view, const SceneSnapshot& scene,
+    const GpuWorld* gpu_world, bool average) const
 {
     if (!scene.world)
         return;
     const uint32_t flags = filter_flags();
     const bool antialiases = flags & shared::FRAME_ANTIALIASED;
     if (average || flags == 0) {
-        state_.history.forget();
+        view.history.forget();
         return;
     }
     if (flags & shared::FRAME_DENOISED)
@@ -60,8 +40,8 @@ void Frame::begin_filters(
     if (cvars::values().flt_taa == "upscale")
         uniforms.resolved_size = uniforms.output_size;
     if (antialiases) {
-        uniforms.offset_phase = state_.offset_index % shared::OFFSETS_PER_PIXEL;
-        uniforms.pixel_offset = offset_in_pixel(state_.offset_index++, uniforms.size, uniforms.resolved_size);
+        uniforms.offset_phase = view.offset_index % shared::OFFSETS_PER_PIXEL;
+        uniforms.pixel_offset = offset_in_pixel(view.offset_index++, uniforms.size, uniforms.resolved_size);
     }
     uniforms.flags |= flags | (has_layers(scene) ? shared::FRAME_LAYERED : 0);
     ViewHistory::Key key;
@@ -74,15 +54,15 @@ void Frame::begin_filters(
     key.time = scene.time;
     key.denoiser = uniforms.cvars.flt_denoiser;
     key.antialiases = antialiases;
-    const ViewHistory::Key& last = state_.history.continues_into(key) ? state_.history.last() : key;
+    const ViewHistory::Key& last = view.history.continues_into(key) ? view.history.last() : key;
     uniforms.flags |= &last != &key ? shared::FRAME_HISTORY : 0;
     uniforms.previous_camera = last.camera;
     uniforms.previous_size = last.size;
     uniforms.previous_scale = glm::vec2(last.size) / glm::vec2(key.size);
     uniforms.offset_change = last.pixel_offset - 0.5f - (key.pixel_offset - 0.5f) * uniforms.previous_scale;
-    state_.history.keep(key);
-    graphics_.screen.exchange_history();
-    uniforms.screen = graphics_.screen.rows();
+    view.history.keep(key);
+    view.buffers.exchange_history();
+    uniforms.screen = view.buffers.rows();
 }
 
 } // namespace vkpt

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "ref_vkpt/extension.hpp"
-#include "ref_vkpt/frame/pass_statistics.hpp"
+#include "ref_vkpt/pass_statistics.hpp"
 #include "ref_vkpt/vulkan/swapchain.hpp"
 
 #include <array>

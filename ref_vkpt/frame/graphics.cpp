@@ -70,8 +70,8 @@ void Graphics::renew_fence(Slot& slot)
 
 VkExtent2D Graphics::size() const
 {
-    if (screen.output())
-        return screen.output().size;
+    if (output)
+        return output.size;
     // Not what the engine asked for: on displays of high density a window has more pixels than that.
     const VkExtent2D window = window_ ? window_.drawable_size() : VkExtent2D {};
     return window.width > 0 && window.height > 0 ? window : headless_size_;
@@ -104,12 +104,21 @@ bool Graphics::follow_window()
             swapchain_outdated_ = !is_usable;
         }
     }
-    if (screen.output() && screen.output().size.width == wanted.width && screen.output().size.height == wanted.height)
+    if (output && output.size.width == wanted.width && output.size.height == wanted.height)
         return false;
     device.wait_idle();
-    swapchain_outdated_ |= screen.output() && swapchain_;
-    screen.resize_output(wanted);
+    swapchain_outdated_ |= output && swapchain_;
+    resize_output(wanted);
     return true;
+}
+
+// The device must be idle.
+void Graphics::resize_output(VkExtent2D size)
+{
+    output.words = Buffer(); // given back before the new one is asked for
+    output.words = Buffer(gpu, VkDeviceSize(size.width) * size.height * sizeof(uint32_t), BufferHome::device,
+        MemoryKind::images, "output");
+    output.size = size;
 }
 
 void Graphics::clear_output()
@@ -118,7 +127,7 @@ void Graphics::clear_output()
     record_memory_barrier(commands(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
         VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
         VK_ACCESS_TRANSFER_WRITE_BIT);
-    vkCmdFillBuffer(commands(), screen.output().words.handle(), 0, VK_WHOLE_SIZE, black);
+    vkCmdFillBuffer(commands(), output.words.handle(), 0, VK_WHOLE_SIZE, black);
     record_memory_barrier(commands(), VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT);
 }
@@ -126,7 +135,6 @@ void Graphics::clear_output()
 void Graphics::record_present()
 {
     const VkExtent2D extent = swapchain_->extent();
-    const OutputPicture& output = screen.output();
     const shared::PresentPush push { output.words.address(), present_words_.address(),
         { output.size.width, output.size.height }, { extent.width, extent.height }, swapchain_->format().packing };
     constexpr VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;

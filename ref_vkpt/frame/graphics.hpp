@@ -4,7 +4,7 @@
 #pragma once
 
 #include "ref_vkpt/frame/frame_timer.hpp"
-#include "ref_vkpt/frame/screen.hpp"
+#include "ref_vkpt/frame/view_buffers.hpp"
 #include "ref_vkpt/vulkan/pipelines.hpp"
 #include "ref_vkpt/vulkan/swapchain.hpp"
 #include "ref_vkpt/vulkan/uploader.hpp"
@@ -13,6 +13,15 @@
 #include <optional>
 
 namespace vkpt {
+
+// The picture that is shown: a word for each pixel, RGBA with red in the lowest byte, sRGB-encoded. A buffer rather
+// than an image, whose texels Mesa's CPU driver stores one after the other.
+struct OutputPicture {
+    Buffer words;
+    VkExtent2D size {};
+
+    explicit operator bool() const { return bool(words); }
+};
 
 struct GraphicsSettings {
     void* sdl_window = nullptr; // nullptr: pictures only
@@ -67,7 +76,7 @@ public:
     Uploader uploader { gpu };
     Bindings bindings { gpu };
     Pipelines pipelines;
-    Screen screen { gpu, bindings };
+    OutputPicture output;
     FrameTimer timer { device };
 
 private:
@@ -79,6 +88,7 @@ private:
     void create_slot(Slot& slot);
     void renew_fence(Slot& slot);
     bool follow_window();
+    void resize_output(VkExtent2D size);
     void clear_output();
     void record_present();
 

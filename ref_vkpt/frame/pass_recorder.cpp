@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/pass_recorder.hpp"
 
-#include "ref_vkpt/frame/pass_shaders.hpp"
-
 #include <cassert>
 
 namespace vkpt {
 
-void PassRecorder::begin(VkCommandBuffer commands, TraceBackend backend)
+void PassRecorder::begin(VkCommandBuffer commands, const ShaderChoice& choice)
 {
     commands_ = commands;
-    backend_ = backend;
+    choice_ = choice;
     read_ = written_ = 0;
 }
 
@@ -28,8 +26,8 @@ void PassRecorder::wait_for_what_it_uses(const Pass& pass)
 
 void PassRecorder::dispatch(const Pass& pass, const PassWork& work)
 {
-    const std::string shader = shader_of(pass, backend_);
-    if (is_ray_pipeline(pass, backend_)) {
+    const std::string shader = shader_of(pass, choice_);
+    if (is_ray_pipeline(pass, choice_)) {
         const RayPipeline& pipeline = graphics_.pipelines.ray(shader);
         vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.handle);
         vkCmdTraceRaysKHR(commands_, &pipeline.generation, &pipeline.miss, &pipeline.hit, &pipeline.callable,

@@ -5,8 +5,7 @@
 #pragma once
 
 #include "ref_vkpt/frame/graphics.hpp"
-#include "ref_vkpt/frame/pass_rows.hpp"
-#include "ref_vkpt/trace/backend.hpp"
+#include "ref_vkpt/frame/pass_shaders.hpp"
 
 #include <array>
 #include <cstring>
@@ -47,7 +46,7 @@ public:
     }
 
     // The commands that follow. Whatever ran before is visible to them.
-    void begin(VkCommandBuffer commands, TraceBackend backend);
+    void begin(VkCommandBuffer commands, const ShaderChoice& choice);
     // `step.push` has the size that the pass's row says.
     void record(const Pass& pass, const PassStep& step);
 
@@ -57,7 +56,7 @@ private:
 
     Graphics& graphics_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    TraceBackend backend_ = TraceBackend::software;
+    ShaderChoice choice_;
     PassResources read_ = 0, written_ = 0; // since the last barrier
 };
 

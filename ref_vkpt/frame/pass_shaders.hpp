@@ -10,10 +10,15 @@
 
 namespace vkpt {
 
-// By pt_light_sampler, where the pass chooses lights.
-std::string shader_of(const Pass& pass, TraceBackend backend);
+// Which of a pass's builds.
+struct ShaderChoice {
+    TraceBackend backend = TraceBackend::software;
+    std::string light_sampler;
+};
+
+std::string shader_of(const Pass& pass, const ShaderChoice& choice);
 // Whether that is a ray generation shader.
-bool is_ray_pipeline(const Pass& pass, TraceBackend backend);
+bool is_ray_pipeline(const Pass& pass, const ShaderChoice& choice);
 
 // The compute shaders of a world's frame with the present settings, those first that take longest to compile.
 std::vector<std::string> frame_shaders(TraceBackend backend);

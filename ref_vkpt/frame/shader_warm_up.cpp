@@ -4,7 +4,7 @@
 #include "ref_vkpt/engine/errors.hpp"
 #include "ref_vkpt/files/hash.hpp"
 #include "ref_vkpt/frame/scene_texels.hpp"
-#include "ref_vkpt/frame/screen.hpp"
+#include "ref_vkpt/frame/view_buffers.hpp"
 #include "shaders/shared/frame.h"
 
 #include <algorithm>

@@ -14,14 +14,6 @@ constexpr uint32_t rounds = 5;
 constexpr float ray_far = 1e6f;
 constexpr uint32_t ray_mask = shared::MASK_OPAQUE | shared::MASK_ALPHA_TEST | shared::MASK_SKY;
 
-TracedRay make_ray(glm::vec3 origin, glm::vec3 direction, float t_max)
-{
-    return { { origin.x, origin.y, origin.z }, 0, { direction.x, direction.y, direction.z }, t_max };
-}
-
-glm::vec3 origin_of(const TracedRay& ray) { return { ray.origin[0], ray.origin[1], ray.origin[2] }; }
-glm::vec3 direction_of(const TracedRay& ray) { return { ray.direction[0], ray.direction[1], ray.direction[2] }; }
-
 std::vector<TracedRay> camera_rays(const shared::Camera& camera)
 {
     std::vector<TracedRay> rays;
@@ -29,7 +21,7 @@ std::vector<TracedRay> camera_rays(const shared::Camera& camera)
         for (uint32_t x = 0; x < width; x++) {
             const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / glm::vec2(width, height) * 2.0f - 1.0f;
             rays.push_back(
-                make_ray(camera.eye, glm::normalize(camera.forward + camera.right * at.x - camera.up * at.y), ray_far));
+                { camera.eye, 0, glm::normalize(camera.forward + camera.right * at.x - camera.up * at.y), ray_far });
         }
     return rays;
 }
@@ -40,29 +32,28 @@ std::vector<TracedRay> next_rays(std::span<const TracedRay> rays, std::span<cons
 {
     std::minstd_rand random(1);
     std::uniform_real_distribution<float> uniform(-1, 1);
-    const auto place = [&](size_t i) {
-        return origin_of(rays[i]) + direction_of(rays[i]) * (std::min(hits[i].t, ray_far) * 0.999f - 0.1f);
-    };
+    const auto place
+        = [&](size_t i) { return rays[i].origin + rays[i].direction * (std::min(hits[i].t, ray_far) * 0.999f - 0.1f); };
     std::vector<TracedRay> next;
     for (size_t i = 0; i < rays.size(); i++) {
         const glm::vec3 from = place(i);
         glm::vec3 way(uniform(random), uniform(random), uniform(random));
         if (shadows)
             way = place(random() % rays.size()) - from;
-        else if (glm::dot(way, direction_of(rays[i])) > 0)
+        else if (glm::dot(way, rays[i].direction) > 0)
             way = -way;
         const float length = std::max(glm::length(way), 1e-3f);
-        next.push_back(make_ray(from, way / length, shadows ? length : ray_far));
+        next.push_back({ from, 0, way / length, shadows ? length : ray_far });
     }
     return next;
 }
 
 } // namespace
 
-double measure_trace_backend(Frame& frame, TraceBackend backend, SceneSnapshot& scene, const GpuWorld& gpu_world)
+double measure_trace_backend(const SceneQueries& queries, TraceBackend backend)
 {
-    const TraceBackend before = frame.trace_backend();
-    frame.set_trace_backend(backend);
+    const TraceBackend before = queries.frame.trace_backend();
+    queries.frame.set_trace_backend(backend);
     TraceRequest request;
     request.ray_mask = ray_mask;
     request.row_length = width;
@@ -70,15 +61,15 @@ double measure_trace_backend(Frame& frame, TraceBackend backend, SceneSnapshot& 
     double seconds = 0;
     const auto trace = [&](const std::vector<TracedRay>& rays) {
         std::vector<TracedHit> hits(rays.size());
-        seconds += frame.trace_rays(rays, request, scene, gpu_world, hits.data());
+        seconds += queries.trace_rays(rays, request, hits.data());
         return hits;
     };
-    const std::vector<TracedRay> primary = camera_rays(frame.last_view().camera);
+    const std::vector<TracedRay> primary = camera_rays(queries.view.viewpoint.camera);
     const std::vector<TracedHit> hits = trace(primary);
     trace(next_rays(primary, hits, false));
     request.visibility = true;
     trace(next_rays(primary, hits, true));
-    frame.set_trace_backend(before);
+    queries.frame.set_trace_backend(before);
     return seconds * 1e9 / (3.0 * width * height);
 }
 

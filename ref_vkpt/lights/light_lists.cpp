@@ -148,66 +148,66 @@ bool is_same_place(const Emitter& a, const Emitter& b)
 
 void LightLists::build(const Bsp& bsp, std::span<const shared::Emitter> static_emitters)
 {
-    bsp_ = &bsp;
-    cluster_count_ = size_t(std::max(bsp.cluster_count, 0));
-    static_emitter_count_ = static_emitters.size();
-    unlisted_static_count_ = 0;
-    tree_ = compact_tree(bsp);
-    build_visibility(bsp);
-    build_cluster_bounds(bsp);
-    build_static_lists(static_emitters);
+    const auto fixed = std::make_shared<Fixed>();
+    fixed->bsp = &bsp;
+    fixed->cluster_count = size_t(std::max(bsp.cluster_count, 0));
+    fixed->static_emitter_count = static_emitters.size();
+    fixed->tree = compact_tree(bsp);
+    fixed->build_visibility();
+    fixed->build_cluster_bounds();
+    lists_ = fixed->build_static_lists(static_emitters);
+    fixed_ = fixed;
     placed_.clear();
     flatten();
     update({});
 }
 
 // A compiler's PVS is meant to be symmetric but is computed for each direction: what either says is seen is listed.
-void LightLists::build_visibility(const Bsp& bsp)
+void LightLists::Fixed::build_visibility()
 {
-    visible_from_.clear();
-    for (size_t cluster = 0; cluster < cluster_count_; cluster++)
-        visible_from_.push_back(bsp.pvs(int(cluster)));
+    for (size_t cluster = 0; cluster < cluster_count; cluster++)
+        visible_from.push_back(bsp->pvs(int(cluster)));
     // In squares of eight clusters by eight, and in tiles of such, whose sets stay in the cache.
     constexpr size_t tile = 64;
-    const size_t squares = (cluster_count_ + 7) / 8;
+    const size_t squares = (cluster_count + 7) / 8;
     for (size_t first_row = 0; first_row < squares; first_row += tile)
         for (size_t first_column = 0; first_column <= first_row; first_column += tile)
             for (size_t row = first_row; row < std::min(first_row + tile, squares); row++)
                 for (size_t column = first_column; column <= std::min(first_column + tile - 1, row); column++)
-                    unite_across_diagonal(visible_from_, row, column);
+                    unite_across_diagonal(visible_from, row, column);
 }
 
-void LightLists::build_cluster_bounds(const Bsp& bsp)
+void LightLists::Fixed::build_cluster_bounds()
 {
-    cluster_mins_.assign(cluster_count_, glm::vec3(1e30f));
-    cluster_maxs_.assign(cluster_count_, glm::vec3(-1e30f));
-    for (const formats::BspLeaf& leaf : bsp.leaves) {
-        if (leaf.cluster < 0 || size_t(leaf.cluster) >= cluster_count_)
+    cluster_mins.assign(cluster_count, glm::vec3(1e30f));
+    cluster_maxs.assign(cluster_count, glm::vec3(-1e30f));
+    for (const formats::BspLeaf& leaf : bsp->leaves) {
+        if (leaf.cluster < 0 || size_t(leaf.cluster) >= cluster_count)
             continue;
-        glm::vec3& mins = cluster_mins_[size_t(leaf.cluster)];
-        glm::vec3& maxs = cluster_maxs_[size_t(leaf.cluster)];
+        glm::vec3& mins = cluster_mins[size_t(leaf.cluster)];
+        glm::vec3& maxs = cluster_maxs[size_t(leaf.cluster)];
         mins = glm::min(mins, glm::vec3(leaf.mins[0], leaf.mins[1], leaf.mins[2]) - bounds_tolerance);
         maxs = glm::max(maxs, glm::vec3(leaf.maxs[0], leaf.maxs[1], leaf.maxs[2]) + bounds_tolerance);
     }
 }
 
-void LightLists::build_static_lists(std::span<const shared::Emitter> emitters)
+std::vector<shared::LightList> LightLists::Fixed::build_static_lists(std::span<const shared::Emitter> emitters)
 {
-    WorkLimit entries(*bsp_, most_entries, "entries in its light lists"),
-        work(*bsp_, most_steps, "steps to find what its lights can reach");
-    sky_receivers_ = ClusterSet(cluster_count_);
-    std::vector<std::vector<uint32_t>> members(cluster_count_);
+    WorkLimit entries(*bsp, most_entries, "entries in its light lists"),
+        work(*bsp, most_steps, "steps to find what its lights can reach");
+    sky_receivers = ClusterSet(cluster_count);
+    std::vector<std::vector<uint32_t>> members(cluster_count);
     ClusterSet receivers;
     for (uint32_t i = 0; i < emitters.size(); i++) {
         uint64_t steps = 0, count = 0;
         const bool found = find_receivers(emitters[i], receivers, steps);
         work.spend(std::exchange(steps, 0), "emitter", i);
         if (!found) {
-            unlisted_static_count_ += cluster_count_ > 0;
+            unlisted_static_count += cluster_count > 0;
             continue;
         }
         if (emitters[i].type == shared::EMITTER_SKY)
-            sky_receivers_.merge(receivers);
+            sky_receivers.merge(receivers);
         for_each_cluster(receivers, [&](size_t cluster) {
             steps++;
             if (!reaches(emitters[i], cluster))
@@ -219,30 +219,30 @@ void LightLists::build_static_lists(std::span<const shared::Emitter> emitters)
         entries.spend(count, "emitter", i);
     }
 
-    lists_.assign(cluster_count_ + 1, shared::LightList {});
-    static_indices_.clear();
-    for (size_t cluster = 0; cluster < cluster_count_; cluster++) {
-        lists_[cluster].first_static = uint32_t(static_indices_.size());
-        lists_[cluster].static_count = uint32_t(members[cluster].size());
-        static_indices_.insert(static_indices_.end(), members[cluster].begin(), members[cluster].end());
+    std::vector<shared::LightList> lists(cluster_count + 1);
+    for (size_t cluster = 0; cluster < cluster_count; cluster++) {
+        lists[cluster].first_static = uint32_t(static_indices.size());
+        lists[cluster].static_count = uint32_t(members[cluster].size());
+        static_indices.insert(static_indices.end(), members[cluster].begin(), members[cluster].end());
     }
-    lists_.back().first_static = uint32_t(static_indices_.size());
-    lists_.back().static_count = uint32_t(emitters.size());
+    lists.back().first_static = uint32_t(static_indices.size());
+    lists.back().static_count = uint32_t(emitters.size());
     for (uint32_t i = 0; i < emitters.size(); i++)
-        static_indices_.push_back(i);
+        static_indices.push_back(i);
+    return lists;
 }
 
-bool LightLists::find_receivers(const shared::Emitter& emitter, ClusterSet& receivers, uint64_t& steps) const
+bool LightLists::Fixed::find_receivers(const shared::Emitter& emitter, ClusterSet& receivers, uint64_t& steps) const
 {
     if (emitter.type == shared::EMITTER_SUN) {
-        receivers = sky_receivers_;
+        receivers = sky_receivers;
         return true;
     }
-    receivers = ClusterSet(cluster_count_);
+    receivers = ClusterSet(cluster_count);
     for (const float lift : lifts) {
-        const std::vector<int> touched = find_touched_clusters(*bsp_, emitter, lift, steps);
+        const std::vector<int> touched = find_touched_clusters(*bsp, emitter, lift, steps);
         for (const int cluster : touched)
-            receivers.merge(visible_from_[size_t(cluster)]);
+            receivers.merge(visible_from[size_t(cluster)]);
         steps += (touched.size() + 1) * (receivers.bytes().size() / bytes_per_step + 1);
         if (!touched.empty())
             return true;
@@ -250,10 +250,10 @@ bool LightLists::find_receivers(const shared::Emitter& emitter, ClusterSet& rece
     return false;
 }
 
-bool LightLists::reaches(const shared::Emitter& emitter, size_t cluster) const
+bool LightLists::Fixed::reaches(const shared::Emitter& emitter, size_t cluster) const
 {
     if (emitter.reach > 0) {
-        const glm::vec3 nearest = glm::clamp(emitter.p0, cluster_mins_[cluster], cluster_maxs_[cluster]);
+        const glm::vec3 nearest = glm::clamp(emitter.p0, cluster_mins[cluster], cluster_maxs[cluster]);
         const glm::vec3 offset = nearest - emitter.p0;
         if (!(glm::dot(offset, offset) <= emitter.reach * emitter.reach))
             return false;
@@ -263,7 +263,7 @@ bool LightLists::reaches(const shared::Emitter& emitter, size_t cluster) const
     return is_sphere(emitter) || has_in_front(emitter, cluster_bounds(cluster));
 }
 
-bool LightLists::place(Placed& placed, const Emitter& emitter, size_t most) const
+bool LightLists::Fixed::place(Placed& placed, const Emitter& emitter, size_t most) const
 {
     placed.emitter = emitter;
     placed.clusters.clear();
@@ -275,7 +275,7 @@ bool LightLists::place(Placed& placed, const Emitter& emitter, size_t most) cons
     uint64_t steps = 0;
     // What moves may be inside a wall for a moment, or be an effect at a wall: then it may be seen from anywhere.
     if (!find_receivers(emitter, receivers, steps))
-        for (size_t cluster = 0; cluster < cluster_count_; cluster++)
+        for (size_t cluster = 0; cluster < cluster_count; cluster++)
             receivers.insert(int(cluster));
     for_each_cluster(receivers, [&](size_t cluster) {
         if (reaches(emitter, cluster))
@@ -301,7 +301,7 @@ void LightLists::update(std::span<const Emitter> dynamic_emitters)
         Placed& placed = placed_[i];
         const bool stays = is_same_place(placed.emitter, dynamic_emitters[i]), was_left_out = placed.is_left_out;
         if (!stays || was_left_out || placed.clusters.size() > room) {
-            placed.is_left_out = !place(placed, dynamic_emitters[i], room);
+            placed.is_left_out = !fixed_->place(placed, dynamic_emitters[i], room);
             changed_ |= !stays || !was_left_out || !placed.is_left_out;
         }
         unlisted_dynamic_count_ += placed.is_left_out;
@@ -317,10 +317,10 @@ void LightLists::update(std::span<const Emitter> dynamic_emitters)
 LightLists::Repeated LightLists::repeat() const
 {
     if (!changed_)
-        return { lists_, dynamic_indices_, static_emitter_count_ + placed_.size() };
+        return { lists_, dynamic_indices_, fixed_->static_emitter_count + placed_.size() };
     Repeated result;
     result.lists = lists_;
-    result.emitter_count = static_emitter_count_ + std::max(placed_.size(), previous_dynamic_count_);
+    result.emitter_count = fixed_->static_emitter_count + std::max(placed_.size(), previous_dynamic_count_);
     for (size_t i = 0; i < lists_.size(); i++) {
         const auto before = std::span(previous_dynamic_indices_)
                                 .subspan(previous_lists_[i].first_dynamic, previous_lists_[i].dynamic_count);
@@ -356,7 +356,7 @@ void LightLists::flatten()
     }
     dynamic_indices_.resize(first);
     for_each_entry([&](shared::LightList& list, uint32_t i) {
-        dynamic_indices_[list.first_dynamic + list.dynamic_count++] = uint32_t(static_emitter_count_ + i);
+        dynamic_indices_[list.first_dynamic + list.dynamic_count++] = uint32_t(fixed_->static_emitter_count + i);
     });
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Per PVS cluster, the emitters that can light it: sorted ascending by emitter index, free of duplicates.
+// Per PVS cluster, the emitters that can light it: sorted ascending by emitter index, free of duplicates. A map has its
+// lists of static emitters; a view goes on with a copy, which shares what never changes and adds the view's own lights.
 #pragma once
 
 #include "formats/bsp.hpp"
 #include "shaders/shared/scene.h"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -16,9 +18,9 @@ struct Bounds {
 
 class LightLists {
 public:
-    // At map load. An emitter lists in every cluster that the PVS lets see any cluster which it touches, unless all of it
-    // is behind the emitter. The map must live as long as update() is called. Throws formats::FormatError where the lists
-    // would be far longer than a map of its size may make them.
+    // At map load. An emitter lists in every cluster that the PVS lets see any cluster which it touches, unless all of
+    // it is behind the emitter. The map must live as long as update() is called. Throws formats::FormatError where the
+    // lists would be far longer than a map of its size may make them.
     void build(const formats::Bsp& bsp, std::span<const shared::Emitter> static_emitters);
     // Each frame: dynamic emitters get indices static_count + i. Emitters with a reach list only where it extends to,
     // dark ones (radiance 0) nowhere. Where in the map an emitter can be seen is looked up again only if it has moved;
@@ -29,7 +31,7 @@ public:
     // Index = cluster; one more entry at the end, for points outside every cluster: it holds all emitters.
     const std::vector<shared::LightList>& lists() const { return lists_; }
     // Changed by build only: upload once.
-    const std::vector<uint32_t>& static_indices() const { return static_indices_; }
+    const std::vector<uint32_t>& static_indices() const { return fixed_->static_indices; }
     const std::vector<uint32_t>& dynamic_indices() const { return dynamic_indices_; }
     // Length of every list before the last update: a list that grows or shrinks changes the strides of subset samplers,
     // and who replays last frame's choices needs the length that they were made with.
@@ -47,47 +49,55 @@ public:
         size_t emitter_count = 0; // static and dynamic, before or after the update
     };
     Repeated repeat() const;
-    size_t static_emitter_count() const { return static_emitter_count_; }
+    size_t static_emitter_count() const { return fixed_->static_emitter_count; }
     // Holds all points of the cluster.
-    Bounds cluster_bounds(size_t cluster) const { return { cluster_mins_[cluster], cluster_maxs_[cluster] }; }
+    Bounds cluster_bounds(size_t cluster) const { return fixed_->cluster_bounds(cluster); }
     // Static emitters that touch no cluster (they lie in solid): only the list for outside holds them.
-    size_t unlisted_static_count() const { return unlisted_static_count_; }
+    size_t unlisted_static_count() const { return fixed_->unlisted_static_count; }
     // Dynamic emitters that found no more room in the last update.
     size_t unlisted_dynamic_count() const { return unlisted_dynamic_count_; }
     // The busiest of a hundred maps need some 50,000. What moves may be thousands of lights in thousands of clusters, every frame.
     static constexpr size_t most_dynamic_entries = 1 << 21;
     // The tree that shaders descend to find a point's cluster. Node 0 is the root.
-    const std::vector<shared::BspTreeNode>& tree() const { return tree_; }
+    const std::vector<shared::BspTreeNode>& tree() const { return fixed_->tree; }
 
 private:
-    void build_visibility(const formats::Bsp& bsp);
-    void build_cluster_bounds(const formats::Bsp& bsp);
-    void build_static_lists(std::span<const shared::Emitter> emitters);
-    // The clusters from which `emitter` can be seen. False: it touches no cluster; then the set is empty. `steps` grows by
-    // what that took.
-    bool find_receivers(const shared::Emitter& emitter, formats::ClusterSet& receivers, uint64_t& steps) const;
     // One dynamic emitter as of the last update, and the clusters that list it, ascending.
     struct Placed {
         shared::Emitter emitter {};
         std::vector<uint32_t> clusters;
         bool is_left_out = false;
     };
-    // False: the clusters are more than `most`, and not kept.
-    bool place(Placed& placed, const shared::Emitter& emitter, size_t most) const;
-    void flatten();
-    // Whether light of the emitter can arrive anywhere in the cluster, were nothing in between.
-    bool reaches(const shared::Emitter& emitter, size_t cluster) const;
+    // What build() finds out.
+    struct Fixed {
+        const formats::Bsp* bsp = nullptr;
+        size_t cluster_count = 0;
+        size_t static_emitter_count = 0;
+        size_t unlisted_static_count = 0;
+        std::vector<uint32_t> static_indices;
+        std::vector<shared::BspTreeNode> tree;
+        std::vector<formats::ClusterSet> visible_from; // PVS rows, kept decompressed and made symmetric
+        formats::ClusterSet sky_receivers; // clusters from which sky faces may be seen: what a sun can light
+        std::vector<glm::vec3> cluster_mins, cluster_maxs;
 
-    const formats::Bsp* bsp_ = nullptr;
-    size_t cluster_count_ = 0;
-    size_t static_emitter_count_ = 0;
-    size_t unlisted_static_count_ = 0, unlisted_dynamic_count_ = 0;
+        void build_visibility();
+        void build_cluster_bounds();
+        std::vector<shared::LightList> build_static_lists(std::span<const shared::Emitter> emitters);
+        // The clusters from which `emitter` can be seen. False: it touches no cluster; then the set is empty. `steps`
+        // grows by what that took.
+        bool find_receivers(const shared::Emitter& emitter, formats::ClusterSet& receivers, uint64_t& steps) const;
+        // False: the clusters are more than `most`, and not kept.
+        bool place(Placed& placed, const shared::Emitter& emitter, size_t most) const;
+        // Whether light of the emitter can arrive anywhere in the cluster, were nothing in between.
+        bool reaches(const shared::Emitter& emitter, size_t cluster) const;
+        Bounds cluster_bounds(size_t cluster) const { return { cluster_mins[cluster], cluster_maxs[cluster] }; }
+    };
+    void flatten();
+
+    std::shared_ptr<const Fixed> fixed_ = std::make_shared<Fixed>();
     std::vector<shared::LightList> lists_;
-    std::vector<uint32_t> static_indices_, dynamic_indices_;
-    std::vector<shared::BspTreeNode> tree_;
-    std::vector<formats::ClusterSet> visible_from_; // PVS rows, kept decompressed and made symmetric
-    formats::ClusterSet sky_receivers_; // clusters from which sky faces may be seen: what a sun can light
-    std::vector<glm::vec3> cluster_mins_, cluster_maxs_;
+    std::vector<uint32_t> dynamic_indices_;
+    size_t unlisted_dynamic_count_ = 0;
     std::vector<Placed> placed_; // by dynamic index
     std::vector<uint32_t> previous_lengths_;
     std::vector<shared::LightList> previous_lists_;

@@ -56,8 +56,8 @@ std::vector<std::string> choices_of(const Row& row)
         for (const Preset& preset : presets())
             choices.push_back(preset.name);
     } else if (std::string_view(row.cvar) == "pt_light_sampler") {
-        const auto names = light_sampler_names();
-        choices.assign(names.begin(), names.end());
+        for (const LightSampler& sampler : light_samplers())
+            choices.emplace_back(sampler.name);
     } else {
         std::string_view rest = find_cvar_row(row.cvar)->choices;
         while (!rest.empty()) {

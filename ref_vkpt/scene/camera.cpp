@@ -19,7 +19,7 @@ float tangent_of_half(float degrees) { return std::tan(glm::radians(std::clamp(d
 
 } // namespace
 
-bool is_same(const View& a, const View& b)
+bool is_same(const Viewpoint& a, const Viewpoint& b)
 {
     // Plain floats without padding.
     static_assert(sizeof(shared::Camera) == 12 * sizeof(float));
@@ -27,9 +27,9 @@ bool is_same(const View& a, const View& b)
         && a.blend == b.blend && a.underwater == b.underwater;
 }
 
-View make_view(const engine::RefDef& refdef, VkExtent2D picture)
+Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D picture)
 {
-    View view;
+    Viewpoint view;
     const Axes axes = angle_vectors(to_vec3(refdef.view_angles));
     view.camera.eye = to_vec3(refdef.view_origin);
     view.camera.forward = axes.forward;

@@ -10,6 +10,6 @@
 namespace vkpt {
 
 // `picture`: the size of the whole picture, to which the view's rectangle is clipped.
-View make_view(const engine::RefDef& refdef, VkExtent2D picture);
+Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D picture);
 
 } // namespace vkpt

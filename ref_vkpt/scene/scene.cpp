@@ -6,8 +6,8 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/files/output_folder.hpp"
-#include "ref_vkpt/frame/pass_statistics.hpp"
 #include "ref_vkpt/lights/luminance.hpp"
+#include "ref_vkpt/pass_statistics.hpp"
 #include "ref_vkpt/scene/entities.hpp"
 
 #include <algorithm>
@@ -31,14 +31,14 @@ bool ends_with(std::string_view name, std::string_view ending)
 }
 
 // Emitters in an order that lasts over the frames, and the lists of those that can light each cluster.
-void list_lights(SceneSnapshot& snapshot, World& world)
+void list_lights(SceneSnapshot& snapshot, const World& world, ViewLights& lights)
 {
     const CpuTimer timer("cpu lights");
-    snapshot.moving.move_emitters(
-        int(world.models[0].emitters.size()), world.dynamic_lights.arrange(snapshot.emitters));
-    world.light_lists.update(snapshot.emitters);
-    const size_t unlisted = world.light_lists.unlisted_dynamic_count();
-    if (unlisted > 0 && !std::exchange(world.said_unlisted, true))
+    snapshot.moving.move_emitters(int(world.models[0].emitters.size()), lights.dynamic.arrange(snapshot.emitters));
+    lights.lists.update(snapshot.emitters);
+    snapshot.light_lists = &lights.lists;
+    const size_t unlisted = lights.lists.unlisted_dynamic_count();
+    if (unlisted > 0 && !std::exchange(lights.said_unlisted, true))
         engine::print(
             "vkpt: {}: its moving lights make more than {} entries in the light lists; {} of them light nothing now",
             world.bsp.name, LightLists::most_dynamic_entries, unlisted);
@@ -337,7 +337,7 @@ std::vector<engine::Entity> Scene::find_player_body(const engine::RefDef& refdef
     return player_body_.stand(refdef, *world_, cvars.skin, registered);
 }
 
-SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef)
+SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef, ViewLights& lights)
 {
     const CvarValues& cvars = cvars::values();
     SceneSnapshot snapshot;
@@ -369,7 +369,7 @@ SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef)
     }
     add_entities(snapshot, refdef, player_body, textures_, defaults);
     if (snapshot.world)
-        list_lights(snapshot, *world_);
+        list_lights(snapshot, *world_, lights);
     return snapshot;
 }
 

@@ -5,6 +5,7 @@
 #include "formats/light_code.hpp"
 #include "formats/model.hpp"
 #include "ref_vkpt/engine/contract.hpp"
+#include "ref_vkpt/lights/view_lights.hpp"
 #include "ref_vkpt/scene/player_body.hpp"
 #include "ref_vkpt/scene/material_library.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
@@ -57,14 +58,14 @@ public:
 
     // nullptr before the first map.
     const std::string& map_path() const { return map_path_; } // "maps/NAME.bsp"
-    World* world() { return world_.get(); }
     const World* world() const { return world_.get(); }
 
     MaterialLibrary& materials() { return materials_; }
     const MaterialLibrary& materials() const { return materials_; }
 
-    // The scene of a refdef. RDF_NOWORLDMODEL: models alone, with a light of their own.
-    SceneSnapshot take_snapshot(const engine::RefDef& refdef);
+    // The scene of a refdef. RDF_NOWORLDMODEL: models alone, with a light of their own; then `lights` stay as they are.
+    // Else they go on by a frame, from one of this map to the next, and the snapshot refers to them.
+    SceneSnapshot take_snapshot(const engine::RefDef& refdef, ViewLights& lights);
 
     void print_models() const;
 

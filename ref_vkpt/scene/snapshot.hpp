@@ -21,7 +21,9 @@ struct MovingThing {
 
 struct SceneSnapshot {
     const World* world = nullptr; // nullptr: models alone (menus)
-    // What moves: ids continue after the world's triangles, emitters after the world's emitters, materials after the world's.
+    const LightLists* light_lists = nullptr; // of the view, where there is a world: as they are with these emitters
+    // What moves: ids continue after the world's triangles, emitters after the world's emitters, materials after the
+    // world's.
     MovingGeometry moving;
     std::vector<MovingThing> things; // of `moving`, in its order
     std::vector<shared::Emitter> emitters;
@@ -31,21 +33,16 @@ struct SceneSnapshot {
     shared::Sky sky {};
     bool has_alpha_test = false;
     float time = 0; // seconds of the game
-    // The map's light lists as they were at that moment; `lists` empty: they still are. See select_view.
-    struct KeptLights {
-        std::vector<shared::LightList> lists;
-        std::vector<uint32_t> dynamic_indices;
-    } kept_lights;
 };
 
 // The camera and its place in the picture.
-struct View {
+struct Viewpoint {
     shared::Camera camera {};
     glm::ivec2 origin { 0 }; // in the picture
     glm::uvec2 size { 0 };
     glm::vec4 blend { 0 };
     bool underwater = false;
 };
-bool is_same(const View& a, const View& b);
+bool is_same(const Viewpoint& a, const Viewpoint& b);
 
 } // namespace vkpt

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A map as the renderer sees it: triangles, materials and emitters of the world and of its brush models. No Vulkan in here.
+// A map as the renderer sees it: triangles, materials and emitters of the world and of its brush models. Nothing of it
+// changes once it is loaded. No Vulkan in here.
 #pragma once
 
 #include "formats/bsp.hpp"
 #include "ref_vkpt/lights/animated_lights.hpp"
-#include "ref_vkpt/lights/dynamic_lights.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "ref_vkpt/lights/suns.hpp"
@@ -30,7 +30,7 @@ inline constexpr uint32_t lightstyle_count = 260; // and then those of World::an
 // Geometry of the world (model 0) or of a brush model, in model space.
 struct MapGeometry {
     std::vector<shared::Triangle> triangles; // material = texinfo; emitter = index into `emitters`
-    std::vector<uint32_t> masks;             // MASK_* per triangle
+    std::vector<uint32_t> masks; // MASK_* per triangle
     std::vector<uint8_t> has_holes; // per triangle, 1: the alpha of one of its pictures decides what is met
     std::vector<shared::Emitter> emitters;
     bool has_alpha_test = false;
@@ -40,7 +40,7 @@ struct MapGeometry {
 struct WorldPicture {
     uint32_t slot = 0, packed_size = 0x10001; // see Texture
     int width = 64, height = 64; // texels of texinfo space
-    glm::vec3 average { 0.5f };  // linear
+    glm::vec3 average { 0.5f }; // linear
     bool has_alpha = false;
     bool missing = false; // a stand-in
     std::vector<BrightPart> parts;
@@ -62,21 +62,20 @@ struct World {
     std::vector<BrushMesh> brush_meshes; // of `models`; [0] is empty
     std::vector<WorldPicture> pictures; // per texinfo
     std::vector<std::string> material_names; // per texinfo
-    std::vector<glm::vec3> emission;    // per texinfo: Material::emission
+    std::vector<glm::vec3> emission; // per texinfo: Material::emission
     std::vector<Sun> suns;
     AnimatedLights animated_lights { lightstyle_count };
-    LightLists light_lists;
-    bool said_unlisted = false; // that some moving lights found no room there
-    DynamicLights dynamic_lights;
+    LightLists light_lists; // of the map's own emitters
     // Of model 0: made on a thread of its own while pictures and models are read.
     const Bvh& bvh() const { return bvh_future.get(); }
     std::shared_future<Bvh> bvh_future; // behind `models`, which it reads
-    // Mean luminance of the sky faces that the map's author gave a light value; 0: none. Their sky is as bright as that.
+    // Mean luminance of the sky faces that the map's author gave a light value; 0: none. Their sky is as bright as
+    // that.
     float lit_sky_luminance = 0;
     std::vector<std::string> messages; // what could not be used; for the console
 
-    // The materials of a moment: [0, n) animate with time; [n, 2n) show each texinfo's own picture, for brush models that
-    // choose their picture by frame (see animation_frame).
+    // The materials of a moment: [0, n) animate with time; [n, 2n) show each texinfo's own picture, for brush models
+    // that choose their picture by frame (see animation_frame).
     std::vector<shared::Material> make_materials(float time, const MaterialDefaults& defaults) const;
     size_t material_count() const { return bsp.texinfos.size() * 2; }
     // The material that a brush model's frame shows in place of texinfo material `texinfo`.

@@ -8,9 +8,16 @@
 
 namespace vkpt {
 
-// SPIR-V; empty: no such shader. Names: "tone_map.comp"; where a light sampler is part of a pass: "direct_light.comp:subset".
+// SPIR-V; empty: no such shader. Names: "tone_map.comp"; where a light sampler is part of a pass:
+// "direct_light.comp:subset".
 std::span<const uint32_t> find_shader(std::string_view name);
 // The light samplers that the build found, sorted.
-std::span<const std::string_view> light_sampler_names();
+struct LightSampler {
+    const char* name;
+    uint32_t traits; // SAMPLER_* of shaders/shared/light_sampler.h
+};
+std::span<const LightSampler> light_samplers();
+// nullptr: there is none of that name.
+const LightSampler* find_light_sampler(std::string_view name);
 
 } // namespace vkpt

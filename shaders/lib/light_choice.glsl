@@ -15,6 +15,8 @@
 #include "selected_light_sampler.glsl"
 #endif
 
+const bool light_sampler_mis = (light_sampler_traits & SAMPLER_MIS) != 0u;
+
 LightOptions light_options()
 {
     return LightOptions(uint(frame.cvars.pt_light_subset), frame.cvars.pt_light_weight, frame.cvars.pt_light_point,

@@ -66,6 +66,14 @@ LightListView open_light_list(LightTables tables, int cluster)
     return list;
 }
 
+// A list as an older sample is to meet it: its lights at their old places, `counted` of them.
+LightListView open_repeated_list(LightTables tables, int cluster, LightIndexBuffer previous_lengths)
+{
+    LightListView list = open_light_list(tables, cluster);
+    list.counted = previous_lengths.v[list.index];
+    return list;
+}
+
 uint light_count(LightListView list)
 {
     return list.range.static_count + list.range.dynamic_count;
@@ -101,6 +109,8 @@ LightListView counted_lights(LightListView list)
     return list;
 }
 
+bool has_newcomers(LightListView list) { return list.counted < light_count(list); }
+
 LightListView newcomers(LightListView list)
 {
     list.range.first_dynamic += list.counted - list.range.static_count;
@@ -122,6 +132,15 @@ LightListView dynamic_lights(LightListView list)
 {
     list.counted -= list.range.static_count;
     list.range.static_count = 0u;
+    return list;
+}
+
+// `count` static indices from the `first` after the list's own on, and no dynamic light.
+LightListView static_run(LightListView list, uint first, uint count)
+{
+    list.range.first_static += first;
+    list.range.static_count = list.counted = count;
+    list.range.dynamic_count = 0u;
     return list;
 }
 

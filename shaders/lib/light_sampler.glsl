@@ -1,31 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What every light sampler shares. A sampler is one file shaders/light_samplers/NAME.glsl; NAME is the value of
-// pt_light_sampler. The file includes this one and defines
-//
-//     const bool light_sampler_mis
-//         true: BSDF rays that meet an emitter count, too, and both are weighted by mis_share (lib/lighting.glsl).
-//         false: light sampling alone accounts for the lists' emitters.
-//     LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
-//         Picks an emitter of the list for surface `s`. Its report makes f(point) / (density of the point * probability)
-//         an unbiased estimate of the light of all emitters. Nothing to pick: no_light().
-//     float light_probability(LightListView list, Surface s, uint emitter, LightRandom random, LightOptions options)
-//         The probability with which sample_light picks `emitter` (0: never, or not in the list), all random choices that
-//         do not decide about this emitter taken as given by `random`. Averaged over `random` it is the frequency.
-//     #define VKPT_NEWCOMERS_APART, before this file, without MIS only
-//         What it reports depends on the list's length whatever the lights: where an older sample is repeated, it is asked about
-//         the lights that its list held, and once more about those that have come.
-//
-// What MIS asks for (section 47.5.3): let `random` consist of some numbers U that the probability depends on and of others
-// that it is averaged over. Then sample_light must report light_probability of what it picked, for the same U, and the two
-// functions may be called with different random numbers: for each emitter, E[report; picked] over sample_light and
-// E[light_probability ...] weigh the same point alike. A sampler for which the reported probability is not the average over
-// all choices that bring the emitter in is biased under MIS (subset_mis_biased shows it).
-//
-// Lists are sorted ascending by emitter index and hold no emitter twice. light_contribution() is the weight to choose by.
-// Files must compile as GLSL and as C++ (shared/functions.h); the tests check every file that the build finds.
+// What light samplers share. shared/light_sampler.h is the contract that each fulfils.
 #ifndef VKPT_LIB_LIGHT_SAMPLER
 #define VKPT_LIB_LIGHT_SAMPLER
 
+#include "../shared/light_sampler.h"
 #include "bsdf.glsl"
 #include "emitters.glsl"
 #include "light_lists.glsl"

@@ -15,6 +15,8 @@ uint subset_stride(uint count, uint subset_length)
     return max(divide_whole(count + length_limit - 1u, length_limit), 1u);
 }
 
+uint subset_stride(LightListView list, uint subset_length) { return subset_stride(list.counted, subset_length); }
+
 // One number decides the subset, and what remains of it the light in the subset: each light owns one interval.
 struct SubsetChoice {
     uint stride; // S
@@ -29,6 +31,11 @@ SubsetChoice choose_subset(uint count, float xi, uint subset_length)
     choice.offset = choose_uniformly(xi, choice.stride);
     choice.rest = quick_clamp(xi * float(choice.stride) - float(choice.offset), 0.0f, max_below_one);
     return choice;
+}
+
+SubsetChoice choose_subset(LightListView list, float xi, uint subset_length)
+{
+    return choose_subset(list.counted, xi, subset_length);
 }
 
 // The sums of the weights so far. CPU drivers write an array lane by lane, which took a seventh of the time of weighing a light,
@@ -90,7 +97,7 @@ LightSample sample_strided_subset(LightListView list, Surface s, LightRandom ran
 {
     if (light_count(list) == 0u)
         return no_light();
-    SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
+    SubsetChoice choice = choose_subset(list, random.light, options.subset_length);
     return sample_subset_in_two_sweeps(list, make_predictor(s, options), choice, make_reservoir(0.0f), random);
 }
 
@@ -116,8 +123,8 @@ struct PartChoices {
 PartChoices choose_parts(LightListView list, float xi, uint subset_length)
 {
     PartChoices choices;
-    choices.of_static = choose_subset(static_lights(list).counted, xi, subset_length);
-    choices.of_dynamic = choose_subset(dynamic_lights(list).counted, choices.of_static.rest, subset_length);
+    choices.of_static = choose_subset(static_lights(list), xi, subset_length);
+    choices.of_dynamic = choose_subset(dynamic_lights(list), choices.of_static.rest, subset_length);
     choices.of_static.rest = choices.of_dynamic.rest;
     return choices;
 }
@@ -180,7 +187,7 @@ float strided_subset_probability(LightListView list, LightPredictor predictor, u
     int place = find_light(list, emitter);
     if (place < 0)
         return 0.0f;
-    uint stride = subset_stride(list.counted, subset_length);
+    uint stride = subset_stride(list, subset_length);
     float mass = weigh_light(list, predictor, uint(place));
     float total = weigh_lights(list, predictor, remainder_whole(uint(place), stride), stride);
     return mass > 0.0f ? mass / (total * float(stride)) : 0.0f;
@@ -194,7 +201,7 @@ LightSample sample_independent_strides(
     uint count = light_count(list);
     if (count == 0u)
         return no_light();
-    uint stride = subset_stride(list.counted, subset_length);
+    uint stride = subset_stride(list, subset_length);
     uint state = start_fast_random(random.more);
     Reservoir reservoir = make_reservoir(random.light);
     for (uint first = 0u; first < count; first += stride) {
@@ -216,7 +223,7 @@ float independent_strides_probability(
     if (place < 0)
         return 0.0f;
     uint count = light_count(list);
-    uint stride = subset_stride(list.counted, subset_length);
+    uint stride = subset_stride(list, subset_length);
     uint state = start_fast_random(random.more);
     float total = 0.0f, mass = 0.0f;
     for (uint first = 0u; first < count; first += stride) {

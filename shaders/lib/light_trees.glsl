@@ -115,10 +115,7 @@ TreeLeaf descend_tree(LightListView list, Surface s, float xi, int place)
 
 LightListView lights_of_leaf(LightListView list, TreeLeaf leaf)
 {
-    list.range.first_static += list.tables.tree_lights + leaf.first;
-    list.range.static_count = list.counted = leaf.count;
-    list.range.dynamic_count = 0u;
-    return list;
+    return static_run(list, list.tables.tree_lights + leaf.first, leaf.count);
 }
 
 #endif

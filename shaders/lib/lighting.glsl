@@ -2,7 +2,7 @@
 // Next event estimation: one light chosen by the light sampler that this pass was built with, one point on it, one shadow ray.
 // With samplers that say so, MIS: the ray that goes on from the surface anyway counts the emitters that it meets, and both
 // ways to find a point share its light by mis_share.
-// VKPT_SAMPLER_MIS is defined for those samplers alone (shaders/CMakeLists.txt, from their light_sampler_mis): drivers put every call in
+// VKPT_SAMPLER_MIS is defined for those samplers alone (shaders/CMakeLists.txt, from their traits): drivers put every call in
 // line before they find out that a constant condition never holds, and a third of the code would be that.
 #ifndef VKPT_LIB_LIGHTING
 #define VKPT_LIB_LIGHTING
@@ -23,9 +23,7 @@ LightListView open_light_list_for(LightRandom random, int cluster)
         return open_light_list(tables, cluster);
     tables.lists = LightListBuffer(frame.scene.repeated_lists);
     tables.dynamic_indices = LightIndexBuffer(frame.scene.repeated_light_indices);
-    LightListView list = open_light_list(tables, cluster);
-    list.counted = LightIndexBuffer(frame.scene.previous_list_lengths).v[list.index];
-    return list;
+    return open_repeated_list(tables, cluster, LightIndexBuffer(frame.scene.previous_list_lengths));
 }
 
 // How many of a path's surfaces send out a BSDF ray. With MIS the first one always does: without bounces, for emission alone.
@@ -87,9 +85,9 @@ ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bo
 ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, bool bsdf_ray_follows)
 {
     LightListView list = open_light_list_for(random, cluster);
-#ifdef VKPT_NEWCOMERS_APART
+#ifdef VKPT_SAMPLER_NEWCOMERS_APART
     ReflectedLight sum = ReflectedLight(vec3(0.0), vec3(0.0));
-    uint parts = list.counted < light_count(list) ? 2u : 1u;
+    uint parts = has_newcomers(list) ? 2u : 1u;
     [[dont_unroll]] for (uint i = 0u; i < parts; i++) {
         ReflectedLight part = sample_list(i == 0u ? counted_lights(list) : newcomers(list), s, random, bsdf_ray_follows);
         sum.diffuse += part.diffuse;

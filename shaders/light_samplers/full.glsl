@@ -6,7 +6,7 @@
 
 #include "../lib/light_sampler.glsl"
 
-const bool light_sampler_mis = false;
+const uint light_sampler_traits = 0u;
 const uint max_light_runs = 64u;
 
 LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)

@@ -8,7 +8,7 @@
 
 #include "../lib/light_trees.glsl"
 
-const bool light_sampler_mis = false;
+const uint light_sampler_traits = SAMPLER_USES_SUBSET | SAMPLER_NEEDS_TREES;
 
 // A leaf of the static lights, and a subset of the dynamic ones with one light of each stride. With probability p of the leaf, T
 // strides, and sums of weights W and V, a light of weight w is picked with probability w / (W / p + T V), whichever part it is from:
@@ -18,7 +18,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
     if (light_count(list) == 0u)
         return no_light();
     LightListView moving = dynamic_lights(list);
-    SubsetChoice of_dynamic = choose_subset(moving.counted, random.light, options.subset_length);
+    SubsetChoice of_dynamic = choose_subset(moving, random.light, options.subset_length);
     LightPredictor predictor = make_predictor(s, options);
     TreeLeaf leaf = make_tree_leaf(of_dynamic.rest);
     if (list.range.static_count > 0u)
@@ -42,7 +42,7 @@ float light_probability(LightListView list, Surface s, uint emitter, LightRandom
     if (place < 0)
         return 0.0f;
     LightListView moving = dynamic_lights(list);
-    SubsetChoice of_dynamic = choose_subset(moving.counted, random.light, options.subset_length);
+    SubsetChoice of_dynamic = choose_subset(moving, random.light, options.subset_length);
     LightPredictor predictor = make_predictor(s, options);
     uint static_count = list.range.static_count;
     bool is_static = uint(place) < static_count;

@@ -5,10 +5,9 @@
 #ifndef VKPT_LIGHT_SAMPLER_RIS
 #define VKPT_LIGHT_SAMPLER_RIS
 
-#define VKPT_NEWCOMERS_APART
 #include "../lib/light_sampler.glsl"
 
-const bool light_sampler_mis = false;
+const uint light_sampler_traits = SAMPLER_USES_SUBSET | SAMPLER_DRAWS_POINTS | SAMPLER_NEWCOMERS_APART;
 const uint max_candidates = 64u;
 
 struct LightCandidate {

@@ -6,7 +6,7 @@
 
 #include "../lib/light_subsets.glsl"
 
-const bool light_sampler_mis = false;
+const uint light_sampler_traits = SAMPLER_USES_SUBSET;
 
 LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 {

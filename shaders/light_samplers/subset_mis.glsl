@@ -6,7 +6,7 @@
 
 #include "../lib/light_subsets.glsl"
 
-const bool light_sampler_mis = true;
+const uint light_sampler_traits = SAMPLER_MIS | SAMPLER_USES_SUBSET;
 
 LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 {

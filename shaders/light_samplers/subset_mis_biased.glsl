@@ -7,7 +7,7 @@
 
 #include "../lib/light_subsets.glsl"
 
-const bool light_sampler_mis = true;
+const uint light_sampler_traits = SAMPLER_MIS | SAMPLER_BIASED | SAMPLER_USES_SUBSET;
 
 LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 {
@@ -21,7 +21,7 @@ float light_probability(LightListView list, Surface s, uint emitter, LightRandom
         return 0.0f;
     LightPredictor predictor = make_predictor(s, options);
     uint count = light_count(list);
-    SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
+    SubsetChoice choice = choose_subset(list, random.light, options.subset_length);
     float mass = weigh_light(list, predictor, uint(place));
     float total = mass;
     for (uint first = 0u; first < count; first += choice.stride) {

@@ -13,7 +13,7 @@
 #define VKPT_MIS_POWER_HEURISTIC
 #include "../lib/light_subsets.glsl"
 
-const bool light_sampler_mis = true;
+const uint light_sampler_traits = SAMPLER_MIS | SAMPLER_USES_SUBSET | SAMPLER_DRAWS_ENTRIES | SAMPLER_NEEDS_MULTISETS;
 
 // Random dimensions: the offsets in static strides first, then those in dynamic ones.
 const uint first_dynamic_dimension = max_subset_length;
@@ -30,7 +30,7 @@ StridedPart cut_into_strides(LightListView lights, uint first_dimension, uint su
 {
     StridedPart part;
     part.lights = lights;
-    part.stride = subset_stride(lights.counted, subset_length);
+    part.stride = subset_stride(lights, subset_length);
     part.first_dimension = first_dimension;
     return part;
 }

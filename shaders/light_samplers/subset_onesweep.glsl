@@ -6,13 +6,13 @@
 
 #include "../lib/light_subsets.glsl"
 
-const bool light_sampler_mis = false;
+const uint light_sampler_traits = SAMPLER_USES_SUBSET;
 
 LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 {
     if (light_count(list) == 0u)
         return no_light();
-    SubsetChoice choice = choose_subset(list.counted, random.light, options.subset_length);
+    SubsetChoice choice = choose_subset(list, random.light, options.subset_length);
     Reservoir reservoir = sweep_subset(list, make_predictor(s, options), choice, choice.rest);
     return make_subset_sample(reservoir, choice.stride, random);
 }

@@ -3,10 +3,9 @@
 #ifndef VKPT_LIGHT_SAMPLER_UNIFORM
 #define VKPT_LIGHT_SAMPLER_UNIFORM
 
-#define VKPT_NEWCOMERS_APART
 #include "../lib/light_sampler.glsl"
 
-const bool light_sampler_mis = false;
+const uint light_sampler_traits = SAMPLER_NEWCOMERS_APART;
 
 LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 {

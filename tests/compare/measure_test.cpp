@@ -4,8 +4,10 @@
 #include "client/compare/measure.hpp"
 #include "client/host/errors.hpp"
 
+#include "shaders/shared/light_sampler.h"
 #include <algorithm>
 #include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace vkpt::tests {
@@ -17,9 +19,13 @@ ModuleInfo make_info()
 {
     static const char* const samplers[]
         = { "full", "subset", "subset_mis", "subset_mis_biased", "subset_mis_blue", "uniform", nullptr };
+    using namespace shared;
+    static const uint32_t traits[] = { 0, SAMPLER_USES_SUBSET, SAMPLER_MIS | SAMPLER_USES_SUBSET,
+        SAMPLER_MIS | SAMPLER_BIASED | SAMPLER_USES_SUBSET, SAMPLER_MIS | SAMPLER_USES_SUBSET, 0 };
     static const char* const denoisers[] = { "off", "asvgf", nullptr };
     ModuleInfo info {};
     info.light_samplers = samplers;
+    info.light_sampler_traits = traits;
     info.denoisers = denoisers;
     return info;
 }

@@ -51,7 +51,7 @@ SceneResult make_scene(const char* name, int frame)
     scene.centre_reference = scene.reference;
     scene.device = "a device <of> paper";
     scene.variants = { make_result(make_variant("subset", 8), 1.5), make_result(make_variant("subset", 64), 0.5),
-        make_result(make_variant("uniform", 8), 4), make_result(make_variant("subset", 8, "asvgf"), 0.25) };
+        make_result(make_variant("uniform"), 4), make_result(make_variant("subset", 8, "asvgf"), 0.25) };
     scene.variants[2].bias.interval = std::numeric_limits<double>::infinity();
     scene.variants[3].ms = 0;
     return scene;

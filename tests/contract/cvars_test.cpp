@@ -5,7 +5,10 @@
 #include "ref_vkpt/engine/engine.hpp"
 #include "tests/contract/mock_engine.hpp"
 
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <set>
 
 namespace vkpt::tests {
@@ -54,6 +57,37 @@ TEST_F(Cvars, RowsAreSound)
             EXPECT_LE(std::stod(row.initial), row.highest);
         }
     }
+}
+
+// What no shader reads would be uploaded, and start pictures anew, for nothing.
+TEST_F(Cvars, ShadersReadTheirRows)
+{
+    std::string text;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(VKPT_SHADERS))
+        if (const auto ending = entry.path().extension(); ending == ".glsl" || ending == ".comp") {
+            std::ifstream file(entry.path());
+            text.append(std::istreambuf_iterator<char>(file), {});
+        }
+#define VKPT_EXPECT_READ(name)                                                                                         \
+    EXPECT_NE(text.find("frame.cvars." #name), std::string::npos) << #name " belongs to a HOST row";
+#define VKPT_SHADER_INT(name, initial, lowest, highest, keep, help) VKPT_EXPECT_READ(name)
+#define VKPT_SHADER_FLOAT(name, initial, lowest, highest, keep, help) VKPT_EXPECT_READ(name)
+#define VKPT_SHADER_CHOICE(name, initial, choices, keep, help) VKPT_EXPECT_READ(name)
+#include "shaders/shared/cvars.def"
+#undef VKPT_EXPECT_READ
+}
+
+TEST_F(Cvars, SayWhenAChangeCountsWhereItShowsNothingYet)
+{
+    mock.set("pt_point_light_radius", "8");
+    mock.set("pt_device", "paper");
+    mock.set("pt_bounces", "3");
+    EXPECT_TRUE(cvars::update());
+    ASSERT_EQ(mock.console.size(), 2u);
+    EXPECT_NE(mock.console[0].find("pt_point_light_radius counts with the next map"), std::string::npos);
+    EXPECT_NE(mock.console[1].find("pt_device counts after vid_restart"), std::string::npos);
+    EXPECT_FALSE(cvars::update());
+    EXPECT_EQ(mock.console.size(), 2u);
 }
 
 TEST_F(Cvars, ChangesArriveAtTheNextUpdate)

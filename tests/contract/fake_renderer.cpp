@@ -5,6 +5,7 @@
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/exports.hpp"
 #include "ref_vkpt/renderer.hpp"
+#include "shaders/shared/light_sampler.h"
 
 #include <new>
 #include <vector>
@@ -71,6 +72,7 @@ bool capture_radiance(float* rgb)
 
 constexpr const char* backends[] = { "software", nullptr };
 constexpr const char* samplers[] = { "subset_pps", "uniform", nullptr };
+constexpr uint32_t sampler_traits[] = { shared::SAMPLER_USES_SUBSET, 0 };
 constexpr const char* denoisers[] = { "off", "asvgf", nullptr };
 
 ModuleInfo info()
@@ -82,6 +84,7 @@ ModuleInfo info()
     facts.trace_backend = "software";
     facts.trace_backends = backends;
     facts.light_samplers = samplers;
+    facts.light_sampler_traits = sampler_traits;
     facts.denoisers = denoisers;
     for (int i = 0; i < 4; i++)
         facts.api_versions[i] = 5 + i;

@@ -233,73 +233,75 @@ TEST(Bsp, RefusesLumpsThatOverlap)
     EXPECT_THROW(read_bsp(file, "m.bsp"), FormatError);
 }
 
+// A lump, and what is wrong there.
+const std::vector<std::pair<const char*, std::function<void(Bsp&)>>> faults {
+    { "vertices", [](Bsp& b) { b.vertices[3].y = NAN; } },
+    { "vertices", [](Bsp& b) { b.vertices[0].x = INFINITY; } },
+    { "planes",
+        [](Bsp& b) {
+            b.planes[1].normal = { 0, 0, 0 };
+        } },
+    { "planes", [](Bsp& b) { b.planes[1].dist = NAN; } },
+    { "edges", [](Bsp& b) { b.edges[2].vertices[1] = 6; } },
+    { "surface edges", [](Bsp& b) { b.surface_edges[1] = -8; } },
+    { "surface edges", [](Bsp& b) { b.surface_edges[1] = INT32_MIN; } },
+    { "faces", [](Bsp& b) { b.faces[0].plane = 3; } },
+    { "faces", [](Bsp& b) { b.faces[0].texinfo = 3; } },
+    { "faces", [](Bsp& b) { b.faces[1].first_edge = 5; } },
+    { "faces", [](Bsp& b) { b.faces[1].first_edge = -1; } },
+    { "faces", [](Bsp& b) { b.faces[1].edge_count = 2; } },
+    { "texinfos", [](Bsp& b) { b.texinfos[1].next = 3; } },
+    { "texinfos", [](Bsp& b) { b.texinfos[1].t_axis.z = NAN; } },
+    { "leaf faces", [](Bsp& b) { b.leaf_faces[1] = 2; } },
+    { "leaf brushes", [](Bsp& b) { b.leaf_brushes[0] = 1; } },
+    { "leaves", [](Bsp& b) { b.leaves[1].leaf_face_count = 3; } },
+    { "leaves", [](Bsp& b) { b.leaves[1].cluster = 2; } },
+    { "leaves", [](Bsp& b) { b.leaves[1].cluster = -2; } },
+    { "leaves", [](Bsp& b) { b.leaves[1].area = 2; } },
+    { "leaves", [](Bsp& b) { b.leaves.clear(); } },
+    { "nodes", [](Bsp& b) { b.nodes[0].plane = -1; } },
+    { "nodes", [](Bsp& b) { b.nodes[0].children[1] = -4; } },
+    { "nodes", [](Bsp& b) { b.nodes[0].children[1] = INT32_MIN; } },
+    { "nodes", [](Bsp& b) { b.nodes[1].children[1] = 0; } }, // a ring
+    { "nodes", [](Bsp& b) { b.nodes[0].children[1] = 1; } }, // two parents
+    { "nodes",
+        [](Bsp& b) {
+            b.nodes[1].first_face = 3;
+            b.nodes[1].face_count = 0xffff;
+        } },
+    { "models", [](Bsp& b) { b.models[0].head_node = 2; } },
+    { "models", [](Bsp& b) { b.models[0].face_count = INT32_MAX; } },
+    { "models", [](Bsp& b) { b.models.clear(); } },
+    { "brushes", [](Bsp& b) { b.brushes[0].first_side = INT32_MAX; } },
+    { "brush sides", [](Bsp& b) { b.brush_sides[0].texinfo = 3; } },
+    { "areas", [](Bsp& b) { b.areas[1].area_portal_count = 2; } },
+    { "area portals", [](Bsp& b) { b.area_portals[0].other_area = 2; } },
+    // What costs far more than it takes in the file:
+    { "faces",
+        [](Bsp& b) {
+            b.faces[1].first_edge = b.faces[0].first_edge;
+            b.surface_edges.resize(7);
+        } },
+    { "faces",
+        [](Bsp& b) {
+            b.surface_edges.resize(100);
+            b.faces[1].edge_count = 65;
+        } },
+    { "leaves",
+        [](Bsp& b) {
+            for (BspLeaf& leaf : b.leaves)
+                std::tie(leaf.first_leaf_face, leaf.leaf_face_count) = std::pair(0, 2);
+        } },
+    { "leaves", [](Bsp& b) { fill_with_leaf_faces(b, 130000); } },
+    { "models", [](Bsp& b) { b.models.push_back(b.models[0]); } },
+    { "texinfos", [](Bsp& b) { make_ring(b, 257); } },
+    { "visibility", [](Bsp& b) { b.visibility[0] = 3; } },
+    { "visibility", [](Bsp& b) { b.visibility[4] = 22; } },
+    { "visibility", [](Bsp& b) { b.visibility.resize(3); } },
+};
+
 TEST(Bsp, RefusesIndicesOutOfRange)
 {
-    const std::vector<std::pair<const char*, std::function<void(Bsp&)>>> faults {
-        { "vertices", [](Bsp& b) { b.vertices[3].y = NAN; } },
-        { "vertices", [](Bsp& b) { b.vertices[0].x = INFINITY; } },
-        { "planes",
-            [](Bsp& b) {
-                b.planes[1].normal = { 0, 0, 0 };
-            } },
-        { "planes", [](Bsp& b) { b.planes[1].dist = NAN; } },
-        { "edges", [](Bsp& b) { b.edges[2].vertices[1] = 6; } },
-        { "surface edges", [](Bsp& b) { b.surface_edges[1] = -8; } },
-        { "surface edges", [](Bsp& b) { b.surface_edges[1] = INT32_MIN; } },
-        { "faces", [](Bsp& b) { b.faces[0].plane = 3; } },
-        { "faces", [](Bsp& b) { b.faces[0].texinfo = 3; } },
-        { "faces", [](Bsp& b) { b.faces[1].first_edge = 5; } },
-        { "faces", [](Bsp& b) { b.faces[1].first_edge = -1; } },
-        { "faces", [](Bsp& b) { b.faces[1].edge_count = 2; } },
-        { "texinfos", [](Bsp& b) { b.texinfos[1].next = 3; } },
-        { "texinfos", [](Bsp& b) { b.texinfos[1].t_axis.z = NAN; } },
-        { "leaf faces", [](Bsp& b) { b.leaf_faces[1] = 2; } },
-        { "leaf brushes", [](Bsp& b) { b.leaf_brushes[0] = 1; } },
-        { "leaves", [](Bsp& b) { b.leaves[1].leaf_face_count = 3; } },
-        { "leaves", [](Bsp& b) { b.leaves[1].cluster = 2; } },
-        { "leaves", [](Bsp& b) { b.leaves[1].cluster = -2; } },
-        { "leaves", [](Bsp& b) { b.leaves[1].area = 2; } },
-        { "leaves", [](Bsp& b) { b.leaves.clear(); } },
-        { "nodes", [](Bsp& b) { b.nodes[0].plane = -1; } },
-        { "nodes", [](Bsp& b) { b.nodes[0].children[1] = -4; } },
-        { "nodes", [](Bsp& b) { b.nodes[0].children[1] = INT32_MIN; } },
-        { "nodes", [](Bsp& b) { b.nodes[1].children[1] = 0; } }, // a ring
-        { "nodes", [](Bsp& b) { b.nodes[0].children[1] = 1; } }, // two parents
-        { "nodes",
-            [](Bsp& b) {
-                b.nodes[1].first_face = 3;
-                b.nodes[1].face_count = 0xffff;
-            } },
-        { "models", [](Bsp& b) { b.models[0].head_node = 2; } },
-        { "models", [](Bsp& b) { b.models[0].face_count = INT32_MAX; } },
-        { "models", [](Bsp& b) { b.models.clear(); } },
-        { "brushes", [](Bsp& b) { b.brushes[0].first_side = INT32_MAX; } },
-        { "brush sides", [](Bsp& b) { b.brush_sides[0].texinfo = 3; } },
-        { "areas", [](Bsp& b) { b.areas[1].area_portal_count = 2; } },
-        { "area portals", [](Bsp& b) { b.area_portals[0].other_area = 2; } },
-        // What costs far more than it takes in the file:
-        { "faces",
-            [](Bsp& b) {
-                b.faces[1].first_edge = b.faces[0].first_edge;
-                b.surface_edges.resize(7);
-            } },
-        { "faces",
-            [](Bsp& b) {
-                b.surface_edges.resize(100);
-                b.faces[1].edge_count = 65;
-            } },
-        { "leaves",
-            [](Bsp& b) {
-                for (BspLeaf& leaf : b.leaves)
-                    std::tie(leaf.first_leaf_face, leaf.leaf_face_count) = std::pair(0, 2);
-            } },
-        { "leaves", [](Bsp& b) { fill_with_leaf_faces(b, 130000); } },
-        { "models", [](Bsp& b) { b.models.push_back(b.models[0]); } },
-        { "texinfos", [](Bsp& b) { make_ring(b, 257); } },
-        { "visibility", [](Bsp& b) { b.visibility[0] = 3; } },
-        { "visibility", [](Bsp& b) { b.visibility[4] = 22; } },
-        { "visibility", [](Bsp& b) { b.visibility.resize(3); } },
-    };
     for (size_t i = 0; i < faults.size(); i++) {
         Bsp bsp = make_bsp();
         faults[i].second(bsp);

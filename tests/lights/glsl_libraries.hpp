@@ -6,6 +6,7 @@
 #include "ref_vkpt/lights/outlines.hpp"
 #include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
+#include "shaders/shared/light_sampler.h"
 #include "shaders/shared/ltc.h"
 #include "shaders/shared/noise.h"
 #include "shaders/shared/scene.h"

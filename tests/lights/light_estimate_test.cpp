@@ -34,7 +34,7 @@ Moments estimate(const Sampler& sampler, const ListCase& list, const SamplerOpti
     for (int i = 0; i < samples; i++) {
         const Draw draw = make_draw(rng);
         double light = sampler.sample_lights(list, draw, options);
-        if (sampler.mis) {
+        if (sampler.has(shared::SAMPLER_MIS)) {
             BsdfNumbers numbers { { draw_unit(rng), draw_unit(rng) }, draw_unit(rng) };
             light += sampler.sample_bsdf_ray(list, numbers, draw, options);
         }
@@ -92,13 +92,13 @@ TEST_P(LightEstimate, IsUnbiased)
     for (const Material& material : materials) {
         // Light sampling alone would need far more samples for narrow lobes: their rare bright points are missed. And
         // the quadrature of many lights is too coarse for them.
-        if (is_narrow(material) && (!sampler().mis || is_long))
+        if (is_narrow(material) && (!sampler().has(shared::SAMPLER_MIS) || is_long))
             continue;
         ListCase list = make_hard_list(GetParam().light_count, 31);
         list.point.roughness = material.roughness;
         list.point.metallic = material.metallic;
         list.point.view = glm::normalize(glm::vec3(-2, 0, 1.2f)); // mirrored: the first light
-        if (!sampler().mis)
+        if (!sampler().has(shared::SAMPLER_MIS))
             list = without_unlisted(list);
         const double truth = integrate_once(list, material, is_narrow(material) ? 128 : is_long ? 16 : 64);
         const Moments found = estimate(sampler(), list, { GetParam().subset_length }, samples);
@@ -111,7 +111,7 @@ std::vector<EstimateSetup> all_setups()
 {
     std::vector<EstimateSetup> setups;
     for (size_t sampler = 0; sampler < all_samplers().size(); sampler++) {
-        if (all_samplers()[sampler].is_biased())
+        if (all_samplers()[sampler].has(shared::SAMPLER_BIASED))
             continue; // see BiasedSamplersFailTheTest
         for (const size_t count : { 1, 7, 8, 9, 64, 1000 })
             for (const uint32_t subset_length : { 1, 8, 64 })
@@ -134,7 +134,7 @@ TEST(LightEstimates, BiasedSamplersFailTheTest)
         const double truth = sampler.integrate(list, 64);
         const Moments found = estimate(sampler, list, { 8 }, 30000);
         const double sigmas = std::abs(found.mean() - truth) / found.deviation_of_mean();
-        if (sampler.is_biased()) {
+        if (sampler.has(shared::SAMPLER_BIASED)) {
             EXPECT_GT(sigmas, 10) << sampler.name;
             biased++;
         } else {
@@ -150,9 +150,9 @@ TEST(LightEstimates, WeightsAndPointsOnlyChangeTheNoise)
     ListCase list = make_hard_list(40, 37);
     list.point.view = glm::normalize(glm::vec3(0.6f, -0.3f, 0.7f));
     for (const Sampler& sampler : all_samplers()) {
-        if (sampler.is_biased())
+        if (sampler.has(shared::SAMPLER_BIASED))
             continue;
-        const ListCase seen = sampler.mis ? list : without_unlisted(list);
+        const ListCase seen = sampler.has(shared::SAMPLER_MIS) ? list : without_unlisted(list);
         const double truth = sampler.integrate(seen, 64);
         for (const int weight : { shared::LIGHT_WEIGHT_CHAPTER, shared::LIGHT_WEIGHT_LTC })
             for (const int point :

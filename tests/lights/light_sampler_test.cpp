@@ -28,7 +28,7 @@ std::vector<SamplerSetup> make_setups(bool with_biased)
         for (const size_t count : { 1, 7, 8, 9, 64, 1000 })
             for (const uint32_t subset_length : { 1, 8, 64 })
                 for (const double zero_share : { 0.0, 0.5 })
-                    if (with_biased || !all_samplers()[sampler].is_biased())
+                    if (with_biased || !all_samplers()[sampler].has(shared::SAMPLER_BIASED))
                         setups.push_back({ sampler, count, subset_length, zero_share });
     return setups;
 }
@@ -44,7 +44,7 @@ protected:
         if (GetParam().light_count > 100)
             return 4000;
         // Of a light's entries some shine beside much stronger lights: rarely picked, they count the more.
-        return sampler().draws_entries() && GetParam().subset_length == 1 ? 1000000 : 16000;
+        return sampler().has(shared::SAMPLER_DRAWS_ENTRIES) && GetParam().subset_length == 1 ? 1000000 : 16000;
     }
 
     bool is_long() const { return GetParam().light_count > 100; }
@@ -113,13 +113,14 @@ TEST_P(LightSampler, WeightsOfEachLightAverageToOne)
         sum.weights += weight;
         sum.squares += weight * weight;
         // Samplers of whole lights know what they reported.
-        if (i % 64 == 0 && picked.point == draw.point && !sampler().draws_entries()) {
+        if (i % 64 == 0 && picked.point == draw.point && !sampler().has(shared::SAMPLER_DRAWS_ENTRIES)) {
             const float told = sampler().probability(lights, uint32_t(picked.emitter), draw, options());
-            ASSERT_NEAR(told, picked.probability, sampler().is_biased() ? 1 : 1e-4f * picked.probability);
+            ASSERT_NEAR(
+                told, picked.probability, sampler().has(shared::SAMPLER_BIASED) ? 1 : 1e-4f * picked.probability);
         }
     }
-    if (is_long() || std::string_view(sampler().name) == "ris")
-        return; // of long lists each is picked too rarely; ris never keeps a point that sends nothing
+    if (is_long() || sampler().has(shared::SAMPLER_DRAWS_POINTS))
+        return; // of long lists each is picked too rarely
     int told = 0;
     const int fewest_picks = std::max(200, draw_count() / 600);
     for (const auto& [emitter, sum] : sums) {

@@ -249,7 +249,7 @@ TEST(RealMaps, TreesAreBetterThanSubsetsInMostMaps)
             if (!(truth > 0))
                 continue;
             for (const Sampler& sampler : all_samplers()) {
-                if (sampler.mis || sampler.is_biased())
+                if (sampler.has(shared::SAMPLER_MIS) || sampler.has(shared::SAMPLER_BIASED))
                     continue;
                 double sum = 0, squares = 0;
                 for (int i = 0; i < draws; i++) {

@@ -5,6 +5,7 @@
 #include "ref_vkpt/lights/light_trees.hpp"
 #include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
+#include "shaders/shared/light_sampler.h"
 #include "shaders/shared/ltc.h"
 #include "shaders/shared/noise.h"
 #include "shaders/shared/scene.h"
@@ -21,7 +22,8 @@ struct ShadingPoint {
     float roughness = 0.5f, metallic = 0;
 };
 
-// A light list in memory, its static part once more as a multiset and as a tree. Emitters that are not in it are part of the scene, too: BSDF rays may meet them.
+// A light list in memory, its static part once more as a multiset and as a tree. Emitters that are not in it are part
+// of the scene, too: BSDF rays may meet them.
 struct ListCase {
     std::vector<shared::Emitter> emitters;
     std::vector<uint32_t> static_indices, dynamic_indices;
@@ -91,7 +93,7 @@ struct BsdfNumbers {
 
 struct Sampler {
     const char* name;
-    bool mis;
+    uint32_t traits; // SAMPLER_*
     PickedLight (*pick)(const ListCase& list, const Draw& draw, const SamplerOptions& options);
     float (*probability)(const ListCase& list, uint32_t emitter, const Draw& draw, const SamplerOptions& options);
     float (*contribution)(const ListCase& list, uint32_t emitter, const SamplerOptions& options);
@@ -105,12 +107,7 @@ struct Sampler {
     // The same by quadrature with n x n points on each emitter.
     double (*integrate)(const ListCase& list, int n);
 
-    bool is_biased() const { return has_in_name("biased"); }
-    // Whether it picks an entry of a multiset, of which a light may have several: `probability` is then of one at random.
-    bool draws_entries() const { return has_in_name("pps") || has_in_name("blue"); }
-
-private:
-    bool has_in_name(std::string_view part) const { return std::string_view(name).find(part) != std::string_view::npos; }
+    bool has(uint32_t trait) const { return (traits & trait) != 0; }
 };
 
 std::vector<Sampler>& all_samplers();

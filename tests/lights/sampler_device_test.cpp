@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The light samplers as the Vulkan driver runs them: unbiased, as frequent as they report, and equal to the same files
 // compiled as C++, so that what the other tests here prove of those holds on the device.
-#include "ref_vkpt/lights/outlines.hpp"
 #include "ref_vkpt/lights/ltc_table.hpp"
+#include "ref_vkpt/lights/outlines.hpp"
 #include "sampler_device.h"
 #include "sampler_lists.hpp"
 #include "tests/trace/headless_compute.hpp"
@@ -156,7 +156,7 @@ protected:
             const PickedLight picked = sampler().pick(list, draw, options);
             same += picked.emitter == results[i].picked;
             double light = sampler().sample_lights(list, draw, options);
-            if (sampler().mis)
+            if (sampler().has(shared::SAMPLER_MIS))
                 light
                     += sampler().sample_bsdf_ray(list, { draws[i].bsdf_direction, draws[i].bsdf_lobe }, draw, options);
             const double found = double(results[i].by_light) + double(results[i].by_bsdf);
@@ -214,7 +214,7 @@ void SamplerOnDevice::check_lists()
             list.point.roughness = material.roughness;
             list.point.metallic = material.metallic;
             list.point.view = glm::normalize(glm::vec3(-2, 0, 1.2f));
-            if (!sampler().mis) // light sampling alone sees the list's emitters only
+            if (!sampler().has(shared::SAMPLER_MIS)) // light sampling alone sees the list's emitters only
                 for (size_t i = 0; i < list.emitters.size(); i++)
                     if (!list.contains(uint32_t(i)))
                         list.emitters[i].radiance = glm::vec3(0);
@@ -225,7 +225,7 @@ void SamplerOnDevice::check_lists()
                 const SamplerOptions options { subset_length };
                 const std::vector<DeviceResult> results = run(list, draws, options);
                 expect_as_in_cpp(list, draws, results, options);
-                if (sampler().is_biased())
+                if (sampler().has(shared::SAMPLER_BIASED))
                     continue;
                 const Mean mean = mean_light(results);
                 EXPECT_NEAR(mean.value(), truth, 4.5 * mean.deviation() + 2e-3 * truth);
@@ -239,7 +239,7 @@ void SamplerOnDevice::check_lists()
 // Whatever predicts the contribution, and wherever points lie on the lights.
 void SamplerOnDevice::check_weights_and_points()
 {
-    if (sampler().is_biased()) { // and the test can tell
+    if (sampler().has(shared::SAMPLER_BIASED)) { // and the test can tell
         const ListCase list = make_uneven_list();
         const double truth = sampler().integrate(list, 32);
         const Mean mean = mean_light(run(list, make_draws(list, 32768, 7), { 8 }));
@@ -248,7 +248,7 @@ void SamplerOnDevice::check_weights_and_points()
     }
     ListCase list = make_hard_list(40, 37);
     list.point.view = glm::normalize(glm::vec3(0.6f, -0.3f, 0.7f));
-    if (!sampler().mis)
+    if (!sampler().has(shared::SAMPLER_MIS))
         for (size_t i = 0; i < list.emitters.size(); i++)
             if (!list.contains(uint32_t(i)))
                 list.emitters[i].radiance = glm::vec3(0);

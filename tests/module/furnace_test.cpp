@@ -105,10 +105,7 @@ TEST_F(Furnace, EverySamplerAgrees)
 {
     start(grey);
     session_->set("pt_bounces", 1);
-    for (const char* const* name = session_->extension().info().light_samplers; *name; name++) {
-        const std::string sampler = *name;
-        if (is_biased_sampler(sampler))
-            continue;
+    for (const std::string& sampler : unbiased_samplers(session_->extension().info())) {
         SCOPED_TRACE(sampler);
         session_->set("pt_light_sampler", sampler);
         expect_uniform(series(2), 256);

@@ -80,13 +80,11 @@ protected:
 
 TEST_F(Samplers, AgreeWithinFourSigma)
 {
-    std::vector<std::string> names;
-    for (const char* const* name = session_->extension().info().light_samplers; *name; name++)
-        names.push_back(*name);
+    const std::vector<std::string> names = unbiased_samplers(session_->extension().info());
     ASSERT_GE(names.size(), 2u);
     const Estimate reference = estimate("uniform");
     for (const std::string& name : names) {
-        if (name == "uniform" || is_biased_sampler(name))
+        if (name == "uniform")
             continue;
         const Estimate other = estimate(name);
         ASSERT_EQ(other.mean.size(), reference.mean.size());
@@ -99,6 +97,50 @@ TEST_F(Samplers, AgreeWithinFourSigma)
             EXPECT_LT(sigma, 0.03 * reference.mean[i]) << name << ", region " << i;
         }
     }
+}
+
+// Multisets and trees take memory, and time to make: only samplers that read them bring them to the device.
+TEST_F(Samplers, TablesComeWithTheFirstSamplerThatReadsThem)
+{
+    const auto draw = [&](const char* sampler) {
+        session_->set("pt_light_sampler", sampler);
+        session_->draw(2);
+        return session_->capture().pixels;
+    };
+    const auto light_bytes = [&] { return session_->extension().info().light_bytes; };
+    session_->set("pt_light_sampler", "uniform");
+    session_->load_map("lights");
+    draw("uniform");
+    const uint64_t lists_alone = light_bytes();
+    const auto by_tree = draw("light_tree");
+    const uint64_t with_trees = light_bytes();
+    EXPECT_GT(with_trees, lists_alone);
+    const auto by_multiset = draw("subset_pps");
+    EXPECT_GT(light_bytes(), with_trees);
+    // The same pictures as with tables that were there from the start.
+    session_->load_map("lights");
+    EXPECT_EQ(draw("subset_pps"), by_multiset);
+    session_->set("pt_light_sampler", "light_tree");
+    session_->load_map("lights");
+    EXPECT_EQ(draw("light_tree"), by_tree);
+}
+
+// A player who changes the sampler sees frames go on.
+TEST_F(Samplers, FramesGoOnUntilTheTablesAreThere)
+{
+    session_->set("pt_accumulate", "0");
+    session_->set("pt_seed", "0");
+    session_->set("pt_light_sampler", "uniform");
+    session_->load_map("lights");
+    session_->draw();
+    const uint64_t lists_alone = session_->extension().info().light_bytes;
+    session_->set("pt_light_sampler", "light_tree");
+    int frames = 0;
+    for (; frames < 500 && session_->extension().info().light_bytes == lists_alone; frames++) {
+        session_->draw();
+        EXPECT_FALSE(is_black(session_->capture()));
+    }
+    EXPECT_LT(frames, 500);
 }
 
 TEST_F(Samplers, AnUnknownNameIsToldAndReplaced)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/module/session.hpp"
 
+#include "shaders/shared/light_sampler.h"
+
 #include "client/host/imports.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
 #include "tests/module/map_builder.hpp"
@@ -214,6 +216,15 @@ std::vector<glm::vec3> Session::probe(std::span<const IrradianceProbe> probes, u
     if (!extension().measure_irradiance(probes.data(), probes.size(), samples, &result.data()->x))
         ADD_FAILURE() << "there is no map to measure in";
     return result;
+}
+
+std::vector<std::string> unbiased_samplers(const ModuleInfo& info)
+{
+    std::vector<std::string> names;
+    for (size_t i = 0; info.light_samplers[i]; i++)
+        if (!(info.light_sampler_traits[i] & shared::SAMPLER_BIASED))
+            names.emplace_back(info.light_samplers[i]);
+    return names;
 }
 
 engine::Entity make_entity(void* model, glm::vec3 origin, int32_t flags)

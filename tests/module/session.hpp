@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One run of the real module: started with validation, a map registered, frames drawn, pictures taken.
 // Any line of the validation layers fails the running test.
-// A start takes seconds, nearly all of them for shaders. So a module that a session has left is taken over by the next one that
-// wants the same settings, without its map, every cvar at its default, the console empty.
+// A start takes seconds, nearly all of them for shaders. So a module that a session has left is taken over by the next
+// one that wants the same settings, without its map, every cvar at its default, the console empty.
 #pragma once
 
 #include "client/host/host.hpp"
@@ -69,8 +69,8 @@ private:
     std::array<engine::Lightstyle, engine::max_lightstyles> lightstyles_ {};
 };
 
-// Samplers whose name says so are there to be compared: their pictures are wrong.
-inline bool is_biased_sampler(std::string_view name) { return name.find("biased") != std::string_view::npos; }
+// Biased ones are there to be compared: their pictures are wrong.
+std::vector<std::string> unbiased_samplers(const ModuleInfo& info);
 
 engine::Entity make_entity(void* model, glm::vec3 origin, int32_t flags = 0);
 

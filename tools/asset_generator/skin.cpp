@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
+#include <utility>
 
 namespace vkpt::tools {
 
@@ -20,77 +21,46 @@ struct Look {
     bool glows = false;
 };
 
+const std::pair<Material, Look> looks[] = {
+    { Material::steel, { { 0.58f, 0.60f, 0.63f } } },
+    { Material::dark_steel, { { 0.36f, 0.39f, 0.43f } } },
+    { Material::gunmetal, { { 0.22f, 0.24f, 0.27f } } },
+    { Material::rubber, { { 0.10f, 0.10f, 0.11f }, 0.7f } },
+    { Material::amber_paint, { { 0.80f, 0.48f, 0.12f } } },
+    { Material::teal_paint, { { 0.16f, 0.46f, 0.50f } } },
+    { Material::red_paint, { { 0.66f, 0.16f, 0.11f } } },
+    { Material::green_paint, { { 0.24f, 0.46f, 0.22f } } },
+    { Material::blue_paint, { { 0.20f, 0.32f, 0.66f } } },
+    { Material::copper, { { 0.68f, 0.43f, 0.29f } } },
+    { Material::gold, { { 0.76f, 0.60f, 0.28f } } },
+    { Material::chrome, { { 0.76f, 0.78f, 0.80f }, 0.75f, 0.04f } },
+    { Material::cloth, { { 0.30f, 0.28f, 0.24f }, 0.75f, 0.3f } },
+    { Material::skin, { { 0.74f, 0.52f, 0.40f }, 0.85f, 0.06f } },
+    { Material::white_paint, { { 0.74f, 0.74f, 0.72f } } },
+    { Material::visor, { { 0.08f, 0.26f, 0.30f }, 0.5f, 0.02f } },
+    { Material::glow_amber, { { 1.0f, 0.64f, 0.16f }, 0.8f, 0, true } },
+    { Material::glow_teal, { { 0.30f, 0.95f, 1.0f }, 0.8f, 0, true } },
+    { Material::glow_red, { { 1.0f, 0.22f, 0.12f }, 0.8f, 0, true } },
+    { Material::glow_green, { { 0.36f, 1.0f, 0.40f }, 0.8f, 0, true } },
+    { Material::glow_blue, { { 0.32f, 0.52f, 1.0f }, 0.8f, 0, true } },
+    { Material::glow_violet, { { 0.86f, 0.44f, 1.0f }, 0.8f, 0, true } },
+    { Material::glow_white, { { 1.0f, 0.98f, 0.92f }, 0.9f, 0, true } },
+    { Material::fire, { { 1.0f, 0.58f, 0.14f }, 1.0f, 0.5f, true } },
+    { Material::flesh, { { 0.52f, 0.12f, 0.10f }, 0.8f, 0.5f } },
+    { Material::bone, { { 0.78f, 0.72f, 0.58f }, 0.8f, 0.15f } },
+    { Material::hazard, { { 0.80f, 0.60f, 0.10f } } },
+    { Material::medic, { { 0.76f, 0.77f, 0.76f } } },
+    { Material::grille, { { 0.30f, 0.31f, 0.33f } } },
+    { Material::wood, { { 0.44f, 0.29f, 0.17f }, 0.7f, 0.3f } },
+    { Material::smoke, { { 0.34f, 0.32f, 0.31f }, 1.0f, 0.4f } },
+};
+
 Look look_of(Material material, glm::vec3 armour)
 {
-    switch (material) {
-    case Material::steel:
-        return { { 0.58f, 0.60f, 0.63f } };
-    case Material::dark_steel:
-        return { { 0.36f, 0.39f, 0.43f } };
-    case Material::gunmetal:
-        return { { 0.22f, 0.24f, 0.27f } };
-    case Material::rubber:
-        return { { 0.10f, 0.10f, 0.11f }, 0.7f };
-    case Material::amber_paint:
-        return { { 0.80f, 0.48f, 0.12f } };
-    case Material::teal_paint:
-        return { { 0.16f, 0.46f, 0.50f } };
-    case Material::red_paint:
-        return { { 0.66f, 0.16f, 0.11f } };
-    case Material::green_paint:
-        return { { 0.24f, 0.46f, 0.22f } };
-    case Material::blue_paint:
-        return { { 0.20f, 0.32f, 0.66f } };
-    case Material::copper:
-        return { { 0.68f, 0.43f, 0.29f } };
-    case Material::gold:
-        return { { 0.76f, 0.60f, 0.28f } };
-    case Material::chrome:
-        return { { 0.76f, 0.78f, 0.80f }, 0.75f, 0.04f };
-    case Material::cloth:
-        return { { 0.30f, 0.28f, 0.24f }, 0.75f, 0.3f };
-    case Material::skin:
-        return { { 0.74f, 0.52f, 0.40f }, 0.85f, 0.06f };
-    case Material::white_paint:
-        return { { 0.74f, 0.74f, 0.72f } };
-    case Material::visor:
-        return { { 0.08f, 0.26f, 0.30f }, 0.5f, 0.02f };
-    case Material::glow_amber:
-        return { { 1.0f, 0.64f, 0.16f }, 0.8f, 0, true };
-    case Material::glow_teal:
-        return { { 0.30f, 0.95f, 1.0f }, 0.8f, 0, true };
-    case Material::glow_red:
-        return { { 1.0f, 0.22f, 0.12f }, 0.8f, 0, true };
-    case Material::glow_green:
-        return { { 0.36f, 1.0f, 0.40f }, 0.8f, 0, true };
-    case Material::glow_blue:
-        return { { 0.32f, 0.52f, 1.0f }, 0.8f, 0, true };
-    case Material::glow_violet:
-        return { { 0.86f, 0.44f, 1.0f }, 0.8f, 0, true };
-    case Material::glow_white:
-        return { { 1.0f, 0.98f, 0.92f }, 0.9f, 0, true };
-    case Material::fire:
-        return { { 1.0f, 0.58f, 0.14f }, 1.0f, 0.5f, true };
-    case Material::flesh:
-        return { { 0.52f, 0.12f, 0.10f }, 0.8f, 0.5f };
-    case Material::bone:
-        return { { 0.78f, 0.72f, 0.58f }, 0.8f, 0.15f };
-    case Material::hazard:
-        return { { 0.80f, 0.60f, 0.10f } };
-    case Material::medic:
-        return { { 0.76f, 0.77f, 0.76f } };
-    case Material::grille:
-        return { { 0.30f, 0.31f, 0.33f } };
-    case Material::wood:
-        return { { 0.44f, 0.29f, 0.17f }, 0.7f, 0.3f };
-    case Material::smoke:
-        return { { 0.34f, 0.32f, 0.31f }, 1.0f, 0.4f };
-    case Material::armour:
+    if (material == Material::armour)
         return { armour };
-    case Material::count:
-        break;
-    }
-    return { glm::vec3(0.5f) };
+    const auto found = std::ranges::find(looks, material, &std::pair<Material, Look>::first);
+    return found != std::end(looks) ? found->second : Look { glm::vec3(0.5f) };
 }
 
 glm::vec3 paint_cell(Material material, const Look& look, glm::vec2 uv, uint32_t seed)

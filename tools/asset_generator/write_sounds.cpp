@@ -78,14 +78,47 @@ float groan(float t, float u, float pitch) // a short breathy vowel: pulses thro
     const float vowel = std::sin(tau * 620 * t) * 0.5f + std::sin(tau * 1080 * t) * 0.3f;
     return (pulse * vowel * 1.4f + 0.12f * hiss(t, 7000)) * std::sin(3.1416f * std::sqrt(u));
 }
-}
 
-void write_sounds(const Output& out)
-{
-    const auto put = [&](const std::string& name, float seconds, const Voice& voice, bool loops = false) {
+// Writes them by name.
+struct Sounds {
+    const Output& out;
+
+    void put(const std::string& name, float seconds, const Voice& voice, bool loops = false) const
+    {
         out.write("sound/" + name + ".wav", make_wav(voice, seconds, loops));
-    };
-    // Menus and notices.
+    }
+    void shot(const char* name, float seconds, float pitch, float decay, float rate) const
+    {
+        put(name, seconds, [=](float t, float) {
+            return 0.8f * hiss(t, rate) * std::exp(-t * decay) + 0.7f * thump(t, pitch, decay * 0.6f);
+        });
+    }
+    void zap(const char* name, float seconds, float from, float to, float decay) const
+    {
+        put(name, seconds, [=](float t, float) {
+            return (0.55f * sweep(t, from, to, seconds) + 0.3f * sweep(t, from * 1.51f, to * 1.51f, seconds)
+                       + 0.15f * hiss(t, 9000))
+                * std::exp(-t * decay);
+        });
+    }
+    void pickup(const char* name, float low, float high) const
+    {
+        put(name, 0.34f, [=](float t, float) {
+            return 0.45f * chime(t, low, 11) + 0.45f * chime(std::max(t - 0.07f, 0.0f), high, 10);
+        });
+    }
+    void write_notices() const;
+    void write_steps() const;
+    void write_body() const;
+    void write_weapons() const;
+    void write_machines() const;
+    void write_pickups() const;
+    void write_loops() const;
+};
+
+// Menus and notices.
+void Sounds::write_notices() const
+{
     put("misc/menu1", 0.12f, [](float t, float) { return 0.5f * chime(t, 660, 24); });
     put("misc/menu2", 0.07f, [](float t, float) { return 0.4f * chime(t, 990, 40); });
     put("misc/menu3", 0.14f, [](float t, float) { return 0.5f * chime(t, 440, 22); });
@@ -93,7 +126,11 @@ void write_sounds(const Output& out)
     put("misc/talk1", 0.10f, [](float t, float) { return 0.5f * chime(t, 1180, 30); });
     put("misc/secret", 0.9f,
         [](float t, float) { return 0.4f * chime(t, 523, 4) + 0.4f * chime(std::max(t - 0.18f, 0.0f), 784, 4); });
-    // Walking, falling, swimming.
+}
+
+// Walking, falling, swimming.
+void Sounds::write_steps() const
+{
     for (int i = 1; i <= 4; i++)
         put("player/step" + std::to_string(i), 0.14f, [i](float t, float) { return 0.5f * knock(t, float(i)); });
     put("player/land1", 0.25f, [](float t, float) { return 0.7f * knock(t, 9) + 0.4f * thump(t, 90, 18); });
@@ -109,7 +146,11 @@ void write_sounds(const Output& out)
     for (const char* name :
         { "player/lava1", "player/lava2", "player/lava_in", "player/burn1", "player/burn2", "player/fry" })
         put(name, 0.6f, [](float t, float u) { return hiss(t, 8000) * (1 - u) * 0.4f * (0.6f + 0.4f * hiss(t, 40)); });
-    // The body.
+}
+
+// The body.
+void Sounds::write_body() const
+{
     put("player/male/jump1", 0.22f, [](float t, float u) { return 0.6f * groan(t, u, 150); });
     for (const char* name :
         { "pain100_1", "pain100_2", "pain75_1", "pain75_2", "pain50_1", "pain50_2", "pain25_1", "pain25_2" }) {
@@ -126,19 +167,11 @@ void write_sounds(const Output& out)
             [](float t, float u) { return groan(t, u, 90) * (0.5f + 0.5f * std::sin(tau * 9 * t)); });
     put("misc/udeath", 0.6f, [](float t, float) { return hiss(t, 1800) * std::exp(-t * 7) * 0.8f; });
     put("misc/fhit3", 0.25f, [](float t, float) { return hiss(t, 1500) * std::exp(-t * 16) * 0.6f; });
-    // Weapons.
-    const auto shot = [&](const char* name, float seconds, float pitch, float decay, float rate) {
-        put(name, seconds, [=](float t, float) {
-            return 0.8f * hiss(t, rate) * std::exp(-t * decay) + 0.7f * thump(t, pitch, decay * 0.6f);
-        });
-    };
-    const auto zap = [&](const char* name, float seconds, float from, float to, float decay) {
-        put(name, seconds, [=](float t, float) {
-            return (0.55f * sweep(t, from, to, seconds) + 0.3f * sweep(t, from * 1.51f, to * 1.51f, seconds)
-                       + 0.15f * hiss(t, 9000))
-                * std::exp(-t * decay);
-        });
-    };
+}
+
+// Weapons.
+void Sounds::write_weapons() const
+{
     zap("weapons/blastf1a", 0.32f, 1500, 210, 8);
     zap("weapons/hyprbf1a", 0.22f, 1900, 320, 10);
     zap("weapons/railgf1a", 0.8f, 2400, 90, 4);
@@ -171,7 +204,11 @@ void write_sounds(const Output& out)
     for (int i = 5; i <= 7; i++)
         put("world/spark" + std::to_string(i), 0.18f,
             [i](float t, float) { return 0.4f * hiss(t, 6000 + 900 * float(i)) * std::exp(-t * 24); });
-    // Doors, lifts, switches.
+}
+
+// Doors, lifts, switches.
+void Sounds::write_machines() const
+{
     for (const char* kind : { "doors/dr1", "plats/pt1" }) {
         const float pitch = kind[0] == 'd' ? 70 : 52;
         put(std::string(kind) + "_strt", 0.3f,
@@ -183,12 +220,11 @@ void write_sounds(const Output& out)
     }
     put("switches/butn2", 0.15f, [](float t, float) { return 0.6f * knock(t, 8); });
     put("misc/trigger1", 0.15f, [](float t, float) { return 0.5f * knock(t, 8); });
-    // Things taken and used.
-    const auto pickup = [&](const char* name, float low, float high) {
-        put(name, 0.34f, [=](float t, float) {
-            return 0.45f * chime(t, low, 11) + 0.45f * chime(std::max(t - 0.07f, 0.0f), high, 10);
-        });
-    };
+}
+
+// Things taken and used.
+void Sounds::write_pickups() const
+{
     pickup("items/pkup", 520, 780), pickup("misc/w_pkup", 330, 660), pickup("misc/am_pkup", 440, 550);
     pickup("misc/ar1_pkup", 360, 540), pickup("misc/ar2_pkup", 300, 600), pickup("misc/ar3_pkup", 660, 880);
     pickup("items/s_health", 700, 930), pickup("items/n_health", 620, 930), pickup("items/l_health", 520, 1040);
@@ -197,7 +233,11 @@ void write_sounds(const Output& out)
     pickup("items/damage", 220, 330), pickup("items/damage2", 330, 220), pickup("items/damage3", 220, 165);
     pickup("items/protect", 600, 900), pickup("items/protect2", 900, 600), pickup("items/protect4", 600, 1200);
     pickup("misc/keyuse", 500, 750), pickup("misc/keytry", 300, 250), pickup("items/airout", 400, 300);
-    // Long ones.
+}
+
+// Long ones.
+void Sounds::write_loops() const
+{
     put(
         "misc/lasfly", 0.6f,
         [](float t, float) { return 0.25f * std::sin(tau * 200 * t) * (0.7f + 0.3f * std::sin(tau * 10 * t)); }, true);
@@ -211,6 +251,20 @@ void write_sounds(const Output& out)
     put(
         "world/amb10", 2.0f,
         [](float t, float) { return 0.12f * std::sin(tau * 50 * t) + 0.05f * std::sin(tau * 100 * t); }, true);
+}
+
+} // namespace
+
+void write_sounds(const Output& out)
+{
+    const Sounds sounds { out };
+    sounds.write_notices();
+    sounds.write_steps();
+    sounds.write_body();
+    sounds.write_weapons();
+    sounds.write_machines();
+    sounds.write_pickups();
+    sounds.write_loops();
 }
 
 } // namespace vkpt::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "ref_vkpt/frame/pass_statistics.hpp"
+#include "ref_vkpt/pass_statistics.hpp"
 
 #include "ref_vkpt/engine/engine.hpp"
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A view of the world: one camera's pictures, one after the other. Whatever has a past is in here, so that views which
+// are drawn in turn do not disturb each other. A view that was never drawn has no buffers.
+#pragma once
+
+#include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/frame/view_buffers.hpp"
+#include "ref_vkpt/frame/view_history.hpp"
+#include "ref_vkpt/lights/view_lights.hpp"
+#include "ref_vkpt/scene/snapshot.hpp"
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace vkpt {
+
+struct View {
+    // The scene of its last frame. pt_accumulate freezes it.
+    ViewLights lights;
+    std::optional<SceneSnapshot> snapshot;
+    bool is_frozen = false;
+
+    // On the device.
+    ViewBuffers buffers;
+    Buffer exposure; // two ExposureState: of the world, and of menus
+
+    // Of its last frame.
+    Viewpoint viewpoint;
+    CvarValues cvars;
+    std::string light_sampler;
+    glm::uvec2 size { 0 }; // pixels of `radiance`
+    glm::uvec2 rendered_size { 0 }; // pixels that were rendered of the world
+    const Buffer* radiance = nullptr; // nullptr: no picture yet
+    ViewHistory history;
+    bool lists_changed = false;
+    uint32_t history_frame_index = 0, offset_index = 0, noise_index = 0;
+    uint32_t accumulated_frames = 0; // 0: the next one starts anew
+    std::chrono::steady_clock::time_point time;
+
+    // Another map comes, with these lists. The device is idle.
+    void begin_world(const LightLists& lists)
+    {
+        snapshot.reset();
+        lights = { {}, lists };
+        radiance = nullptr;
+        accumulated_frames = 0;
+    }
+};
+
+} // namespace vkpt

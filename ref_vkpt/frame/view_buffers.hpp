@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The per-pixel buffers of a view: shaders/shared/screen_buffers.def.
+#pragma once
+
+#include "ref_vkpt/vulkan/bindings.hpp"
+#include "ref_vkpt/vulkan/resources.hpp"
+#include "ref_vkpt/vulkan/texel_set.hpp"
+#include "shaders/shared/frame.h"
+
+#include <array>
+
+namespace vkpt {
+
+// At first there are none.
+class ViewBuffers {
+    enum Row {
+#define VKPT_SCREEN_BUFFER(type, name) row_##name,
+#include "shaders/shared/screen_buffers.def"
+#undef VKPT_SCREEN_BUFFER
+    };
+
+public:
+    // Room for a view of this many pixels; contents are lost if they have to grow. The device must be idle then.
+    void reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size);
+    bool must_grow(glm::uvec2 size) const;
+    // A new frame of the view begins: what was stored as NAME is from now on read as previous_NAME.
+    void exchange_history();
+
+    const shared::ScreenBuffers& rows() const { return rows_; }
+    VkDescriptorSet texels() const { return texels_.handle(); }
+    VkDeviceAddress trace_stack() const { return trace_stack_.address(); }
+    const Buffer& accumulated() const { return buffers_[row_accumulated]; }
+    const Buffer& radiance() const { return buffers_[row_radiance]; }
+
+private:
+    size_t pixels_ = 0; // that every buffer has room for
+    uint32_t groups_ = 0; // that the trace stack has room for
+    std::array<Buffer, shared::SCREEN_BUFFER_COUNT> buffers_;
+    // Descriptor set 3, for the drivers that read tables so (Device::reads_texels). Others find empty buffers here.
+    TexelSet texels_;
+    Buffer trace_stack_;
+    shared::ScreenBuffers rows_ {};
+};
+
+TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings);
+
+// Of blocks that cover a view of this size.
+glm::uvec2 count_blocks(glm::uvec2 size, glm::uvec2 block);
+
+// Workgroups of a pass over a view of this size; see VKPT_RUN_OVER_PIXELS.
+uint32_t pixel_groups(glm::uvec2 size);
+
+} // namespace vkpt
