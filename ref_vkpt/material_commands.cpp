@@ -31,7 +31,7 @@ void print_material(const Module& m, uint32_t texinfo)
 {
     const World& world = *m.scene.world();
     const std::string& name = world.material_names[texinfo];
-    const shared::Material& material = m.snapshot->materials[texinfo];
+    const shared::Material& material = m.view().snapshot->materials[texinfo];
     engine::print("{}: roughness {:.2f}, metalness {:.2f}", name, material.roughness, material.metallic);
     if (const MaterialSettings* settings = m.scene.materials().find(name))
         for (const auto& [attribute, value] : settings->attributes)
@@ -97,7 +97,7 @@ void run_material_command(Module& m)
         return save_materials(m);
     const World* world = m.scene.world();
     const std::optional<uint32_t> texinfo
-        = world && m.snapshot && m.last_camera ? find_texinfo(*world, m.last_camera->eye, m.last_camera->forward) : std::nullopt;
+        = world && m.view().snapshot && m.last_camera ? find_texinfo(*world, m.last_camera->eye, m.last_camera->forward) : std::nullopt;
     if (!texinfo)
         return engine::print("mat: no face of the map is under the crosshair");
     if (word == "reset")

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/antialiasing.hpp"
 
+#include "shaders/shared/frame.h"
+
 #include <algorithm>
 
 namespace vkpt {
 
 namespace {
-
-// Camera rays pass through so many places of each pixel of the result, one after the other.
-constexpr uint32_t offsets_per_pixel = 8;
 
 // Halton's sequence (radical inverse of index + 1).
 float halton(uint32_t index, uint32_t base)
@@ -26,8 +25,9 @@ float halton(uint32_t index, uint32_t base)
 glm::vec2 offset_in_pixel(uint32_t index, glm::uvec2 rendered, glm::uvec2 resolved)
 {
     const uint64_t pixels = std::max<uint64_t>(1, uint64_t(rendered.x) * rendered.y);
-    const uint64_t places = offsets_per_pixel * uint64_t(resolved.x) * resolved.y / pixels;
-    index = uint32_t(index % std::clamp<uint64_t>(places, offsets_per_pixel, 16 * offsets_per_pixel));
+    constexpr uint64_t least = shared::OFFSETS_PER_PIXEL, most = 16 * least;
+    const uint64_t places = least * resolved.x * resolved.y / pixels;
+    index = uint32_t(index % std::clamp(places, least, most));
     return { halton(index, 2), halton(index, 3) };
 }
 

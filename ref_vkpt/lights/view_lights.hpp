@@ -10,6 +10,7 @@ namespace vkpt {
 struct ViewLights {
     DynamicLights dynamic;
     LightLists lists; // at first a copy of the map's
+    bool said_unlisted = false; // that some found no room there
 };
 
 } // namespace vkpt
