@@ -228,7 +228,7 @@ private:
     Device device_ { DeviceSettings() };
     MemoryAllocator memory_ { device_ };
     Gpu gpu_ { device_, memory_ };
-    Bindings bindings_ { gpu_, false };
+    Bindings bindings_ { gpu_ };
     Uploader uploader_ { gpu_ };
     std::unique_ptr<TextureStore> textures_;
     std::unique_ptr<Scene> scene_;

@@ -84,7 +84,7 @@ void Image::swap(Image& other) noexcept
 
 // ---- what is told to the device
 
-Bindings::Bindings(const Gpu& gpu, bool)
+Bindings::Bindings(const Gpu& gpu)
     : gpu_(gpu)
     , max_textures_(gpu.device.max_textures)
 {
