@@ -73,6 +73,7 @@ void write_md2(const Md2Mesh& mesh, const std::vector<Float4>& points, bool mirr
         triangle.normals[2] = normal_of(c);
         triangle.material = material;
         triangle.emitter = triangle.cluster = -1;
+        triangle.lightstyle = 0; // the memory is the device's: nothing in it is zero by itself
         if (target.records) {
             uint32_t* record = target.records + size_t(slot) * bvh_triangle_words;
             write_corners(record, a, b, c);
