@@ -182,6 +182,19 @@ void store_light(uint index, uvec4 light)
         store_filter_a(index, light);
 }
 
+// What fireflies are measured by: the history, where it is long enough, else this frame's neighbours.
+ReflectedLight known_light(uvec2 pixel, Surface surface, History history)
+{
+    ReflectedLight known = ReflectedLight(history.light.diffuse, history.light.specular);
+    bvec2 is_new = lessThan(history.moments.frames, vec2(least_frames));
+    if (any(is_new)) {
+        ReflectedLight around = light_around(pixel);
+        known.diffuse = is_new.x ? around.diffuse : known.diffuse;
+        known.specular = is_new.y ? around.specular / specular_tint(surface) : known.specular;
+    }
+    return known;
+}
+
 void accumulate_pixel(uvec2 pixel, uint index)
 {
     uvec2 guide = load_guide(index);
@@ -218,13 +231,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
         }
     }
     vec2 changed = find_lambda(pixel);
-    ReflectedLight known = ReflectedLight(history.light.diffuse, history.light.specular);
-    bvec2 is_new = lessThan(history.moments.frames, vec2(least_frames));
-    if (any(is_new)) {
-        ReflectedLight around = light_around(pixel);
-        known.diffuse = is_new.x ? around.diffuse : known.diffuse;
-        known.specular = is_new.y ? around.specular / specular_tint(surface) : known.specular;
-    }
+    ReflectedLight known = known_light(pixel, surface, history);
     diffuse = limit_firefly(diffuse, known.diffuse, history.moments.frames.x, changed.x);
     specular = limit_firefly(specular, known.specular, history.moments.frames.y, changed.y);
     vec2 frames = quick_min(history.moments.frames + 1.0, vec2(most_frames, most_specular));

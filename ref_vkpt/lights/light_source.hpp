@@ -7,6 +7,7 @@
 #include "ref_vkpt/lights/spot_cone.hpp"
 #include "shaders/shared/scene.h"
 
+#include <cmath>
 #include <numbers>
 
 namespace vkpt {
@@ -14,7 +15,7 @@ namespace vkpt {
 struct LightSource {
     glm::vec3 centre, normal; // unit; normal 0: a sphere
     float area; // that is seen from its front
-    float power; // luminance, lightstyle at 1, times area
+    float power; // luminance, lightstyle at 1, times area; of a spot times the root of the share that it lights
 };
 
 inline LightSource make_light_source(const shared::Emitter& e)
@@ -22,7 +23,10 @@ inline LightSource make_light_source(const shared::Emitter& e)
     if (is_sphere(e)) {
         const float disc = std::numbers::pi_v<float> * e.p1.x * e.p1.x;
         const bool is_forward = has_cone(e) && outer_cosine(e) > 0;
-        return { e.p0, is_forward ? e.p2 : glm::vec3(0), disc, luminance(e.radiance) * disc };
+        // A spot lights a part of what is in front of it, or around. A choice that does not know which part has the least
+        // variance with the root of the mean square of the light.
+        const float lit = has_cone(e) ? (1 - outer_cosine(e)) / (is_forward ? 1 : 2) : 1;
+        return { e.p0, is_forward ? e.p2 : glm::vec3(0), disc, luminance(e.radiance) * disc * std::sqrt(lit) };
     }
     const glm::vec3 across = glm::cross(e.p1 - e.p0, e.p2 - e.p0);
     const float size = glm::length(across), area = 0.5f * size;

@@ -3,7 +3,7 @@
 
 #include "ref_vkpt/lights/luminance.hpp"
 #include "ref_vkpt/lights/spot_cone.hpp"
-#include "ref_vkpt/scene/entity_geometry.hpp"
+#include "ref_vkpt/lights/octahedral.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -15,9 +15,6 @@ using shared::Triangle;
 
 namespace {
 
-// GLSL's sign() is 0 at 0; the octahedral map needs +1 there.
-vec2 signs(vec2 p) { return { p.x >= 0 ? 1.f : -1.f, p.y >= 0 ? 1.f : -1.f }; }
-
 struct Corner {
     vec3 position;
     vec2 uv;
@@ -71,31 +68,6 @@ bool is_sane(const Axes& axes) { return is_sane(axes.forward) && is_sane(axes.ri
 bool is_sane(const Transform& t)
 {
     return is_sane(t.origin) && is_sane(t.rotation[0]) && is_sane(t.rotation[1]) && is_sane(t.rotation[2]);
-}
-
-uint32_t encode_octahedral(vec3 direction)
-{
-    const float length = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
-    const vec3 d = length > 1e-12f && length < 1e30f ? direction / length : vec3(0, 0, 1);
-    vec2 p(d.x, d.y);
-    if (d.z < 0)
-        p = (vec2(1) - glm::abs(vec2(p.y, p.x))) * signs(p);
-    const auto pack = [](float x) { // to the nearest; the conversion cuts off
-        return uint32_t(uint16_t(int16_t(int(std::clamp(x, -1.f, 1.f) * 32767 + (x < 0 ? -0.5f : 0.5f)))));
-    };
-    return pack(p.x) | pack(p.y) << 16;
-}
-
-vec3 decode_octahedral(uint32_t bits)
-{
-    const auto unpack = [](uint32_t half) { return std::max(float(int16_t(uint16_t(half))) / 32767, -1.f); };
-    const vec2 p(unpack(bits & 0xffff), unpack(bits >> 16));
-    vec3 direction(p, 1 - std::abs(p.x) - std::abs(p.y));
-    if (direction.z < 0) {
-        const vec2 folded = (vec2(1) - glm::abs(vec2(p.y, p.x))) * signs(p);
-        direction = vec3(folded, direction.z);
-    }
-    return glm::normalize(direction);
 }
 
 Axes angle_vectors(vec3 angles)

@@ -5,16 +5,12 @@
 #pragma once
 
 #include "formats/model.hpp"
+#include "ref_vkpt/lights/octahedral.hpp"
 #include "shaders/shared/scene.h"
 
 #include <vector>
 
 namespace vkpt {
-
-// Unit vectors in 2 x 16 bit snorm, x in the low half, as shaders/lib/packing.glsl does. A vector without direction
-// gives +z.
-uint32_t encode_octahedral(glm::vec3 direction);
-glm::vec3 decode_octahedral(uint32_t bits);
 
 // Finite, and not far outside of any map: small enough that products of coordinates stay finite.
 bool is_sane(float value);

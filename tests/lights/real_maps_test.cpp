@@ -105,7 +105,9 @@ SightCount count_missed(
         const Emitter& e = emitters[emitter];
         const bool is_behind
             = e.type != shared::EMITTER_SPHERE && !(glm::dot(glm::cross(e.p1 - e.p0, e.p2 - e.p0), from - e.p0) > 0);
-        if (cluster < 0 || is_behind || !is_line_clear(bsp, from, point_on_emitter(e, rng)))
+        const bool is_beside
+            = has_cone(e) && glm::dot(glm::normalize(from - e.p0), e.p2) <= outer_cosine(e); // of what a spot lights
+        if (cluster < 0 || is_behind || is_beside || !is_line_clear(bsp, from, point_on_emitter(e, rng)))
             continue;
         count.seen++;
         const shared::LightList& list = lists.lists()[size_t(cluster)];

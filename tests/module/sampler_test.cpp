@@ -147,7 +147,7 @@ TEST_F(Samplers, AnUnknownNameIsToldAndReplaced)
 {
     session_->set("pt_light_sampler", "no_such_sampler");
     session_->draw();
-    EXPECT_TRUE(session_->has_line("\"no_such_sampler\" is unknown"));
+    EXPECT_TRUE(session_->has_line("there is no pt_light_sampler \"no_such_sampler\""));
     EXPECT_STREQ(session_->host().cvars().get("pt_light_sampler", "", 0)->text, "subset_pps");
     EXPECT_FALSE(is_black(session_->capture()));
 }
