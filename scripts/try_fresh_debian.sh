@@ -20,6 +20,7 @@ this order:
 
   --only PART,...     only these parts; each needs what the parts before it have installed
   --tests REGEX       of ./test, only the suites whose name matches (all)
+  --cache DIR         a folder for ccache that the systems share, so that repeated builds take minutes
   --folder DIR        where the systems are made (build/fresh/SUITE), some 12 GB; existing ones are used again
   --mirror URL        Debian's mirror (http://deb.debian.org/debian)
   -h, --help          this text
@@ -29,12 +30,13 @@ Exit status: 0 everything was as expected, 1 something was not, 2 wrong use.
 HELP
 }
 
-suite='' only=refuse,root,user,package,uninstall tests='' folder='' mirror=http://deb.debian.org/debian
+suite='' only=refuse,root,user,package,uninstall tests='' cache='' folder='' mirror=http://deb.debian.org/debian
 while (($#)); do
     case $1 in
     -h | --help) print_help; exit 0 ;;
     --only) only=${2:-}; shift ;;
     --tests) tests=${2:-}; shift ;;
+    --cache) cache=${2:-}; shift ;;
     --folder) folder=${2:-}; shift ;;
     --mirror) mirror=${2:-}; shift ;;
     -*) die_usage "unknown option '$1'" ;;
@@ -58,6 +60,8 @@ has debootstrap || die "debootstrap is not installed: apt install debootstrap"
 folder=${folder:-$root/build/fresh/$suite}
 mkdir -p "$folder/log" || die "cannot make $folder"
 log_dir=$folder/log
+# Both users of the systems write there.
+[[ -z $cache ]] || { mkdir -p "$cache" && chmod 1777 "$cache" && cache=$(realpath "$cache"); } || die "cannot make $cache"
 failures=0 checks=0
 
 # make_system NAME: a bare Debian with what a clone needs, and an ordinary user.
@@ -65,7 +69,7 @@ make_system() {
     local system=$folder/$1
     [[ -e $system/made ]] && return 0
     run_step "debootstrap-$1" "Making $system" \
-        debootstrap --variant=minbase --include=ca-certificates,git "$suite" "$system" "$mirror" || die "debootstrap failed"
+        debootstrap --variant=minbase --include="ca-certificates,git${cache:+,ccache}" "$suite" "$system" "$mirror" || die "debootstrap failed"
     cp /etc/resolv.conf "$system/etc/resolv.conf"
     inside "$1" root 'useradd --create-home --shell /bin/bash player && apt-get update' >"$log_dir/made-$1" 2>&1 \
         || die "the new system does not work; see $log_dir/made-$1"
@@ -75,15 +79,19 @@ make_system() {
 # inside SYSTEM USER COMMAND: run by the shell of that user at home, with nothing of our environment and no terminal.
 inside() {
     local home=/root
+    local -a compiler=()
+    [[ -z $cache ]] || compiler=(CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_DIR=/ccache CCACHE_UMASK=000)
     [[ $2 == root ]] || home=/home/$2
     # shellcheck disable=SC2016  # expanded within
     unshare --mount --propagation private bash -c '
-        system=$1 user=$2 home=$3 command=$4
+        system=$1 user=$2 home=$3 command=$4 cache=$5
+        shift 5
         mount -t proc proc "$system/proc" && mount -t tmpfs -o mode=1777 tmpfs "$system/tmp" \
-            && mount --rbind /dev "$system/dev" && mount -t tmpfs -o mode=1777 tmpfs "$system/dev/shm" || exit 125
+            && mount --rbind /dev "$system/dev" && mount -t tmpfs -o mode=1777 tmpfs "$system/dev/shm" \
+            && { [ -z "$cache" ] || { mkdir -p "$system/ccache" && mount --bind "$cache" "$system/ccache"; }; } || exit 125
         exec chroot --userspec="$user:$user" "$system" /usr/bin/env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin:/usr/games \
-            HOME="$home" USER="$user" LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive bash -c "cd && $command"' \
-        bash "$folder/$1" "$2" "$home" "$3" </dev/null
+            HOME="$home" USER="$user" LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@" bash -c "cd && $command"' \
+        bash "$folder/$1" "$2" "$home" "$3" "$cache" ${compiler[@]+"${compiler[@]}"} </dev/null
 }
 
 # check NAME STATUS PATTERN SYSTEM USER COMMAND: the command ends with STATUS and says PATTERN.
