@@ -3,6 +3,7 @@
 #include "formats/byte_writer.hpp"
 #include "formats/image_jpg.hpp"
 #include "formats/image_png.hpp"
+#include "formats/image_room.hpp"
 #include "formats/image_size.hpp"
 #include "formats/image_tga.hpp"
 
@@ -21,13 +22,15 @@
 
 namespace formats {
 
-Image read_common_image(Bytes file, std::string_view name)
+Image read_common_image(Bytes file, std::string_view name) { return read_common_image(file, name, max_pixels); }
+
+Image read_common_image(Bytes file, std::string_view name, size_t room)
 {
     if (is_png(file))
-        return read_png(file, name);
+        return read_png(file, name, room);
     if (is_jpg(file))
-        return read_jpg(file, name);
-    return read_tga(file, name);
+        return read_jpg(file, name, room);
+    return read_tga(file, name, room);
 }
 
 std::vector<std::byte> write_png(const Image& image)

@@ -106,7 +106,7 @@ void convert_cmyk(std::vector<Rgba8>& pixels)
 
 bool is_jpg(Bytes file) { return file.size() >= 2 && file[0] == std::byte { 0xff } && file[1] == std::byte { 0xd8 }; }
 
-Image read_jpg(Bytes file, std::string_view name)
+Image read_jpg(Bytes file, std::string_view name, size_t room)
 {
     const ByteReader reader(file, name);
     const auto fail = [&](std::string_view reason) { reader.fail_at(0, "JPG: " + std::string(reason)); };
@@ -116,7 +116,7 @@ Image read_jpg(Bytes file, std::string_view name)
     if (decoder.is_arithmetic()) // takes seconds for a picture without data, and no program writes it
         fail("arithmetic coding is not supported; save it as a baseline or progressive JPG");
     check_image_size(reader, 0, decoder.width(), decoder.height());
-    check_pixel_budget(reader, decoder.width(), decoder.height());
+    check_pixel_budget(reader, decoder.width(), decoder.height(), room);
     if (size_t(decoder.width() * decoder.height()) / density_limit > file.size())
         fail_too_little_data(reader, decoder.width(), decoder.height());
     Image image { int(decoder.width()), int(decoder.height()), {} };

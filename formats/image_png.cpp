@@ -109,7 +109,7 @@ bool is_png(Bytes file)
     return file.size() >= signature.size() && std::memcmp(file.data(), signature.data(), signature.size()) == 0;
 }
 
-Image read_png(Bytes file, std::string_view name)
+Image read_png(Bytes file, std::string_view name, size_t room)
 {
     const ByteReader reader(file, name);
     Decoder decoder(file);
@@ -117,7 +117,7 @@ Image read_png(Bytes file, std::string_view name)
     if (!decoder.open())
         fail();
     check_image_size(reader, 16, decoder.width(), decoder.height());
-    check_pixel_budget(reader, decoder.width(), decoder.height());
+    check_pixel_budget(reader, decoder.width(), decoder.height(), room);
     if ((decoder.row_bytes() + 1) * size_t(decoder.height()) / deflate_limit > file.size())
         fail_too_little_data(reader, decoder.width(), decoder.height());
     Image image { int(decoder.width()), int(decoder.height()), {} };

@@ -6,6 +6,6 @@
 namespace formats {
 
 bool is_png(Bytes file);
-Image read_png(Bytes file, std::string_view name);
+Image read_png(Bytes file, std::string_view name, size_t room); // see image_room.hpp
 
 } // namespace formats

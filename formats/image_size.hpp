@@ -17,10 +17,14 @@ inline void check_image_size(const ByteReader& reader, size_t offset, int64_t wi
         reader.fail_at(offset, "a picture of " + size_text(width, height) + " pixels");
 }
 
-// Of a size that check_image_size() has let through; before memory is taken for it.
-inline void check_pixel_budget(const ByteReader& reader, int64_t width, int64_t height)
+// Of a size that check_image_size() has let through; before memory is taken for it. `room`: see image_room.hpp.
+inline void check_pixel_budget(const ByteReader& reader, int64_t width, int64_t height, size_t room = max_pixels)
 {
     const size_t pixels = size_t(width) * size_t(height);
+    if (pixels > room && room < max_pixels)
+        reader.fail_at(0,
+            "a picture of " + size_text(width, height) + " pixels, where the pictures before it have left room for "
+                + std::to_string(room) + "; make them smaller");
     if (pixels > max_pixels || (pixels > max_pixels_of_any_file && pixels / max_pixels_per_byte > reader.size()))
         reader.fail_at(0,
             "a picture of " + size_text(width, height) + " pixels in " + std::to_string(reader.size())

@@ -43,7 +43,7 @@ Rgba8 read_colour(ByteReader& reader, int bits)
 
 class Decoder {
 public:
-    Decoder(Bytes file, std::string_view name)
+    Decoder(Bytes file, std::string_view name, size_t room)
         : reader_(file, name)
         , header_(reader_.read<Header>())
     {
@@ -53,7 +53,7 @@ public:
                 "not a picture that can be read (neither PNG nor JPG; as TGA: type " + std::to_string(header_.type)
                     + ", " + std::to_string(header_.bits) + " bits)");
         check_image_size(reader_, 12, number(header_.width), number(header_.height));
-        check_pixel_budget(reader_, number(header_.width), number(header_.height));
+        check_pixel_budget(reader_, number(header_.width), number(header_.height), room);
         reader_.take(header_.id_size);
         read_map();
     }
@@ -140,7 +140,7 @@ private:
 
 } // namespace
 
-Image read_tga(Bytes file, std::string_view name) { return Decoder(file, name).decode(); }
+Image read_tga(Bytes file, std::string_view name, size_t room) { return Decoder(file, name, room).decode(); }
 
 std::vector<std::byte> write_tga(const Image& image)
 {

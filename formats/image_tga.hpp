@@ -6,6 +6,6 @@
 
 namespace formats {
 
-Image read_tga(Bytes file, std::string_view name);
+Image read_tga(Bytes file, std::string_view name, size_t room); // see image_room.hpp
 
 } // namespace formats

@@ -34,7 +34,7 @@ void find_pictures(const std::string& name, unsigned present)
             return std::nullopt;
         return path.ends_with(".wal") ? wal : path.ends_with(".pcx") ? pcx : tga;
     };
-    const PictureFiles files(load, [](std::string_view) {});
+    PictureFiles files(load, [](std::string_view) {});
     for (size_t use = 0; use < texture_use_count; use++) {
         fuzz::require(!PictureFiles::original_paths(name, TextureUse(use)).empty(), "every picture has a path");
         fuzz::use(files.load(name, TextureUse(use), (present & 1) != 0));

@@ -113,7 +113,9 @@ formats::Image read_picture()
 void take_screenshot()
 {
     const formats::Image picture = read_picture();
-    if (!picture.pixels.empty())
+    if (picture.pixels.empty())
+        engine::print("vkpt: no screenshot: no frame has been drawn yet");
+    else
         engine::write_screenshot({ picture.width, picture.height }, 4, picture.pixels.data());
 }
 

@@ -238,6 +238,21 @@ bool FileSystem::exists(std::string_view game_path) const
     return added_.contains(key) || index_.contains(key);
 }
 
+std::optional<uint64_t> FileSystem::size(std::string_view game_path) const
+{
+    const std::string key = index_key(game_path);
+    if (const auto added = added_.find(key); added != added_.end()) {
+        std::error_code error;
+        const uintmax_t bytes = fs::file_size(added->second, error);
+        return error ? std::nullopt : std::optional<uint64_t>(bytes);
+    }
+    const auto found = index_.find(key);
+    PHYSFS_Stat stat;
+    if (found == index_.end() || !PHYSFS_stat(found->second.c_str(), &stat))
+        return std::nullopt;
+    return uint64_t(std::max<PHYSFS_sint64>(stat.filesize, 0));
+}
+
 std::optional<std::vector<std::byte>> FileSystem::read(std::string_view game_path) const
 {
     std::string key = index_key(game_path);

@@ -31,6 +31,8 @@ public:
 
     // Paths do not mind case, as in archives.
     bool exists(std::string_view game_path) const;
+    // As the folder or archive tells it, without reading; nothing: no such file.
+    std::optional<uint64_t> size(std::string_view game_path) const;
     // Nothing, and a line for `warn`: a file of an archive that is damaged, or unpacks to much more than the archive holds.
     std::optional<std::vector<std::byte>> read(std::string_view game_path) const;
     // Files in `folder` with this ending, sorted.

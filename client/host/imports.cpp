@@ -83,17 +83,16 @@ engine::Imports HostImports::table()
             host->add_console_text(format_text(format, arguments));
     };
     imports.load_file = [](const char* path, void** buffer) -> int {
-        if (!host->files_ || !host->files_->exists(path))
-            return -1;
+        const auto size = host->files_ ? host->files_->size(path) : std::nullopt;
+        if (!size || !buffer)
+            return size ? int(std::min<uint64_t>(*size, INT_MAX)) : -1;
         const auto bytes = host->files_->read(path);
         if (!bytes || bytes->size() > size_t(INT_MAX))
             return -1;
-        if (buffer) {
-            *buffer = std::malloc(std::max<size_t>(bytes->size(), 1));
-            if (!*buffer)
-                return -1;
-            std::memcpy(*buffer, bytes->data(), bytes->size());
-        }
+        *buffer = std::malloc(std::max<size_t>(bytes->size(), 1));
+        if (!*buffer)
+            return -1;
+        std::memcpy(*buffer, bytes->data(), bytes->size());
         return int(bytes->size());
     };
     imports.free_file = free_file;

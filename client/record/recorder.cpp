@@ -151,6 +151,7 @@ void Recorder::begin_registration(std::string_view map)
 {
     map_ = "maps/" + std::string(map) + ".bsp";
     brush_models_ = 0;
+    pictures_.begin_level();
     noted_files_.erase(map_); // another map of the same name may have come
     const auto file = load_file(map_);
     if (!file)

@@ -99,8 +99,15 @@ FileData::~FileData()
         imports.free_file(buffer_);
 }
 
+// As much as the pixels of the largest picture, 8192 x 8192; the engine takes whatever memory an archive's directory asks for.
+constexpr int most_file_bytes = 256 << 20;
+
 std::optional<FileData> load_file(const std::string& path)
 {
+    if (const int told = imports.load_file(path.c_str(), nullptr); told > most_file_bytes) {
+        print("vkpt: {} is not read: it has {} bytes, the limit is {}", path, told, most_file_bytes);
+        return std::nullopt;
+    }
     void* buffer = nullptr;
     const int size = imports.load_file(path.c_str(), &buffer);
     if (size < 0)

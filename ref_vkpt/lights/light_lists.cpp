@@ -240,12 +240,14 @@ bool LightLists::reaches(const shared::Emitter& emitter, size_t cluster) const
     return emitter.type == shared::EMITTER_SPHERE || has_in_front(emitter, cluster_bounds(cluster));
 }
 
-void LightLists::place(Placed& placed, const Emitter& emitter) const
+bool LightLists::place(Placed& placed, const Emitter& emitter, size_t most) const
 {
     placed.emitter = emitter;
     placed.clusters.clear();
     if (is_dark(emitter))
-        return;
+        return true;
+    if (most == 0)
+        return false;
     ClusterSet receivers;
     uint64_t steps = 0;
     // What moves may be inside a wall for a moment, or be an effect at a wall: then it may be seen from anywhere.
@@ -256,6 +258,10 @@ void LightLists::place(Placed& placed, const Emitter& emitter) const
         if (reaches(emitter, cluster))
             placed.clusters.push_back(uint32_t(cluster));
     });
+    if (placed.clusters.size() <= most)
+        return true;
+    placed.clusters = {};
+    return false;
 }
 
 void LightLists::update(std::span<const Emitter> dynamic_emitters)
@@ -266,11 +272,17 @@ void LightLists::update(std::span<const Emitter> dynamic_emitters)
     previous_dynamic_count_ = placed_.size();
     changed_ = placed_.size() != dynamic_emitters.size();
     placed_.resize(dynamic_emitters.size());
+    size_t room = most_dynamic_entries;
+    unlisted_dynamic_count_ = 0;
     for (size_t i = 0; i < dynamic_emitters.size(); i++) {
-        if (is_same_place(placed_[i].emitter, dynamic_emitters[i]))
-            continue;
-        place(placed_[i], dynamic_emitters[i]);
-        changed_ = true;
+        Placed& placed = placed_[i];
+        const bool stays = is_same_place(placed.emitter, dynamic_emitters[i]), was_left_out = placed.is_left_out;
+        if (!stays || was_left_out || placed.clusters.size() > room) {
+            placed.is_left_out = !place(placed, dynamic_emitters[i], room);
+            changed_ |= !stays || !was_left_out || !placed.is_left_out;
+        }
+        unlisted_dynamic_count_ += placed.is_left_out;
+        room = placed.is_left_out ? 0 : room - placed.clusters.size();
     }
     if (!changed_)
         return;

@@ -22,7 +22,8 @@ public:
     void build(const formats::Bsp& bsp, std::span<const shared::Emitter> static_emitters);
     // Each frame: dynamic emitters get indices static_count + i. Emitters with a reach list only where it extends to,
     // dark ones (radiance 0) nowhere. Where in the map an emitter can be seen is looked up again only if it has moved;
-    // nothing is done where all stand still.
+    // nothing is done where all stand still. Once there would be more than `most_dynamic_entries` in all clusters' lists,
+    // the further emitters list in none.
     void update(std::span<const shared::Emitter> dynamic_emitters);
 
     // Index = cluster; one more entry at the end, for points outside every cluster: it holds all emitters.
@@ -51,6 +52,10 @@ public:
     Bounds cluster_bounds(size_t cluster) const { return { cluster_mins_[cluster], cluster_maxs_[cluster] }; }
     // Static emitters that touch no cluster (they lie in solid): only the list for outside holds them.
     size_t unlisted_static_count() const { return unlisted_static_count_; }
+    // Dynamic emitters that found no more room in the last update.
+    size_t unlisted_dynamic_count() const { return unlisted_dynamic_count_; }
+    // The busiest of a hundred maps need some 50,000. What moves may be thousands of lights in thousands of clusters, every frame.
+    static constexpr size_t most_dynamic_entries = 1 << 21;
     // The tree that shaders descend to find a point's cluster. Node 0 is the root.
     const std::vector<shared::BspTreeNode>& tree() const { return tree_; }
 
@@ -65,8 +70,10 @@ private:
     struct Placed {
         shared::Emitter emitter {};
         std::vector<uint32_t> clusters;
+        bool is_left_out = false;
     };
-    void place(Placed& placed, const shared::Emitter& emitter) const;
+    // False: the clusters are more than `most`, and not kept.
+    bool place(Placed& placed, const shared::Emitter& emitter, size_t most) const;
     void flatten();
     // Whether light of the emitter can arrive anywhere in the cluster, were nothing in between.
     bool reaches(const shared::Emitter& emitter, size_t cluster) const;
@@ -74,7 +81,7 @@ private:
     const formats::Bsp* bsp_ = nullptr;
     size_t cluster_count_ = 0;
     size_t static_emitter_count_ = 0;
-    size_t unlisted_static_count_ = 0;
+    size_t unlisted_static_count_ = 0, unlisted_dynamic_count_ = 0;
     std::vector<shared::LightList> lists_;
     std::vector<uint32_t> static_indices_, dynamic_indices_;
     std::vector<shared::BspTreeNode> tree_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/picture_files.hpp"
 
+#include "formats/image_room.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -144,18 +146,19 @@ std::vector<std::string> PictureFiles::original_paths(std::string_view name, Tex
     return { path };
 }
 
-std::optional<LoadedPicture> PictureFiles::load(std::string_view name, TextureUse use, bool retexturing) const
+std::optional<LoadedPicture> PictureFiles::load(std::string_view name, TextureUse use, bool retexturing)
 {
     if (name.empty())
         return std::nullopt;
+    PixelBudget& budget = use == TextureUse::picture ? flat_budget_ : level_budget_;
     for (const std::string& path : original_paths(name, use)) {
         if (!is_readable_ending(ending_of(path)))
             continue;
         std::optional<LoadedPicture> picture;
         if (retexturing)
-            picture = load_replacement(path);
+            picture = load_replacement(path, budget);
         if (!picture)
-            picture = load_original(path);
+            picture = load_original(path, budget);
         if (!picture)
             continue;
         // The engine's own renderers ignore the alpha of these; hi-res packs keep other things in it.
@@ -167,7 +170,7 @@ std::optional<LoadedPicture> PictureFiles::load(std::string_view name, TextureUs
     return std::nullopt;
 }
 
-std::optional<LoadedPicture> PictureFiles::load_replacement(const std::string& path) const
+std::optional<LoadedPicture> PictureFiles::load_replacement(const std::string& path, PixelBudget& budget) const
 {
     for (const char* ending : { ".tga", ".png", ".jpg", ".jpeg" }) {
         LoadedPicture picture;
@@ -177,7 +180,8 @@ std::optional<LoadedPicture> PictureFiles::load_replacement(const std::string& p
         if (!file)
             continue;
         try {
-            picture.image = formats::read_common_image(*file, picture.file);
+            picture.image = formats::read_common_image(*file, picture.file, budget.room(file->size()));
+            budget.spend(picture.image, file->size());
         } catch (const formats::FormatError& error) {
             report_(describe(error));
             continue;
@@ -201,7 +205,7 @@ std::optional<LoadedPicture> PictureFiles::load_replacement(const std::string& p
     return std::nullopt;
 }
 
-std::optional<LoadedPicture> PictureFiles::load_original(const std::string& path) const
+std::optional<LoadedPicture> PictureFiles::load_original(const std::string& path, PixelBudget& budget) const
 {
     const std::optional<std::vector<std::byte>> file = load_file_(path);
     if (!file)
@@ -209,8 +213,10 @@ std::optional<LoadedPicture> PictureFiles::load_original(const std::string& path
     try {
         LoadedPicture picture;
         picture.path = picture.file = path;
-        picture.image = is_common_ending(ending_of(path)) ? formats::read_common_image(*file, path)
-                                                          : formats::read_image(*file, path, palette_);
+        picture.image = is_common_ending(ending_of(path))
+            ? formats::read_common_image(*file, path, budget.room(file->size()))
+            : formats::read_image(*file, path, palette_);
+        budget.spend(picture.image, file->size());
         picture.width = picture.image.width;
         picture.height = picture.image.height;
         return picture;

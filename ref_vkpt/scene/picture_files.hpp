@@ -29,6 +29,28 @@ struct LoadedPicture {
     int width = 0, height = 0; // of the original: texture coordinates and 2D sizes refer to these
 };
 
+// How many pixels the pictures of a level may have together, because an archive of a megabyte can ask for gigabytes: so many
+// from any files, and more by the files' size. (Packs for Quake II have a byte for each ten pixels or fewer.)
+class PixelBudget {
+public:
+    static constexpr size_t pixels_of_any_files = size_t(1) << 25, pixels_per_byte = 32;
+
+    // For a picture in a file of so many bytes.
+    size_t room(size_t file_bytes) const
+    {
+        const size_t most = pixels_of_any_files + (bytes_ + file_bytes) * pixels_per_byte;
+        return most > pixels_ ? most - pixels_ : 0;
+    }
+    void spend(const formats::Image& image, size_t file_bytes)
+    {
+        pixels_ += image.pixels.size();
+        bytes_ += file_bytes;
+    }
+
+private:
+    size_t pixels_ = 0, bytes_ = 0;
+};
+
 class PictureFiles {
 public:
     using LoadFile = std::function<std::optional<std::vector<std::byte>>(const std::string& path)>;
@@ -43,18 +65,21 @@ public:
 
     // Replacements (TGA, PNG, JPG beside the original, not smaller than it) are preferred where `retexturing`.
     // Nothing: no usable file.
-    std::optional<LoadedPicture> load(std::string_view name, TextureUse use, bool retexturing) const;
+    std::optional<LoadedPicture> load(std::string_view name, TextureUse use, bool retexturing);
+    // The next level's pictures have a budget of their own. Those of 2D are kept from level to level, and so is theirs.
+    void begin_level() { level_budget_ = {}; }
 
     // Where the original may lie, in the order of the search.
     static std::vector<std::string> original_paths(std::string_view name, TextureUse use);
 
 private:
-    std::optional<LoadedPicture> load_replacement(const std::string& path) const;
-    std::optional<LoadedPicture> load_original(const std::string& path) const;
+    std::optional<LoadedPicture> load_replacement(const std::string& path, PixelBudget& budget) const;
+    std::optional<LoadedPicture> load_original(const std::string& path, PixelBudget& budget) const;
 
     LoadFile load_file_;
     Report report_;
     formats::Palette palette_;
+    PixelBudget level_budget_, flat_budget_;
 };
 
 // Entries that stand in for a missing game palette: row 0 is grey, the others hues, dark to light.

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
 namespace vkpt {
 
@@ -32,6 +33,10 @@ void list_lights(SceneSnapshot& snapshot, World& world)
     snapshot.moving.move_emitters(
         int(world.models[0].emitters.size()), world.dynamic_lights.arrange(snapshot.emitters));
     world.light_lists.update(snapshot.emitters);
+    const size_t unlisted = world.light_lists.unlisted_dynamic_count();
+    if (unlisted > 0 && !std::exchange(world.said_unlisted, true))
+        engine::print("vkpt: {}: its moving lights make more than {} entries in the light lists; {} of them light nothing now",
+            world.bsp.name, LightLists::most_dynamic_entries, unlisted);
 }
 
 WorldPicture describe(const Texture& texture)

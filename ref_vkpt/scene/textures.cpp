@@ -188,6 +188,7 @@ void TextureStore::upload(Texture& texture, const formats::Image& pixels)
 void TextureStore::begin_registration()
 {
     registration_++;
+    files_.begin_level();
     said_full_ = false;
     // What was missing may have come since: a download, another game directory.
     for (Names& names : names_)

@@ -55,6 +55,7 @@ struct World {
     std::vector<WorldPicture> pictures; // per texinfo
     std::vector<glm::vec3> emission;    // per texinfo: Material::emission
     LightLists light_lists;
+    bool said_unlisted = false; // that some moving lights found no room there
     DynamicLights dynamic_lights;
     // Of model 0: made on a thread of its own while pictures and models are read.
     const Bvh& bvh() const { return bvh_future.get(); }

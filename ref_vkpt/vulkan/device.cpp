@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <optional>
+#include <sys/resource.h>
 
 namespace vkpt {
 
@@ -179,6 +180,18 @@ template <class Head, class Link> void chain(Head& head, Link& link)
     head.pNext = &link;
 }
 
+// With less, the CPU driver's compiler crashes instead of reporting an error.
+constexpr rlim_t least_address_space = rlim_t(2) << 30;
+
+void check_address_space()
+{
+    rlimit limit {};
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur < least_address_space)
+        throw FatalError(fmt::format("this process may take {} MiB of address space, and Vulkan drivers need {}: lift the "
+                                     "limit with \"ulimit -v unlimited\" and start again",
+            limit.rlim_cur >> 20, least_address_space >> 20));
+}
+
 int rank_device_type(VkPhysicalDeviceType type)
 {
     switch (type) {
@@ -270,6 +283,7 @@ Device::Device(const DeviceSettings& settings)
     , windowed_(!settings.instance_extensions.empty())
     , uses_rays_(settings.ray_tracing)
 {
+    check_address_space();
     load_vulkan_library();
     try {
         create_instance(settings);

@@ -498,6 +498,16 @@ TEST_F(Cli, RealModuleRefusesWhatItCannotDo)
     expect_in(result.errors, "no such device");
 }
 
+// The CPU driver's compiler would crash.
+TEST_F(Cli, ATightLimitOfAddressSpaceIsTold)
+{
+    const ProgramResult result = run_program("/bin/sh",
+        { "-c", "ulimit -v 1000000; exec \"$0\" info --module \"$1\"", VKPT_PROGRAM, REAL_MODULE }, folder.path());
+    EXPECT_EQ(result.status, 1);
+    expect_in(result.errors, "976 MiB of address space");
+    expect_in(result.errors, "ulimit -v unlimited");
+}
+
 TEST_F(Cli, RealModuleRendersTheSampleMap)
 {
     const ProgramResult result = render({ "--module", REAL_MODULE, "--set", "pt_validation=1", "-o", "a.png" });

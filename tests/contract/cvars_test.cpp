@@ -182,5 +182,18 @@ TEST_F(Cvars, FilesAreGivenBack)
     EXPECT_FALSE(engine::file_exists("b.txt"));
 }
 
+TEST_F(Cvars, FilesOverTheLimitAreNotAskedFor)
+{
+    mock.files["maps/small.bsp"] = "tiny";
+    constexpr int most_bytes = 256 << 20;
+    mock.told_sizes["maps/small.bsp"] = most_bytes;
+    EXPECT_TRUE(engine::load_file("maps/small.bsp"));
+    EXPECT_EQ(mock.files_loaded, 1);
+    mock.told_sizes["maps/small.bsp"] = most_bytes + 1;
+    EXPECT_FALSE(engine::load_file("maps/small.bsp"));
+    EXPECT_EQ(mock.files_loaded, 1) << "the engine would have taken that memory";
+    EXPECT_EQ(mock.lines_with("maps/small.bsp is not read: it has 268435457 bytes").size(), 1u);
+}
+
 } // namespace
 } // namespace vkpt::tests

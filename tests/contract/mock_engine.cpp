@@ -43,9 +43,12 @@ int load_file(const char* path, void** buffer)
     if (buffer) {
         *buffer = std::malloc(found->second.size() + 1);
         std::memcpy(*buffer, found->second.c_str(), found->second.size() + 1);
+        mock->files_loaded++;
         mock->files_out++;
+        return int(found->second.size());
     }
-    return int(found->second.size());
+    const auto told = mock->told_sizes.find(path);
+    return told != mock->told_sizes.end() ? told->second : int(found->second.size());
 }
 
 void free_file(void* buffer)

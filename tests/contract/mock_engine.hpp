@@ -42,7 +42,8 @@ struct MockEngine {
     std::vector<std::string> arguments;
     std::map<std::string, std::string> files;
     int restart = 0; // as last requested
-    int files_out = 0; // loaded and not given back
+    std::map<std::string, int> told_sizes; // of files, where their directory tells another size
+    int files_loaded = 0, files_out = 0; // all, and those not given back
     std::vector<std::string> console;
 };
 

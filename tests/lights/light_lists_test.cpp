@@ -263,6 +263,33 @@ TEST(LightLists, EmittersInSolidAreCountedAndListedOutside)
     EXPECT_EQ(collect_list(lists, 0).size(), 1u);
 }
 
+// Thousands of lights, each seen from everywhere, every frame: what finds no room lights nothing, and finds room again.
+TEST(LightLists, MovingLightsFindRoomOrAreLeftOut)
+{
+    CellWorld world(32, 1, 1);
+    LightLists lists;
+    lists.build(world.bsp, {});
+    const size_t clusters = lists.lists().size() - 1, fit = LightLists::most_dynamic_entries / clusters;
+    Emitter lamp {};
+    lamp.type = shared::EMITTER_SPHERE;
+    lamp.p0 = world.point_in_the_open();
+    lamp.p1 = glm::vec3(4, 0, 0);
+    lamp.radiance = glm::vec3(1);
+    std::vector<Emitter> moving(fit + 3, lamp);
+    lists.update(moving);
+    EXPECT_EQ(collect_list(lists, 0).size(), fit);
+    EXPECT_EQ(collect_list(lists, clusters).size(), moving.size()) << "outside";
+    EXPECT_EQ(lists.unlisted_dynamic_count(), 3u);
+    lists.update(moving);
+    EXPECT_FALSE(lists.has_changed());
+    EXPECT_EQ(lists.unlisted_dynamic_count(), 3u);
+    for (size_t i = 0; i < 2; i++)
+        moving[i].radiance = glm::vec3(0);
+    lists.update(moving);
+    EXPECT_EQ(lists.unlisted_dynamic_count(), 1u);
+    EXPECT_EQ(collect_list(lists, 0).back(), moving.size() - 2);
+}
+
 TEST(LightLists, MapWithoutVisibilityHasOneList)
 {
     CellWorld world(4, 1, 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The search for pictures, on a made-up set of files.
 #include "ref_vkpt/scene/picture_files.hpp"
+#include "tests/formats/picture_bombs.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -82,7 +83,7 @@ TEST_F(PictureFilesTest, PicturesHaveTransparentPixelsSkinsDoNot)
 {
     files["pics/a.pcx"] = formats::write_pcx(make_indexed(8, 8, 255));
     files["players/male/a.pcx"] = files["pics/a.pcx"];
-    const PictureFiles pictures = make();
+    PictureFiles pictures = make();
     EXPECT_EQ(pictures.load("a", TextureUse::picture, originals_only)->image.at(0, 0).a, 0);
     EXPECT_EQ(pictures.load("/players/male/a.pcx", TextureUse::picture, originals_only)->image.at(0, 0).a, 0);
     EXPECT_EQ(pictures.load("players/male/a.pcx", TextureUse::sprite, originals_only)->image.at(0, 0).a, 0);
@@ -120,7 +121,7 @@ TEST_F(PictureFilesTest, ReplacementsComeFirstInTheEnginesOrderAndKeepTheOrigina
 TEST_F(PictureFilesTest, ReplacementWithoutOriginalHasItsOwnSize)
 {
     files["pics/new.png"] = formats::write_png(make_plain(20, 10, { 1, 2, 3, 128 }));
-    const PictureFiles pictures = make();
+    PictureFiles pictures = make();
     const auto picture = pictures.load("new", TextureUse::picture, with_replacements);
     ASSERT_TRUE(picture);
     EXPECT_EQ(picture->width, 20);
@@ -167,7 +168,7 @@ TEST_F(PictureFilesTest, EveryCutOfAWallIsReportedNotThrown)
 
 TEST_F(PictureFilesTest, MissingPicturesAreNothingAndSilent)
 {
-    const PictureFiles pictures = make();
+    PictureFiles pictures = make();
     for (TextureUse use :
         { TextureUse::wall, TextureUse::skin, TextureUse::sprite, TextureUse::picture, TextureUse::sky })
         for (const char* name : { "none", "", "/", "/a", "a.b", "../x.pcx", "dir.x/none" })
@@ -200,6 +201,43 @@ TEST_F(PictureFilesTest, PaletteIsTheGamesOrAStandIn)
     EXPECT_EQ(make().palette(), make_neutral_palette());
     ASSERT_EQ(reports.size(), 1u);
     EXPECT_TRUE(reported("pics/colormap.pcx is missing"));
+}
+
+// One archive may have hundreds of such pictures in a megabyte.
+TEST_F(PictureFilesTest, ALevelsPicturesHaveABudgetTogether)
+{
+    constexpr int large = 4096; // two of these are the budget
+    const std::vector<std::byte> black = samples::make_black_png({ .width = large, .height = large, .bits = 1, .colour_type = 0 });
+    ASSERT_LT(black.size(), 8192u);
+    for (const char* name : { "a", "b", "c" })
+        files["textures/" + std::string(name) + ".png"] = black;
+    add_wall("textures/c.wal", 32, 16, 5);
+    files["textures/d.png"] = samples::make_black_png({ .width = 64, .height = 64 });
+    PictureFiles pictures = make();
+    for (const char* name : { "a", "b" })
+        EXPECT_EQ(pictures.load(name, TextureUse::wall, with_replacements).value().image.width, large);
+    EXPECT_TRUE(reports.empty());
+    EXPECT_EQ(pictures.load("c", TextureUse::wall, with_replacements).value().file, "textures/c.wal");
+    EXPECT_TRUE(reported("textures/c.png")) << "is named";
+    EXPECT_TRUE(reported("have left room for")) << "with the reason";
+    add_wall("textures/d.wal", 64, 64, 5);
+    EXPECT_EQ(pictures.load("d", TextureUse::wall, with_replacements).value().file, "textures/d.png") << "it is small";
+    pictures.begin_level();
+    EXPECT_EQ(pictures.load("c", TextureUse::wall, with_replacements).value().file, "textures/c.png");
+}
+
+TEST(PixelBudgetTest, GrowsWithTheFiles)
+{
+    PixelBudget budget;
+    formats::Image image;
+    image.pixels.resize(PixelBudget::pixels_of_any_files / 2);
+    for (int i = 0; i < 5; i++) // a byte for each 32 pixels: for ever
+        budget.spend(image, image.pixels.size() / PixelBudget::pixels_per_byte);
+    EXPECT_EQ(budget.room(0), PixelBudget::pixels_of_any_files);
+    EXPECT_EQ(budget.room(100), PixelBudget::pixels_of_any_files + 100 * PixelBudget::pixels_per_byte);
+    for (int i = 0; i < 3; i++) // by none
+        budget.spend(image, 0);
+    EXPECT_EQ(budget.room(0), 0u);
 }
 
 TEST(NeutralPaletteTest, StartsWithAGreyRampAndEndsTransparent)
