@@ -132,7 +132,9 @@ protected:
 
     std::string ask_display(const std::string& command) const
     {
-        const std::string line = "DISPLAY=" + display + " xdotool " + command + " 2>/dev/null";
+        // A key that ends the program is not yet released then: xdotool may find no window and say so.
+        const std::string line
+            = "DISPLAY=" + display + " xdotool " + command + " 2>>'" + (folder.path() / "xdotool.txt").string() + "'";
         FILE* pipe = popen(line.c_str(), "r");
         std::string answer;
         for (char part[256]; pipe && fgets(part, sizeof part, pipe);)
@@ -150,7 +152,12 @@ protected:
     {
         EXPECT_TRUE(wait_for(60, [&] { return title().find(part) != std::string::npos; }))
             << "\"" << part << "\" is not in \"" << title() << "\"\n"
-            << folder.read("log.txt");
+            << messages();
+    }
+    // Of the program and of who presses its keys, for failures.
+    std::string messages() const
+    {
+        return folder.read("log.txt") + (has_file("xdotool.txt") ? "xdotool: " + folder.read("xdotool.txt") : "");
     }
     bool has_file(const std::string& name) const { return std::filesystem::exists(folder.path() / name); }
     formats::Image load(const std::string& name) const
@@ -190,7 +197,7 @@ TEST_F(ViewWindow, KeysSwitchSplitSaveAndLeave)
     press("b");
     expect_title("pt_bounces 2");
     press("p m space Tab Tab F1");
-    ASSERT_TRUE(save_picture("vkpt-view-001.png", 60)) << folder.read("log.txt");
+    ASSERT_TRUE(save_picture("vkpt-view-001.png", 60)) << messages();
     const formats::Image picture = load("vkpt-view-001.png");
     ASSERT_EQ(picture.width, 320);
     ASSERT_EQ(picture.height, 200);
@@ -201,7 +208,7 @@ TEST_F(ViewWindow, KeysSwitchSplitSaveAndLeave)
     EXPECT_GT(load("vkpt-window-001.png").width, 320) << "picture and panel";
     press("Escape"); // the help
     press("Escape");
-    EXPECT_EQ(program.wait(60), 0) << folder.read("log.txt");
+    EXPECT_EQ(program.wait(60), 0) << messages();
 }
 
 TEST_F(ViewWindow, ModuleThatFailsEndsWithItsWords)
@@ -209,7 +216,7 @@ TEST_F(ViewWindow, ModuleThatFailsEndsWithItsWords)
     start(FAKE_MODULE, { "maps/sample.bsp", "--size", "64x64", "--set", "fake_throw=render_view fatal" },
         (folder.path() / "cache").string());
     EXPECT_EQ(program.wait(60), 1);
-    EXPECT_NE(folder.read("log.txt").find("the device is lost"), std::string::npos) << folder.read("log.txt");
+    EXPECT_NE(folder.read("log.txt").find("the device is lost"), std::string::npos) << messages();
 }
 
 #ifdef REAL_MODULE
@@ -217,15 +224,15 @@ TEST_F(ViewWindow, RealModuleComparesAndInspects)
 {
     start(REAL_MODULE, { "maps/sample.bsp", "--size", "64x48", "--b", "pt_bounces=0", "--set", "pt_validation=1" },
         VKPT_TEST_CACHE);
-    ASSERT_TRUE(save_picture("vkpt-view-001.png", 300)) << folder.read("log.txt");
+    ASSERT_TRUE(save_picture("vkpt-view-001.png", 300)) << messages();
     expect_title("pt_bounces 0");
     press("p m");
     press("2 v");
     expect_title("pt_debug_view albedo");
-    EXPECT_TRUE(save_picture("vkpt-view-002.png", 60)) << folder.read("log.txt");
+    EXPECT_TRUE(save_picture("vkpt-view-002.png", 60)) << messages();
     press("ctrl+q");
-    EXPECT_EQ(program.wait(60), 0) << folder.read("log.txt");
-    EXPECT_EQ(folder.read("log.txt").find("vkpt validation:"), std::string::npos) << folder.read("log.txt");
+    EXPECT_EQ(program.wait(60), 0) << messages();
+    EXPECT_EQ(folder.read("log.txt").find("vkpt validation:"), std::string::npos) << messages();
 }
 #endif
 
