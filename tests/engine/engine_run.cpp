@@ -104,7 +104,8 @@ int EngineRun::start(const EngineOptions& options)
 {
     std::vector<std::string> words { VKPT_SOURCE_DIR "/scripts/run_engine.sh", folder.string(),
         std::to_string(options.width) + "x" + std::to_string(options.height), "+set", "pt_validation",
-        options.validation ? "1" : "0", "+set", "pt_seed", "1" };
+        options.validation ? "1" : "0", "+set", "pt_seed", "1", "+set", "pt_render_scale",
+        std::to_string(options.render_scale) };
     words.insert(words.end(), options.arguments.begin(), options.arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words)

@@ -26,6 +26,7 @@ struct EngineOptions {
     std::vector<std::string> environment; // NAME=VALUE
     std::vector<std::string> display_commands; // one for each `display_mark`; run by a shell on the engine's display
     int width = 320, height = 180;
+    int render_scale = 25; // pt_render_scale: a CPU renders the frames, and most tests do not look at them
     double cpu_seconds = 300; // of the engine with display and scripts; then it is ended
     std::string end_at; // a console line with this text ends it, too, without an error
     // Called again and again while the engine runs, with its writable game folder.

@@ -52,6 +52,7 @@ void write_statistics(const std::vector<PictureStatistics>& rows)
 std::vector<PictureStatistics> play_and_measure()
 {
     EngineOptions options;
+    options.render_scale = 100;
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+set", "pt_capture_every",
         std::to_string(capture_every), "+set", "flt_denoiser", "off", "+set", "flt_taa", "off", "+set", "pt_bloom", "0",
         "+set", "timedemo", "1", "+set", "cl_predict", "0", "+set", "nextdemo", "quit", "+demomap", own_demo };

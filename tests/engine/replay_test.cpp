@@ -111,6 +111,7 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
     options.files["demos/start.dm2"] = demo;
     options.width = width;
     options.height = height;
+    options.render_scale = 100;
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+set", "pt_capture_every", every, "+set", "timedemo",
         "1", "+set", "fixedtime", "100000", "+set", "cl_predict", "0", "+set", "con_notifytime", "100000", "+set",
         "nextdemo", "quit", "+demomap", "start.dm2" };

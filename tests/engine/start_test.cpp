@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Starting, playing a demo, ending; and failing to start.
+// Playing a demo; and failing to start.
 #include "tests/engine/engine_run.hpp"
 
 #include <gtest/gtest.h>
@@ -7,22 +7,6 @@
 #include <regex>
 
 namespace vkpt::tests {
-
-TEST(Engine, StartsAMapAndQuits)
-{
-    EngineOptions options;
-    options.script = "wait_25\npt_info\nwait_5\nquit\n";
-    options.arguments = { "+map", own_map, "+exec", "test.cfg" };
-    const EngineRun run(options);
-    run.expect_clean();
-    EXPECT_EQ(run.lines_with("Refresh: ").size(), 0u) << "another renderer was started";
-    EXPECT_FALSE(run.lines_with("ref_vkpt").empty());
-    EXPECT_TRUE(run.lines_with("unnamed: ").empty()) << "what no one knows as a command is said to the other players";
-    EXPECT_TRUE(run.lines_with("ERROR").empty()) << run.result().console;
-    const std::regex triangles("triangles\\D*[1-9]");
-    EXPECT_TRUE(std::regex_search(run.result().console, triangles)) << "pt_info names no triangles:\n"
-                                                                    << run.result().console;
-}
 
 TEST(Engine, PlaysOurDemo)
 {
@@ -38,37 +22,6 @@ TEST(Engine, PlaysOurDemo)
     EXPECT_GE(std::stoi(figure[1]), 150) << "the demo is shorter than 15 seconds";
     EXPECT_GT(std::stod(figure[3]), 0);
     RecordProperty("fps", figure[3]);
-}
-
-TEST(Engine, ShowsMenusAndConsole)
-{
-    EngineOptions options;
-    options.script = "wait_5\n";
-    for (const char* command : { "toggleconsole", "menu_main", "menu_video", "menu_options", "menu_multiplayer",
-             "menu_playerconfig", "menu_credits", "score", "inven", "cmd help" })
-        options.script += std::string(command) + "\nwait_5\nforcemenuoff\nwait\n";
-    options.script += "quit\n";
-    options.arguments = { "+map", own_map, "+exec", "test.cfg" };
-    EngineRun(options).expect_clean();
-}
-
-TEST(Engine, TakesAScreenshot)
-{
-    EngineOptions options;
-    options.script = "wait_25\nscreenshot png\nwait_5\nscreenshot tga\nwait_5\nquit\n";
-    options.arguments = { "+map", own_map, "+exec", "test.cfg" };
-    const EngineRun run(options);
-    run.expect_clean();
-    size_t png = 0, tga = 0;
-    const auto folder = run.result().game_folder / "scrnshot";
-    ASSERT_TRUE(std::filesystem::is_directory(folder));
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        png += entry.path().extension() == ".png" ? 1 : 0;
-        tga += entry.path().extension() == ".tga" ? 1 : 0;
-        EXPECT_GT(entry.file_size(), 100u) << entry.path();
-    }
-    EXPECT_EQ(png, 1u);
-    EXPECT_EQ(tga, 1u);
 }
 
 namespace {

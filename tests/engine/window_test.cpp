@@ -1,47 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What reaches the display and the screenshots is what captures hold; and what happens to the display's side underway:
-// memory that runs out, a surface that is lost.
+// What happens to the display's side underway: memory that runs out, a surface that is lost.
 #include "tests/client/run_program.hpp"
+#include "tests/engine/captures.hpp"
 #include "tests/engine/engine_run.hpp"
-#include "tests/engine/picture_statistics.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cstdlib>
+#include <gtest/gtest.h>
 
 namespace vkpt::tests {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-// The largest difference of any colour of any pixel, 0..255; 256: pictures of different size.
-int largest_difference(const formats::Image& a, const formats::Image& b)
-{
-    if (a.width != b.width || a.height != b.height)
-        return 256;
-    int largest = 0;
-    for (size_t i = 0; i < a.pixels.size(); i++)
-        largest = std::max({ largest, std::abs(a.pixels[i].r - b.pixels[i].r), std::abs(a.pixels[i].g - b.pixels[i].g),
-            std::abs(a.pixels[i].b - b.pixels[i].b) });
-    return largest;
-}
-
-// One of the captured frames is this picture, byte for byte.
-void expect_captured(const EngineRun& run, const fs::path& path)
-{
-    ASSERT_TRUE(fs::exists(path)) << run.result().console;
-    const formats::Image picture = load_picture(path);
-    const auto captures = list_pictures(run.captures());
-    ASSERT_GE(captures.size(), 10u);
-    int least = 256;
-    for (const fs::path& capture : captures)
-        least = std::min(least, largest_difference(picture, load_picture(capture)));
-    EXPECT_EQ(least, 0) << path << " is none of the captured frames";
-    EXPECT_LT(measure_picture(picture).black, 0.9) << path;
-    EXPECT_GT(measure_picture(picture).deviation, 0.01) << path;
-}
 
 // The layer in a folder that the engine's user can read; faults are made and ended by shell commands.
 class Faults {
@@ -68,25 +38,6 @@ private:
 };
 
 } // namespace
-
-TEST(Engine, WindowAndScreenshotsShowWhatIsCaptured)
-{
-    const ScratchFolder folder;
-    EngineOptions options;
-    const std::string grabbed = (folder.path() / "window.png").string();
-    options.script = std::string("wait_25\nset pt_capture_every 1\nwait_5\n") + display_mark
-        + "screenshot png\nwait_5\nset pt_capture_every 0\nwait\nquit\n";
-    options.display_commands = { VKPT_GRAB_WINDOW " " + std::to_string(options.width) + " "
-        + std::to_string(options.height) + " " + grabbed };
-    options.arguments = { "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec", "test.cfg" };
-    options.cpu_seconds = 600;
-    const EngineRun run(options);
-    run.expect_clean();
-    expect_captured(run, grabbed);
-    const auto screenshots = list_pictures(run.result().game_folder / "scrnshot");
-    ASSERT_EQ(screenshots.size(), 1u);
-    expect_captured(run, screenshots.front());
-}
 
 // Displays may offer no plain format of 8 bits. What is copied into one that encodes is encoded already.
 TEST(Engine, WindowsOfSrgbFormatShowTheSame)
