@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A picture of the kind VKPT_PICTURE ("png", "wal" ...): read as the module reads a file with that ending, measured, halved and
-// searched for bright parts as a wall's picture is. One program for each kind is built from this.
+// A picture of one kind: read as the module reads a file with that ending, measured, halved and searched for bright parts as a
+// wall's picture is. One program for each kind is built from this, with picture_kind.cpp.
 #include "formats/image.hpp"
 #include "fuzz/support/harness.hpp"
 #include "ref_vkpt/scene/bright_parts.hpp"
 #include "ref_vkpt/scene/picture_files.hpp"
+
+extern const char* const picture_kind; // "png", "wal" ...
 
 namespace {
 
@@ -39,7 +41,7 @@ template <class Read> void try_to(Read read)
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
 {
     static const formats::Palette palette = make_neutral_palette();
-    const std::string kind = VKPT_PICTURE, name = "input." + kind;
+    const std::string kind = picture_kind, name = "input." + kind;
     const formats::Bytes file = fuzz::bytes_of(data, size);
     try_to([&] { use_picture(formats::read_image(file, name, palette)); });
     if (kind == "pcx")
