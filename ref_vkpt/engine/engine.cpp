@@ -99,7 +99,8 @@ FileData::~FileData()
         imports.free_file(buffer_);
 }
 
-// As much as the pixels of the largest picture, 8192 x 8192; the engine takes whatever memory an archive's directory asks for.
+// As much as the pixels of the largest picture, 8192 x 8192; the engine takes whatever memory an archive's directory
+// asks for.
 constexpr int most_file_bytes = 256 << 20;
 
 std::optional<FileData> load_file(const std::string& path)

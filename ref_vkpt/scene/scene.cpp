@@ -35,7 +35,8 @@ void list_lights(SceneSnapshot& snapshot, World& world)
     world.light_lists.update(snapshot.emitters);
     const size_t unlisted = world.light_lists.unlisted_dynamic_count();
     if (unlisted > 0 && !std::exchange(world.said_unlisted, true))
-        engine::print("vkpt: {}: its moving lights make more than {} entries in the light lists; {} of them light nothing now",
+        engine::print(
+            "vkpt: {}: its moving lights make more than {} entries in the light lists; {} of them light nothing now",
             world.bsp.name, LightLists::most_dynamic_entries, unlisted);
 }
 

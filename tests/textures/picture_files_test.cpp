@@ -207,7 +207,8 @@ TEST_F(PictureFilesTest, PaletteIsTheGamesOrAStandIn)
 TEST_F(PictureFilesTest, ALevelsPicturesHaveABudgetTogether)
 {
     constexpr int large = 4096; // two of these are the budget
-    const std::vector<std::byte> black = samples::make_black_png({ .width = large, .height = large, .bits = 1, .colour_type = 0 });
+    const std::vector<std::byte> black
+        = samples::make_black_png({ .width = large, .height = large, .bits = 1, .colour_type = 0 });
     ASSERT_LT(black.size(), 8192u);
     for (const char* name : { "a", "b", "c" })
         files["textures/" + std::string(name) + ".png"] = black;
