@@ -33,15 +33,15 @@ while read -r program; do
     grep -qF -- "-o $program " <<<"$made" || fail "the target 'play' does not make $program"
 done < <(grep -ohE 'build_dir/(bin|scripts)/[a-z_.]+' "$root"/scripts/lib/*.sh | sed 's|^build_dir/||' | sort -u)
 
-expect 0 'contact_sheet.png' play --size 160x90 --out "$folder/out"
+expect 0 'contact_sheet.png' play --size 96x54 --out "$folder/out"
 pictures=$(find "$folder/out" -name 'frame*.png' | wc -l)
 ((pictures >= 5 && pictures <= 13)) || fail "$pictures pictures instead of about 6"
 [[ -s $folder/out/contact_sheet.png ]] || fail "no contact sheet"
 if command -v ffmpeg >/dev/null; then
     [[ -s $folder/out/demo.mp4 ]] || fail "no film"
 fi
-expect 0 'Engine: +[0-9]+ frames, .* fps' play --size 160x90 --timedemo
-expect 0 'Pass: +' play --size 160x90 --timedemo --set pt_bounces=0 --set pt_bench_json=bench
+expect 0 'Engine: +[0-9]+ frames, .* fps' play --size 96x54 --timedemo
+expect 0 'Pass: +' play --size 96x54 --timedemo --set pt_bounces=0 --set pt_bench_json=bench
 # The keys that `vkpt bench --json` has, too.
 perl -MJSON::PP -e 'local $/; my $b = decode_json(<STDIN>); exit !($b->{schema} == 1 && $b->{scene} eq "maps/vkpt1.bsp"
     && $b->{frame_ms}{median} > 0 && @{$b->{passes}} > 3 && @{$b->{cpu}} > 3 && $b->{settings}{pt_bounces} eq "0"
@@ -49,7 +49,7 @@ perl -MJSON::PP -e 'local $/; my $b = decode_json(<STDIN>); exit !($b->{schema} 
 expect 1 'no demo .nothere' play --timedemo nothere
 expect 1 'no map .nothere' play --headless --map nothere
 expect 1 'no Quake II data in' play --data "$folder"
-expect 1 'no-such-gpu' play --size 160x90 --timedemo --set pt_device=no-such-gpu
+expect 1 'no-such-gpu' play --size 96x54 --timedemo --set pt_device=no-such-gpu
 expect 2 'WIDTHxHEIGHT' play --size wide
 expect 2 'NAME=VALUE' play --set pt_bounces
 expect 2 'unknown option' play --nonsense
