@@ -53,6 +53,24 @@ uint64_t read_resident_memory(int process)
     return 0;
 }
 
+// While the harness runs a display command, this file has the engine wait. After it, the file says nothing.
+std::string name_of_wait(size_t mark) { return fmt::format("display{}.cfg", mark); }
+constexpr const char* wait_on = "await\n";
+
+// Whatever the machine's speed, what stands behind a mark runs when its command has.
+std::string wait_at_marks(std::string script, std::map<std::string, std::string>& files)
+{
+    const std::string mark = display_mark;
+    for (size_t at = script.find(mark), i = 0; at != std::string::npos; at = script.find(mark, at), i++) {
+        files[name_of_wait(i)] = wait_on;
+        const std::string waiting
+            = fmt::format("echo display mark\nalias await \"wait_5;exec {}\"\nawait\nwait_25\n", name_of_wait(i));
+        script.replace(at, mark.size(), waiting);
+        at += waiting.size();
+    }
+    return script;
+}
+
 std::string last_lines(const std::string& text, int count)
 {
     size_t at = text.size();
@@ -92,8 +110,9 @@ void EngineRun::make_folder(const EngineOptions& options)
     folder = name;
     std::filesystem::permissions(folder, std::filesystem::perms(0755)); // the engine's user has to enter
     std::filesystem::create_directories(folder / "files");
-    std::ofstream(folder / "files" / "test.cfg") << wait_aliases() << options.script;
-    for (const auto& [path, contents] : options.files) {
+    std::map<std::string, std::string> files = options.files;
+    files["test.cfg"] = wait_aliases() + wait_at_marks(options.script, files);
+    for (const auto& [path, contents] : files) {
         std::filesystem::create_directories((folder / "files" / path).parent_path());
         std::ofstream(folder / "files" / path, std::ios::binary) << contents;
     }
@@ -169,8 +188,11 @@ void EngineRun::obey(const std::string& line, const EngineOptions& options)
     is_over |= !options.end_at.empty() && line.find(options.end_at) != std::string::npos;
     if (line.find("memory mark") != std::string::npos)
         note_mark();
-    if (line.find("display mark") != std::string::npos && display_marks < options.display_commands.size())
-        run_on_display(options.display_commands[display_marks++]);
+    if (line.find("display mark") != std::string::npos && display_marks < options.display_commands.size()) {
+        run_on_display(options.display_commands[display_marks]);
+        if (const auto wait = outcome.game_folder / name_of_wait(display_marks++); std::filesystem::exists(wait))
+            std::ofstream(wait) << "// go on\n";
+    }
 }
 
 void EngineRun::note_mark()

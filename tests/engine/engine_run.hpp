@@ -50,7 +50,8 @@ std::string wait_aliases();
 // A line for EngineOptions::script that makes the harness note the engine's memory and open files.
 inline constexpr const char* memory_mark = "echo memory mark\nwait_25\n";
 
-// A line for EngineOptions::script: here the harness runs the next of EngineOptions::display_commands.
+// A line for EngineOptions::script: here the harness runs the next of EngineOptions::display_commands, and the engine goes on
+// drawing until it has. (In other files the engine goes on with its script after some frames.)
 inline constexpr const char* display_mark = "echo display mark\nwait_25\nwait_25\n";
 
 // Owns the run's folder; the result is valid as long as it lives.

@@ -76,7 +76,9 @@ TEST_F(OurMap, StartsAndQuits)
     run().expect_clean();
     EXPECT_EQ(run().lines_with("Refresh: ").size(), 0u) << "another renderer was started";
     EXPECT_FALSE(run().lines_with("ref_vkpt").empty());
-    EXPECT_TRUE(run().lines_with("unnamed: ").empty()) << "what no one knows as a command is said to the other players";
+    // What no one knows as a command is said to the other players. (Games differ in what they know of menus.)
+    const std::string of_renderer = run().result().console.substr(0, run().result().console.find("settings are over"));
+    EXPECT_EQ(of_renderer.find("unnamed: "), std::string::npos) << of_renderer;
     EXPECT_TRUE(run().lines_with("ERROR").empty()) << run().result().console;
     const std::regex triangles("triangles\\D*[1-9]");
     EXPECT_TRUE(std::regex_search(run().result().console, triangles)) << "pt_info names no triangles:\n"
