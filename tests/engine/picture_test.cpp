@@ -17,11 +17,13 @@ namespace {
 constexpr const char* statistics_file = VKPT_SOURCE_DIR "/tests/engine/demo_statistics.txt";
 constexpr int capture_every = 20;
 
-// How far a frame may be from what is stored: other drivers round otherwise and sample otherwise.
-constexpr double mean_tolerance = 0.15; // relative
-constexpr double deviation_tolerance = 0.25;
-constexpr double noise_tolerance = 0.5;
+// How far a frame may be from what is stored: some times what other seeds and drivers, which round otherwise and sample
+// otherwise, make of it (1 %, 1 %, 2 % and .3 points in pictures three times as large).
+constexpr double mean_tolerance = 0.05; // relative
+constexpr double deviation_tolerance = 0.05;
+constexpr double noise_tolerance = 0.12;
 constexpr double least_noise = 0.004; // two steps of 8 bits are no noise worth comparing
+constexpr double black_tolerance = 0.015;
 
 std::vector<PictureStatistics> read_statistics()
 {
@@ -52,6 +54,8 @@ void write_statistics(const std::vector<PictureStatistics>& rows)
 std::vector<PictureStatistics> play_and_measure()
 {
     EngineOptions options;
+    options.width = 192;
+    options.height = 108;
     options.render_scale = 100;
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+set", "pt_capture_every",
         std::to_string(capture_every), "+set", "flt_denoiser", "off", "+set", "flt_taa", "off", "+set", "pt_bloom", "0",
@@ -87,7 +91,7 @@ TEST(Engine, DemoFramesAreAsTheyShouldBe)
         EXPECT_NEAR(seen[i].mean, stored[i].mean, mean_tolerance * stored[i].mean);
         EXPECT_NEAR(seen[i].deviation, stored[i].deviation, deviation_tolerance * stored[i].deviation);
         EXPECT_NEAR(seen[i].noise, stored[i].noise, noise_tolerance * stored[i].noise + least_noise);
-        EXPECT_NEAR(seen[i].black, stored[i].black, 0.05);
+        EXPECT_NEAR(seen[i].black, stored[i].black, black_tolerance);
     }
 }
 
