@@ -50,6 +50,8 @@ std::string read_text(const std::filesystem::path& path)
 TEST(Engine, VideoMenuChoosesThisRendererAndItsRowsAct)
 {
     EngineOptions options;
+    options.render_scale = 100;
+    options.waits_at_marks = false; // the keys would reach a console that lines run in
     const std::string capture = "set pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\n";
     // A mark's waits are over before its keys are all pressed.
     const std::string keys = display_mark + repeat("wait_100\n", 4);
@@ -84,6 +86,8 @@ TEST(Engine, VideoMenuChoosesThisRendererAndItsRowsAct)
 TEST(Engine, SettingsPageIsWorkedByKeys)
 {
     EngineOptions options;
+    options.render_scale = 100;
+    options.waits_at_marks = false; // the keys would reach a console that lines run in
     const std::string keys = display_mark + repeat("wait_100\n", 4);
     options.script = "wait_25\npt_menu\nwait_5\n" + keys + "pt_bounces\nflt_taa\necho page\npaused\n" + keys
         + "pt_bounces\necho menu\npaused\nquit\n";
