@@ -44,7 +44,9 @@ void check_lights(World& world)
     const LightTrees trees = make_light_trees(lists.lists(), lists.static_indices(), emitters);
     fuzz::require(trees.lights.size() == lists.static_indices().size(), "a tree has all lights of its list");
     std::vector<shared::EmitterOutline> outlines(emitters.size());
-    write_outlines(outlines.data(), outlines.size(), emitters, std::vector<float>(lightstyle_count, 1.0f));
+    std::vector<float> styles(lightstyle_count, 1.0f);
+    world.animated_lights.append_rows(styles, 0);
+    write_outlines(outlines.data(), outlines.size(), emitters, styles);
 }
 
 void move_lights(const World& world)

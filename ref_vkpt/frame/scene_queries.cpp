@@ -121,6 +121,7 @@ bool SceneQueries::inspect_pixel(glm::uvec2 pixel, InspectedSurface& surface, st
     from.size = view.size;
     graphics.run_once([&](VkCommandBuffer commands) {
         const shared::FrameUniforms uniforms = frame.begin_query(commands, view, from, *view.snapshot, gpu_world);
+        graphics.timer.begin_untimed(graphics.slot());
         frame.bind(commands, view, frame.write_uniforms(uniforms));
         const shared::InspectPush push { surface_buffer.address(), light_buffer.address(),
             rendered.y * view.size.x + rendered.x, uint32_t(lights.size()), probability_draws, counted_choices };
