@@ -2,8 +2,8 @@
 #include "ref_vkpt/lights/outlines.hpp"
 
 #include "ref_vkpt/lights/luminance.hpp"
-#include "ref_vkpt/lights/spot_cone.hpp"
 #include "ref_vkpt/lights/octahedral.hpp"
+#include "ref_vkpt/lights/spot_cone.hpp"
 
 #include <algorithm>
 #include <bit>

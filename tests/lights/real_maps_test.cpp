@@ -2,11 +2,11 @@
 // Light lists of maps that nobody of this project made: set VKPT_TEST_MAPS to a folder of BSP files. What samplers are
 // worth is tested in our own map in any case.
 #include "glsl_libraries.hpp"
-#include "ref_vkpt/lights/spot_cone.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "ref_vkpt/lights/light_multisets.hpp"
 #include "ref_vkpt/lights/light_trees.hpp"
+#include "ref_vkpt/lights/spot_cone.hpp"
 #include "sampler_case.hpp"
 #include "synthetic_bsp.hpp"
 
