@@ -180,9 +180,9 @@ std::string describe_light(const Light& light)
     return text;
 }
 
-std::vector<Light> parse_light_file(std::string_view text, std::string_view name)
+void read_lines(std::string_view text, std::string_view name,
+    const std::function<void(const std::vector<std::string>& words)>& read)
 {
-    std::vector<Light> lights;
     for (size_t at = 0, number = 1; at < text.size(); number++) {
         const size_t end = std::min(text.find('\n', at), text.size());
         const std::vector<std::string> words = split_words(text.substr(at, end - at));
@@ -190,13 +190,21 @@ std::vector<Light> parse_light_file(std::string_view text, std::string_view name
         if (words.empty())
             continue;
         try {
-            lights.push_back(parse_light_line(words));
+            read(words);
         } catch (const TextError& error) {
             throw TextError(fmt::format("{}, line {}: {}", name, number, error.what()));
         }
-        if (lights.size() > most_lights)
-            throw TextError(fmt::format("{}, line {}: more than {} lights", name, number, most_lights));
     }
+}
+
+std::vector<Light> parse_light_file(std::string_view text, std::string_view name)
+{
+    std::vector<Light> lights;
+    read_lines(text, name, [&](const std::vector<std::string>& words) {
+        lights.push_back(parse_light_line(words));
+        if (lights.size() > most_lights)
+            throw TextError(fmt::format("more than {} lights", most_lights));
+    });
     return lights;
 }
 

@@ -5,6 +5,7 @@
 #include "formats/light_code.hpp"
 
 #include <glm/vec3.hpp>
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -49,6 +50,9 @@ formats::CodedLight code_light(const Light& light, uint32_t phase);
 
 // Words between blanks, up to a comment.
 std::vector<std::string> split_words(std::string_view line);
+// Hands on the words of each line that has any. A TextError of `read` gets `name` and the line's number in front.
+void read_lines(std::string_view text, std::string_view name,
+    const std::function<void(const std::vector<std::string>& words)>& read);
 // The whole word, finite; otherwise TextError, which calls it `what`.
 float parse_number(const std::string& word, std::string_view what, float least, float most);
 

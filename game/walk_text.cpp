@@ -136,20 +136,11 @@ std::string write(const Step& a)
 std::vector<WalkAction> parse_walk_file(std::string_view text, std::string_view name)
 {
     std::vector<WalkAction> actions;
-    for (size_t at = 0, number = 1; at < text.size(); number++) {
-        const size_t end = std::min(text.find('\n', at), text.size());
-        const std::vector<std::string> words = split_words(text.substr(at, end - at));
-        at = end + 1;
-        if (words.empty())
-            continue;
-        try {
-            actions.push_back(parse_action(words));
-        } catch (const TextError& error) {
-            throw TextError(fmt::format("{}, line {}: {}", name, number, error.what()));
-        }
+    read_lines(text, name, [&](const std::vector<std::string>& words) {
+        actions.push_back(parse_action(words));
         if (actions.size() > most_walk_actions)
-            throw TextError(fmt::format("{}, line {}: more than {} lines", name, number, most_walk_actions));
-    }
+            throw TextError(fmt::format("more than {} lines", most_walk_actions));
+    });
     return actions;
 }
 
