@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -38,8 +39,8 @@ public:
 
     // The preset that the next frames are to be rendered with.
     const char* current() const { return measured[stage_]; }
-    // A frame of the current preset was shown at this moment, in seconds, and had taken so long on the device. True: what is
-    // to be rendered has changed, or the measurement is over.
+    // A frame of the current preset was shown at this moment, in seconds, and had taken so long on the device. True:
+    // what is to be rendered has changed, or the measurement is over.
     bool add_frame(double now, double milliseconds);
     bool is_over() const { return stage_ == measured.size(); }
 
