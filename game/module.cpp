@@ -186,7 +186,10 @@ void Module::report_full_array()
 
 bool Module::is_operator(const Edict* client) const
 {
-    return !client || host_.client_count() == 1 || is_local_[size_t(host_.number_of(client))];
+    if (!client || is_local_[size_t(host_.number_of(client))])
+        return true;
+    // The one player of a game of one sits here, unless the server has no screen.
+    return host_.client_count() == 1 && host_.cvar_number("dedicated", "0") == 0;
 }
 
 Edict* Module::first_player() const

@@ -10,7 +10,9 @@
 //   VKPT_PROBE_CALLS    inside: every call is added to this file. outside, with VKPT_PROBE_REPLAY=1: the calls about
 //   players
 //                       in this file are made again, in the same order between the server's own calls
-//   VKPT_PROBE_SCRIPT   outside: lines "FRAME COMMAND" for the server's console
+//   VKPT_PROBE_SCRIPT   outside: lines "FRAME COMMAND" for the server's console, and "FRAME player ADDRESS COMMAND", by
+//   a
+//                       player who is connected from there; what he is told is printed as "to ADDRESS: ..."
 //   VKPT_PROBE_NO_MODELS=1   model numbers are left out of the hash
 // A library is loaded anew with each saved game: so files are appended to, and what has to outlast it is in the
 // environment.
@@ -78,6 +80,8 @@ struct Probe {
     std::ifstream recorded;
     std::vector<std::pair<long, std::string>> script;
     char* typed = nullptr; // a player's command that is repeated
+    std::vector<std::string> words; // of a scripted player's command
+    std::string address; // of the scripted player
 };
 Probe* probe = nullptr;
 
@@ -271,6 +275,33 @@ void client_think(Edict* edict, UserCommand* command)
     copy_table();
 }
 
+// ---- a scripted player
+
+bool is_scripted_player(const std::string& command) { return command.starts_with("player "); }
+
+void type_as_player(const std::string& command)
+{
+    const int number = int(probe->engine.cvar("maxclients", "1", 0)->number); // the last to be taken
+    std::istringstream text(command);
+    std::string address, word;
+    text >> word >> address;
+    Edict* edict = edict_of(number);
+    if (probe->address.empty()) {
+        probe->address = address;
+        edict->state.number = number;
+        std::string user_info = "\\name\\scripted\\skin\\male/grunt\\ip\\" + address;
+        user_info.resize(512);
+        probe->game->client_connect(edict, user_info.data());
+        probe->game->client_begin(edict);
+    }
+    probe->words.clear();
+    while (text >> word)
+        probe->words.push_back(word);
+    probe->game->client_command(edict);
+    probe->words.clear();
+    copy_table();
+}
+
 void run_frame()
 {
     pass<&Exports::run_frame, Call::run_frame>();
@@ -282,22 +313,29 @@ void run_frame()
     // What is typed while a level is changed waits for a player of the server's: the end is asked for again and again.
     constexpr long again = 20;
     for (const auto& [at, command] : probe->script)
-        if (at == frame || (command == "quit" && frame > at && (frame - at) % again == 0))
-            probe->engine.add_command((command + "\n").c_str());
+        if (at == frame || (command == "quit" && frame > at && (frame - at) % again == 0)) {
+            if (is_scripted_player(command))
+                type_as_player(command);
+            else
+                probe->engine.add_command((command + "\n").c_str());
+        }
 }
 
 // ---- what the game may not say to players that the server has no connection for: there are no others
 
 void drop_client_print(const Edict* edict, int level, const char* format, ...)
 {
-    if (edict)
+    if (edict && probe->address.empty())
         return;
     char text[1024];
     va_list arguments;
     va_start(arguments, format);
     std::vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    probe->engine.client_print(nullptr, level, "%s", text);
+    if (edict)
+        probe->engine.client_print(nullptr, level, "to %s: %s", probe->address.c_str(), text);
+    else
+        probe->engine.client_print(nullptr, level, "%s", text);
 }
 void drop_centre_print(const Edict*, const char*, ...) { }
 void drop_unicast(const Edict*, QBoolean)
@@ -306,10 +344,15 @@ void drop_unicast(const Edict*, QBoolean)
     probe->engine.multicast(outside, MULTICAST_PVS);
 }
 
-int argument_count() { return probe->typed ? 1 : probe->engine.argument_count(); }
+int argument_count()
+{
+    return probe->typed ? 1 : !probe->words.empty() ? int(probe->words.size()) : probe->engine.argument_count();
+}
 char* argument(int number)
 {
     static char none[] = "";
+    if (!probe->words.empty())
+        return size_t(number) < probe->words.size() ? probe->words[size_t(number)].data() : none;
     return !probe->typed ? probe->engine.argument(number) : number == 0 ? probe->typed : none;
 }
 
@@ -347,14 +390,15 @@ extern "C" __attribute__((visibility("default"))) void* GetGameAPI(Imports* impo
     probe->replays = !probe->is_inside && variable("VKPT_PROBE_REPLAY") == "1";
     probe->no_models = variable("VKPT_PROBE_NO_MODELS") == "1";
     probe->engine = probe->for_game = *imports;
-    if (probe->replays) {
+    open_files();
+    if (probe->replays
+        || std::ranges::any_of(probe->script, is_scripted_player, &std::pair<long, std::string>::second)) {
         probe->for_game.client_print = drop_client_print;
         probe->for_game.center_print = drop_centre_print;
         probe->for_game.unicast = drop_unicast;
         probe->for_game.argument_count = argument_count;
         probe->for_game.argument = argument;
     }
-    open_files();
     const std::string path = variable(probe->is_inside ? "VKPT_PROBE_INSIDE" : "VKPT_PROBE_OUTSIDE");
     void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     const auto get_api = library ? reinterpret_cast<GetGameApi>(dlsym(library, "GetGameAPI")) : nullptr;

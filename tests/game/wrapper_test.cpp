@@ -163,6 +163,23 @@ TEST(GameModule, LibrariesThatAreNoneAreToldAndTheStockGamePlays)
     }
 }
 
+TEST(GameModule, OnlyAPlayerAtTheServersMachineMayCommand)
+{
+    for (const bool is_local : { false, true }) {
+        const std::string player = std::string("player ") + (is_local ? "loopback" : "192.0.2.7:27901");
+        ServerOptions options;
+        options.settings = { "coop", "1" };
+        options.script
+            = { { 30, player + " light add red" }, { 40, player + " flare" }, { 50, player + " light save mine" } };
+        const ServerRun run(options);
+        run.expect_clean();
+        EXPECT_EQ(run.console().find("only the player at the server's machine") != std::string::npos, !is_local)
+            << run.console();
+        EXPECT_EQ(fs::exists(run.game_folder() / "lights/mine.txt"), is_local) << run.console();
+        EXPECT_EQ(run.states().back().own_entities > 0, is_local) << run.console();
+    }
+}
+
 TEST(GameModule, FilesOutsideItsFoldersAreRefused)
 {
     ServerOptions options;
