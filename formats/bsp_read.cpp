@@ -2,6 +2,7 @@
 #include "formats/bsp_disk.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace formats {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Console variables as a player, a configuration or a server sets them. The input: lines, each a byte that says which variable, then
-// its text. Whatever was set, the module's own values stay in their ranges.
+// Console variables as a player, a configuration or a server sets them. The input: lines, each a byte that says which
+// variable, then its text. Whatever was set, the module's own values stay in their ranges.
 #include "ref_vkpt/cvars.hpp"
 
 #include "fuzz/support/harness.hpp"
@@ -10,6 +10,7 @@
 #include "tests/contract/mock_engine.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 
 namespace {
@@ -27,8 +28,8 @@ void check_rows(const tests::MockEngine& engine)
             continue;
         }
         const double number = std::strtod(text.c_str(), nullptr);
-        fuzz::require(number >= row.lowest - 1e-6 * std::abs(row.lowest)
-                && number <= row.highest + 1e-6 * std::abs(row.highest),
+        fuzz::require(
+            number >= row.lowest - 1e-6 * std::abs(row.lowest) && number <= row.highest + 1e-6 * std::abs(row.highest),
             "a number is in its row's range");
     }
 }

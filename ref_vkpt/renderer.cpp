@@ -16,8 +16,10 @@
 #include "ref_vkpt/scene/motion.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <memory>
 
 namespace vkpt {
@@ -260,6 +262,15 @@ bool init_context(void* sdl_window)
     return true;
 }
 
+// What levels, drivers and their threads have freed lies about in many heaps; in the long run it would be more than is
+// used.
+static void give_back_free_memory()
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
 void shutdown_context() { close_module(); }
 
 bool init()
@@ -292,6 +303,7 @@ void shutdown()
             engine::remove_command(command.name);
     commands_added = false;
     close_module();
+    give_back_free_memory();
 }
 
 bool is_vsync_active() { return running && running->graphics.is_vsync_active(); }
@@ -351,6 +363,7 @@ void end_registration()
     running->textures.flush_if_needed();
     upload_world_if_needed();
     running->graphics.uploader.flush();
+    give_back_free_memory();
 }
 
 // ---- the frame
@@ -455,7 +468,8 @@ static void print_speeds(const Module& m)
 
 static OverlayFacts overlay_facts(const Module& m)
 {
-    return { m.graphics.size(), m.view().rendered_size, m.graphics.timer.frame_milliseconds(), &m.graphics.timer.times() };
+    return { m.graphics.size(), m.view().rendered_size, m.graphics.timer.frame_milliseconds(),
+        &m.graphics.timer.times() };
 }
 
 void end_frame()

@@ -9,6 +9,8 @@
 #include "lib/surfaces.glsl"
 
 const uint max_specular_segments = 12u;
+// Sprites, beams and particles on the way do not count: of those at an opacity of 0.05, the 84th is hardly seen.
+const uint max_unlit_segments = 128u;
 // What is behind particles that let less than this through is not looked for.
 const float least_throughput = 0.015;
 const uint mask_camera = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_VIEW_WEAPON | MASK_SKY;
@@ -64,6 +66,7 @@ struct Path {
     bool in_water;
     float unlit_depth; // DEPTH_*: what the path ended on without a surface
     bool reached_surface;
+    uint unlit_segments; // that ended on what is unlit
     HitSurface hit;
     vec3 mirror; // normal of the last mirror, 0: none
     vec3 moved;  // from where the surface's point was in the last view
@@ -119,6 +122,18 @@ vec3 movement(RawHit raw, vec3 position)
     return position - (corners.v[first] * (1.0 - b.x - b.y) + corners.v[first + 1u] * b.x + corners.v[first + 2u] * b.y);
 }
 
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
+
+// Of what is unlit. The eye has adapted to the view (the last frame's exposure): particles are neither invisible in the
+// sun nor blinding in the dark, but look as they do where exposure_of_unlit is right.
+float unlit_scale(uint flags)
+{
+    const float exposure_of_unlit = 0.72, most_scale = 50.0;
+    ExposureBuffer exposure = ExposureBuffer(frame.exposure);
+    bool adapts = (flags & MATERIAL_PARTICLE) != 0u && exposure.v.valid != 0u;
+    return adapts ? clamp(exposure_of_unlit / exposure.v.exposure, 1.0 / most_scale, most_scale) : 1.0;
+}
+
 // Follows the path over one segment. False: it has ended.
 bool follow_path(inout Path path, float cone_spread, inout Random random)
 {
@@ -156,9 +171,10 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
         }
     }
     if (is_unlit) {
-        path.emitted += path.throughput * s.albedo * hit.opacity;
+        path.emitted += path.throughput * s.albedo * (hit.opacity * unlit_scale(hit.flags));
         path.throughput *= 1.0 - hit.opacity;
-        if (quick_max3(path.throughput) > least_throughput) {
+        path.unlit_segments++;
+        if (quick_max3(path.throughput) > least_throughput && path.unlit_segments < max_unlit_segments) {
             pass_through(path, s, path.ray.direction);
             return true;
         }
@@ -218,10 +234,11 @@ void see_pixel(uvec2 pixel, uint index)
     path.in_water = (frame.flags & FRAME_UNDERWATER) != 0u;
     path.reached_surface = false;
     path.unlit_depth = DEPTH_NOTHING;
+    path.unlit_segments = 0u;
     path.layers = (frame.flags & FRAME_LAYERED) != 0u ? share_layers(pixel) : unshared_layers;
     float cone_spread = 2.0 * length(frame.camera.right) / float(frame.size.x);
 
-    [[dont_unroll]] for (uint segment = 0u; segment < max_specular_segments; segment++)
+    [[dont_unroll]] for (uint segment = 0u; segment < max_specular_segments + path.unlit_segments; segment++)
         if (!follow_path(path, cone_spread, random))
             break;
     store_traced_rays(index, 0u);

@@ -6,14 +6,15 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <system_error>
 
 namespace vkpt::trace {
 
 namespace {
 
-// What no recorder comes near, so that a small file cannot take a machine's memory and time. A chunk ends with the frame
-// that brings it to 1 MiB or 64 views; the largest frames are films and consoles that fill a large window.
+// What no recorder comes near, so that a small file cannot take a machine's memory and time. A chunk ends with the
+// frame that brings it to 1 MiB or 64 views; the largest frames are films and consoles that fill a large window.
 constexpr uint32_t max_chunk_bytes = 32u << 20; // unpacked
 constexpr uint64_t max_chunk_memory = 128ull << 20; // as calls and views
 constexpr uint64_t max_kept_memory = 64ull << 20; // of what is kept of all chunks: what lasts, and facts
@@ -22,10 +23,7 @@ constexpr uint64_t max_unpacked_ratio = 128, max_memory_ratio = 1024;
 // Deflate's best.
 constexpr uint64_t max_ratio = 1040;
 
-uint64_t memory_of(const Call& call)
-{
-    return sizeof call + call.name.size() + call.text.size() + call.data.size();
-}
+uint64_t memory_of(const Call& call) { return sizeof call + call.name.size() + call.text.size() + call.data.size(); }
 
 uint64_t memory_of(const View& view)
 {
@@ -110,8 +108,8 @@ std::vector<std::byte> TraceReader::read_payload(const Chunk& chunk)
     return raw;
 }
 
-// on_call(call, number of the frame in the chunk, inside) sees every call, on_frame(frame) every shown frame after them.
-// What all of it takes in memory.
+// on_call(call, number of the frame in the chunk, inside) sees every call, on_frame(frame) every shown frame after
+// them. What all of it takes in memory.
 template <class OnCall, class OnFrame>
 uint64_t TraceReader::decode(const Chunk& chunk, OnCall on_call, OnFrame on_frame)
 {

@@ -3,6 +3,7 @@
 #include "client/view/panels.hpp"
 #include "client/view/theme.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>

@@ -4,6 +4,7 @@
 #include "client/view/theme.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 

@@ -6,6 +6,8 @@
 #include "client/view/panels.hpp"
 #include "client/view/theme.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

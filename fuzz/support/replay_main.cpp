@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A harness without libFuzzer: runs the inputs that it is given, files or folders of files, and fails where one takes more
-// memory or CPU time than any may. What a sanitizer finds ends the program; the input's name is told then, too.
+// A harness without libFuzzer: runs the inputs that it is given, files or folders of files, and fails where one takes
+// more memory or CPU time than any may. What a sanitizer finds ends the program; the input's name is told then, too.
 #include "fuzz/support/harness.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <fstream>

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <numeric>
 #include <string>
@@ -148,7 +149,8 @@ shared::FrameUniforms Frame::make_uniforms(View& view, const Viewpoint& from, gl
     uniforms.blend = cvars.gl_polyblend != 0 ? from.blend : glm::vec4(0);
     uniforms.gamma = cvars.vid_gamma;
     uniforms.overbright = std::clamp(cvars.vk_overbrightbits, 0.0f, 100.0f);
-    // The menu's slider has whole numbers from 0 on, of which the engine's Vulkan renderer takes 0 as 1; 2 is its default.
+    // The menu's slider has whole numbers from 0 on, of which the engine's Vulkan renderer takes 0 as 1; 2 is its
+    // default.
     constexpr float menu_default = 2;
     uniforms.intensity = std::clamp(cvars.vk_intensity, 1.0f, 10.0f) / menu_default;
     uniforms.cvars = cvars::shader_values();

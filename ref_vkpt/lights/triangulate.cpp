@@ -4,6 +4,7 @@
 #include "ref_vkpt/lights/emitters.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace vkpt {

@@ -144,11 +144,12 @@ float particle_width(float distance)
     return distance < 20 ? 1.25f : 1.25f * (1 + 0.004f * distance);
 }
 
-void append_particle(vec3 origin, vec3 eye, const Axes& camera, uint32_t material, std::vector<Triangle>& out)
+void append_particle(
+    vec3 origin, vec3 eye, const Axes& camera, uint32_t material, std::vector<Triangle>& out, float size)
 {
-    if (!is_sane(origin) || !is_sane(eye) || !is_sane(camera))
+    if (!is_sane(origin) || !is_sane(eye) || !is_sane(camera) || !(size > 0))
         return;
-    const float half = particle_width(glm::dot(origin - eye, camera.forward)) / 2;
+    const float half = size * particle_width(glm::dot(origin - eye, camera.forward)) / 2;
     append_billboard(origin, { -half, half, -half, half }, camera, material, out);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where things stand that a refdef shows, and those of them that have no mesh as triangles in world space: sprites, beams,
-// particles. The functions append to `out`. Things whose numbers are not finite, or lie far outside of any map, append
-// nothing.
+// Where things stand that a refdef shows, and those of them that have no mesh as triangles in world space: sprites,
+// beams, particles. The functions append to `out`. Things whose numbers are not finite, or lie far outside of any map,
+// append nothing.
 #pragma once
 
 #include "formats/model.hpp"
@@ -49,14 +49,13 @@ void append_sprite(const formats::Sp2Sprite::Frame& frame, glm::vec3 origin, con
 void append_beam(glm::vec3 start, glm::vec3 end, float diameter, uint32_t material, std::vector<shared::Triangle>& out);
 
 // A square around `origin` facing against camera.forward, as wide as the dot that Quake II draws: 1.25 units, and
-// slowly more with its distance from `eye`, so that it stays visible.
+// slowly more with its distance from `eye`, so that it stays visible; all that times `size`.
 float particle_width(float distance);
-void append_particle(
-    glm::vec3 origin, glm::vec3 eye, const Axes& camera, uint32_t material, std::vector<shared::Triangle>& out);
+void append_particle(glm::vec3 origin, glm::vec3 eye, const Axes& camera, uint32_t material,
+    std::vector<shared::Triangle>& out, float size = 1);
 
 // Stands for a missing model: an octahedron, 16 units from its middle to each corner.
 void append_null_model(const Transform& transform, uint32_t material, std::vector<shared::Triangle>& out);
-void append_octahedron(
-    const Transform& transform, float radius, uint32_t material, std::vector<shared::Triangle>& out);
+void append_octahedron(const Transform& transform, float radius, uint32_t material, std::vector<shared::Triangle>& out);
 
 } // namespace vkpt

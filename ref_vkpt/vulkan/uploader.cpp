@@ -2,6 +2,7 @@
 #include "ref_vkpt/vulkan/uploader.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace vkpt {
 
@@ -12,7 +13,8 @@ constexpr VkDeviceSize staging_limit = 64u << 20;
 
 } // namespace
 
-Uploader::Uploader(const Gpu& gpu) : gpu_(gpu)
+Uploader::Uploader(const Gpu& gpu)
+    : gpu_(gpu)
 {
     // A level that is dropped for want of memory takes along what the copies recorded so far fill.
     gpu.memory.set_relief([this] { flush(); });

@@ -39,6 +39,8 @@ VKPT_CONST uint MATERIAL_WARP = 2u;        // liquid: turbulent texture, refract
 VKPT_CONST uint MATERIAL_TRANSLUCENT = 4u; // `opacity` < 1
 VKPT_CONST uint MATERIAL_ALPHA_TEST = 8u;
 VKPT_CONST uint MATERIAL_FULLBRIGHT = 16u; // shown as its picture, unlit
+VKPT_CONST uint MATERIAL_PARTICLE = 32u;   // a disc in the square of its uv, as bright on the screen in dark rooms as in bright ones
+VKPT_CONST uint MATERIAL_SQUARE = 64u;     // a particle without the disc's soft edge
 
 struct Material {
     vec3 tint;            // multiplies the picture

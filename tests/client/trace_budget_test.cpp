@@ -5,6 +5,7 @@
 #include "client/trace/view_codec.hpp"
 #include "tests/client/run_program.hpp"
 
+#include <cstdio>
 #include <functional>
 #include <gtest/gtest.h>
 
@@ -118,8 +119,7 @@ struct BadTrace {
 
 std::string long_name_again_and_again()
 {
-    const auto [first, again]
-        = code_twice([](Coding& c) { c.call(CallKind::find_picture, std::string(60'000, 'A')); });
+    const auto [first, again] = code_twice([](Coding& c) { c.call(CallKind::find_picture, std::string(60'000, 'A')); });
     return pack(begin + first + repeat(again, 100'000));
 }
 
@@ -158,7 +158,8 @@ std::string empty_views()
 
 std::string empty_frames()
 {
-    const auto [first, again] = code_twice([](Coding& c) { c.call(CallKind::begin_frame).view().call(CallKind::end_frame); });
+    const auto [first, again]
+        = code_twice([](Coding& c) { c.call(CallKind::begin_frame).view().call(CallKind::end_frame); });
     return fill(pack(first + repeat(again, 20'000)));
 }
 
@@ -177,7 +178,8 @@ std::string settings_in_a_frame()
 
 std::string registrations()
 {
-    const auto [first, again] = code_twice([](Coding& c) { c.call(CallKind::register_skin, "players/male/grunt.pcx"); });
+    const auto [first, again]
+        = code_twice([](Coding& c) { c.call(CallKind::register_skin, "players/male/grunt.pcx"); });
     return fill(pack(first + repeat(again, 100'000)));
 }
 

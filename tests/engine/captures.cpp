@@ -4,6 +4,7 @@
 #include "tests/engine/picture_statistics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 // Many maps in a row: nothing crashes, nothing piles up.
 #include "tests/engine/engine_run.hpp"
 
+#include <cstdio>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 #include "tests/formats/samples.hpp"
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>

@@ -2,6 +2,7 @@
 #include "formats/image.hpp"
 #include "tests/formats/samples.hpp"
 
+#include <cstring>
 #include <gtest/gtest.h>
 
 namespace formats {

@@ -4,6 +4,7 @@
 #include "tests/formats/samples.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include "tests/formats/picture_bombs.hpp"
 #include "tests/formats/samples.hpp"
 
+#include <cstdlib>
 #include <gtest/gtest.h>
 
 namespace formats {
@@ -56,7 +57,8 @@ TEST(FileBudget, SeesMemoryTimeAndFaults)
 
 TEST(PictureBudget, HugePicturesInSmallFilesAreRefused)
 {
-    expect_refused(make_black_png({ .width = 16384, .height = 16384, .bits = 1, .colour_type = 0 }), "grey.png", "16384");
+    expect_refused(
+        make_black_png({ .width = 16384, .height = 16384, .bits = 1, .colour_type = 0 }), "grey.png", "16384");
     expect_refused(make_black_png({ .width = 8192, .height = 8192 }), "rgba.png", "8192");
     expect_refused(make_progressive_jpg(8192, 0), "wide.jpg", "8192");
 }
@@ -83,7 +85,8 @@ TEST(PictureBudget, TheLargestOrdinaryPicturesAreRead)
 {
     for (const int interlace : { 0, 1 })
         for (const int bits : { 8, 16 }) {
-            const Cost cost = expect_cheap(make_black_png({ 4096, 4096, uint8_t(bits), 6, uint8_t(interlace) }), "4096.png");
+            const Cost cost
+                = expect_cheap(make_black_png({ 4096, 4096, uint8_t(bits), 6, uint8_t(interlace) }), "4096.png");
             EXPECT_EQ(cost.outcome, "read") << bits << " bits, interlace " << interlace;
         }
     EXPECT_EQ(expect_cheap(make_progressive_jpg(4096, 0), "4096.jpg").outcome, "read");
@@ -104,7 +107,8 @@ TEST(PictureBudget, PngChunksMayLie)
         expect_refused(PngWriter(header).chunk_with_length("IDAT", pixels, length).finish(), "length.png", "PNG");
     const std::string profile = "icc" + std::string(2, '\0') + deflated_zeros(size_t(800) << 20);
     EXPECT_EQ(
-        expect_cheap(PngWriter(header).chunk("iCCP", profile).chunk("IDAT", pixels).finish(), "profile.png").outcome, "read");
+        expect_cheap(PngWriter(header).chunk("iCCP", profile).chunk("IDAT", pixels).finish(), "profile.png").outcome,
+        "read");
     const std::string text = "key" + std::string(2, '\0') + deflated_zeros(size_t(7) << 20);
     PngWriter many(header);
     for (int i = 0; i < 100; i++)
@@ -114,7 +118,8 @@ TEST(PictureBudget, PngChunksMayLie)
 
 TEST(PictureBudget, PngDataBehindThePictureIsBounded)
 {
-    expect_cheap(PngWriter({ .width = 64, .height = 64 }).chunk("IDAT", deflated_zeros(size_t(900) << 20)).finish(), "more.png");
+    expect_cheap(
+        PngWriter({ .width = 64, .height = 64 }).chunk("IDAT", deflated_zeros(size_t(900) << 20)).finish(), "more.png");
 }
 
 TEST(PictureBudget, ScansAreCounted)

@@ -3,6 +3,7 @@
 #include "formats/byte_writer.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 
 #pragma GCC diagnostic push

@@ -3,6 +3,7 @@
 
 #include "ref_vkpt/lights/spot_cone.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>

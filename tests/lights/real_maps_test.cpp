@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
@@ -275,7 +276,8 @@ TEST(RealMaps, TreesAreBetterThanSubsetsInMostMaps)
         ratios.push_back(median["light_tree"] / median["subset"]);
         EXPECT_LT(median["light_tree"], 0.25 * median["uniform"]) << bsp.name;
     }
-    // Not by much, as lists are short, and not in every map: a tree does not know how narrow the spots below a node are.
+    // Not by much, as lists are short, and not in every map: a tree does not know how narrow the spots below a node
+    // are.
     std::ranges::sort(ratios);
     EXPECT_LT(ratios[ratios.size() / 2], 1);
     EXPECT_LT(ratios[ratios.size() * 3 / 5], 1);

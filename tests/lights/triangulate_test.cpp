@@ -3,6 +3,7 @@
 #include "synthetic_bsp.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <set>

@@ -4,6 +4,7 @@
 #include "tests/map_compiler/texture_folder.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>

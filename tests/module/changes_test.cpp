@@ -2,6 +2,7 @@
 // What changes from frame to frame is all that is written, and the copy is always whole.
 #include "ref_vkpt/frame/changes.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <random>
 

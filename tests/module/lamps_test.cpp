@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Lamps that are switched, that flicker, and whose pictures change: what they light and what is seen of them go together.
+// Lamps that are switched, that flicker, and whose pictures change: what they light and what is seen of them go
+// together.
 #include "ref_vkpt/lights/emitters.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace vkpt::tests {
@@ -11,7 +13,8 @@ namespace {
 
 const CvarList matte { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } };
 
-// Of a square of 32 at a distance of 100: four times that of a corner's, 1 / pi * x / sqrt(1 + x^2) * atan(x / sqrt(1 + x^2)), x = .16.
+// Of a square of 32 at a distance of 100: four times that of a corner's, 1 / pi * x / sqrt(1 + x^2) * atan(x / sqrt(1 +
+// x^2)), x = .16.
 constexpr double form_factor = 0.031522;
 
 class Lamps : public testing::Test {
@@ -94,8 +97,8 @@ TEST_F(Lamps, ShineAsTheShownPictureSays)
     EXPECT_EQ(measure(session).on_floor, 0);
 }
 
-// One bright square of 8 x 8 texels in a dark picture of 32 x 32 on a face without a light value: it shines where a cvar or a
-// material says so, and nothing else does.
+// One bright square of 8 x 8 texels in a dark picture of 32 x 32 on a face without a light value: it shines where a
+// cvar or a material says so, and nothing else does.
 TEST_F(Lamps, GlowWhereTheirPictureIsBright)
 {
     formats::IndexedImage picture { 32, 32, std::vector<uint8_t>(32 * 32, 0), {} };

@@ -135,14 +135,14 @@ TEST_F(Layers, ParticlesAreMixedInEveryFrame)
     MapBuilder map;
     folder_.add_map(
         "dark", (map.add_room({ -200, -200, -200 }, { 200, 200, 200 }, map.add_material("wall")), map.finish()));
-    session_ = std::make_unique<Session>(folder_, CvarList {}, picture_size);
+    session_ = std::make_unique<Session>(folder_, CvarList { { "pt_exposure", "1" } }, picture_size);
     session_->load_map("dark");
     session_->look({ 100, 0, 0 }, { 0, 0, 0 }, 20);
     std::vector<engine::Particle> particles(1, { { 90, 0, 0 }, white_index, 1.0f });
     const auto brightest = [&] {
         session_->view.particles = particles.data();
         session_->view.particle_count = int32_t(particles.size());
-        session_->draw();
+        session_->draw(2); // the second one knows the exposure
         const Radiance picture = session_->capture();
         return luminance(picture.at(picture_size.x / 2, picture_size.y / 2));
     };
@@ -157,6 +157,71 @@ TEST_F(Layers, ParticlesAreMixedInEveryFrame)
         const float through = 1 - alpha;
         EXPECT_NEAR(brightest(), (1 - through * through * through) * opaque, 0.02f * opaque) << alpha;
     }
+    // Far more than a path has mirrors.
+    particles.assign(40, { { 90, 0, 0 }, white_index, 0.05f });
+    for (size_t i = 0; i < particles.size(); i++)
+        particles[i].origin[0] -= 2 * float(i);
+    EXPECT_NEAR(brightest(), (1 - std::pow(0.95f, 40.0f)) * opaque, 0.02f * opaque);
+}
+
+// Discs with a soft edge, or squares; as large as gl3_particle_size says.
+TEST_F(Layers, ParticlesAreSoftDiscs)
+{
+    MapBuilder map;
+    folder_.add_map(
+        "dark", (map.add_room({ -200, -200, -200 }, { 200, 200, 200 }, map.add_material("wall")), map.finish()));
+    session_ = std::make_unique<Session>(
+        folder_, CvarList { { "pt_exposure", "1" }, { "pt_accumulate", "1" } }, picture_size);
+    session_->load_map("dark");
+    session_->look({ 4, 0, 0 }, { 0, 0, 0 }, 40);
+    const engine::Particle particle { { 0, 0, 0 }, white_index, 1.0f };
+    session_->view.particles = &particle;
+    session_->view.particle_count = 1;
+    const auto measure_opaque_pixels = [&] {
+        session_->extension().thaw_scene();
+        session_->draw(64);
+        const Radiance picture = session_->capture();
+        float sum = 0, brightest = 0;
+        for (const glm::vec3& pixel : picture.pixels) {
+            sum += luminance(pixel);
+            brightest = std::max(brightest, luminance(pixel));
+        }
+        return sum / brightest;
+    };
+    const float disc = measure_opaque_pixels();
+    session_->set("gl3_particle_square", 1);
+    const float square = measure_opaque_pixels();
+    session_->set("gl3_particle_size", 20);
+    const float half = measure_opaque_pixels();
+    session_->set("gl3_particle_square", 0);
+    session_->set("gl3_particle_size", 40);
+    ASSERT_GT(square, 100);
+    // Over the disc the mean of min(1, 1.2 (1 - r^2)) is 1/6 + 0.5 * 5/6.
+    EXPECT_NEAR(disc / square, float(M_PI) / 4 * (1.0f / 6 + 5.0f / 12), 0.02f);
+    EXPECT_NEAR(half / square, 0.25f, 0.02f);
+}
+
+// The same on the screen in the dark and in the light: the displayed value is radiance times exposure.
+TEST_F(Layers, ParticlesFollowTheEyesAdaptation)
+{
+    MapBuilder map;
+    folder_.add_map(
+        "dark", (map.add_room({ -200, -200, -200 }, { 200, 200, 200 }, map.add_material("wall")), map.finish()));
+    session_ = std::make_unique<Session>(folder_, CvarList {}, picture_size);
+    session_->load_map("dark");
+    session_->look({ 100, 0, 0 }, { 0, 0, 0 }, 20);
+    const engine::Particle particle { { 90, 0, 0 }, white_index, 1.0f };
+    session_->view.particles = &particle;
+    session_->view.particle_count = 1;
+    float shown[2];
+    for (const int i : { 0, 1 }) {
+        const float exposure = i == 0 ? 0.1f : 10.0f;
+        session_->set("pt_exposure", exposure);
+        session_->draw(2);
+        shown[i] = luminance(session_->capture().at(picture_size.x / 2, picture_size.y / 2)) * exposure;
+    }
+    EXPECT_GT(shown[0], 0.3f);
+    EXPECT_NEAR(shown[1], shown[0], 0.01f * shown[0]);
 }
 
 } // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The player's own body, which the engine does not send: where it stands, in which frame, and when there is one. Read back from
-// the module; a model with a triangle as high as the number of its frame tells the frame.
+// The player's own body, which the engine does not send: where it stands, in which frame, and when there is one. Read
+// back from the module; a model with a triangle as high as the number of its frame tells the frame.
 #include "formats/model.hpp"
 #include "shaders/shared/scene.h"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -68,9 +69,8 @@ protected:
         folder_->add_wall("wall", white_index);
         folder_->add_skin("players/male/grunt.pcx", red_index);
         folder_->add_skin("players/female/athena.pcx", blue_index);
-        const auto add = [](const std::string& path, float size) {
-            folder_->add(path, formats::write_md2(make_figure(size)));
-        };
+        const auto add
+            = [](const std::string& path, float size) { folder_->add(path, formats::write_md2(make_figure(size))); };
         for (const char* who : { "male", "female" }) {
             add(std::string("players/") + who + "/tris.md2", body_size);
             add(std::string("players/") + who + "/w_blaster.md2", blaster_size);
@@ -93,8 +93,8 @@ protected:
         session_->load_map("room");
         for (const char* path : { "players/male/tris.md2", "players/male/w_blaster.md2", "players/male/weapon.md2" })
             session_->module().register_model(path);
-        gun_ = make_entity(session_->module().register_model("models/weapons/v_blast/tris.md2"), { 0, 0, 0 },
-            engine::RF_WEAPONMODEL);
+        gun_ = make_entity(
+            session_->module().register_model("models/weapons/v_blast/tris.md2"), { 0, 0, 0 }, engine::RF_WEAPONMODEL);
         ASSERT_TRUE(gun_.model);
         tick_ += 20; // no test goes on where another one ended
         show_at({ 0, 0, eye_height });

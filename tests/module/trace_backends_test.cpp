@@ -6,6 +6,7 @@
 #include "tests/module/test_cache.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

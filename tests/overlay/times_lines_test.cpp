@@ -2,6 +2,7 @@
 #include "ref_vkpt/overlay/times_lines.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <gtest/gtest.h>
 
@@ -35,7 +36,8 @@ TEST(TimesLines, RateIsOverHalfASecond)
 {
     FrameRate rate;
     const auto moment = [](double seconds) {
-        return FrameRate::Clock::time_point(std::chrono::seconds(1000)) + std::chrono::duration_cast<FrameRate::Clock::duration>(std::chrono::duration<double>(seconds));
+        return FrameRate::Clock::time_point(std::chrono::seconds(1000))
+            + std::chrono::duration_cast<FrameRate::Clock::duration>(std::chrono::duration<double>(seconds));
     };
     for (int frame = 0; frame <= 20; frame++) // 40 a second
         rate.count(moment(frame / 40.0));

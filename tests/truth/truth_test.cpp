@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The module's converged pictures against the path tracer beside this file, which is given nothing but what `vkpt export`
-// writes. One room in every run; our map, and glossy and metal rooms, under the label "long".
+// The module's converged pictures against the path tracer beside this file, which is given nothing but what `vkpt
+// export` writes. One room in every run; our map, and glossy and metal rooms, under the label "long".
 #include "tests/client/run_program.hpp"
 #include "tests/module/game_folder.hpp"
 #include "tests/module/map_builder.hpp"
@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -34,8 +35,8 @@ class Truth : public testing::Test {
 protected:
     std::vector<std::string> arguments_of(const View& view) const
     {
-        std::vector<std::string> arguments { view.scene, "--size", view.size, "--module", VKPT_TESTED_MODULE, "--basedir",
-            folder_.path().string(), "--set", "pt_bounces=" + std::to_string(view.bounces) };
+        std::vector<std::string> arguments { view.scene, "--size", view.size, "--module", VKPT_TESTED_MODULE,
+            "--basedir", folder_.path().string(), "--set", "pt_bounces=" + std::to_string(view.bounces) };
         for (const std::string& setting : view.settings)
             arguments.insert(arguments.end(), { "--set", setting });
         return arguments;
@@ -148,7 +149,8 @@ protected:
     }
     void expect_agreement_with(int bounces, int own_samples)
     {
-        expect_agreement({ "maps/matte.bsp@0,-384,54,0,90", "96x64", 8192, own_samples, bounces, { "pt_roughness_default=1" } },
+        expect_agreement(
+            { "maps/matte.bsp@0,-384,54,0,90", "96x64", 8192, own_samples, bounces, { "pt_roughness_default=1" } },
             0.003, 0.01);
     }
 };
