@@ -25,20 +25,11 @@ constexpr float beam_radiance = 8.0f;
 constexpr float shell_radiance = 0.6f;
 constexpr float shell_opacity = 0.3f;
 constexpr int hand_left = 1, hand_none = 2;
-// What a weapon before all walls (RF_DEPTHHACK) is scaled by about the eye: up to 64 units of it then stay within the player's
-// box, which reaches 16 units from the eye and into which no wall comes.
+// What a weapon before all walls (RF_DEPTHHACK) is scaled by about the eye: up to 64 units of it then stay within the
+// player's box, which reaches 16 units from the eye and into which no wall comes.
 constexpr float depth_hack_scale = 0.25f;
 
 glm::vec3 to_vec3(const float v[3]) { return { v[0], v[1], v[2] }; }
-
-glm::vec3 to_linear(const formats::Rgba8& colour)
-{
-    const auto linear = [](uint8_t value) {
-        const float v = float(value) / 255;
-        return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-    };
-    return { linear(colour.r), linear(colour.g), linear(colour.b) };
-}
 
 class SnapshotBuilder {
 public:
@@ -239,7 +230,8 @@ void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const M
     add_md2(mesh, pose, material, entity_mask(entity, material));
 }
 
-// False: its mesh is not to be seen. The spheres are, with RF_FULLBRIGHT, to the camera alone: no ray of light meets them.
+// False: its mesh is not to be seen. The spheres are, with RF_FULLBRIGHT, to the camera alone: no ray of light meets
+// them.
 bool SnapshotBuilder::add_placed_lights(const Entity& entity, formats::LightModel model, const Transform& transform)
 {
     constexpr float shown_radiance = 12, least_shown_radius = 1.5f;
@@ -322,8 +314,8 @@ void SnapshotBuilder::add_shell_light(glm::vec3 centre, const shared::Material& 
     }
 }
 
-// View weapons are made for a vertical field of view of their own (r_gunfov): from the eye they look as they would in it.
-// They are before all walls, as their picture stays the same if they are scaled about the eye as a whole.
+// View weapons are made for a vertical field of view of their own (r_gunfov): from the eye they look as they would in
+// it. They are before all walls, as their picture stays the same if they are scaled about the eye as a whole.
 Squeeze SnapshotBuilder::squeeze_weapon(const Entity& weapon) const
 {
     const auto tangent = [](float degrees) { return std::tan(glm::radians(std::clamp(degrees, 1.0f, 170.0f)) / 2); };
@@ -355,7 +347,7 @@ void SnapshotBuilder::add_sprite(const Entity& entity, const Model::Sprite& spri
 void SnapshotBuilder::add_beam(const Entity& entity)
 {
     shared::Material material = plain_material();
-    const glm::vec3 colour = to_linear(textures_.palette()[size_t(entity.skin_number & 255)]);
+    const glm::vec3 colour = decode_colour(textures_.palette()[size_t(entity.skin_number & 255)]);
     material.tint = colour;
     material.emission = colour * beam_radiance;
     material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
@@ -381,7 +373,7 @@ void SnapshotBuilder::add_null_model(const Entity& entity)
 void SnapshotBuilder::add_particle(const Particle& particle)
 {
     shared::Material material = plain_material();
-    material.tint = to_linear(textures_.palette()[size_t(particle.color & 255)]) * unlit_radiance;
+    material.tint = decode_colour(textures_.palette()[size_t(particle.color & 255)]) * unlit_radiance;
     material.opacity = std::clamp(particle.alpha, 0.0f, 1.0f);
     material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_TRANSLUCENT;
     append_particle(to_vec3(particle.origin), eye_, axes_, add_material(material), snapshot_.moving.loose());
@@ -392,7 +384,8 @@ void SnapshotBuilder::add_particle(const Particle& particle)
 void SnapshotBuilder::add_dlight(const DynamicLight& light)
 {
     constexpr float lightmap_units = 128; // of a radiance of 1
-    const glm::vec3 taken = glm::max(-to_vec3(light.color), glm::vec3(0)) * (cvars::values().pt_dlight_scale / lightmap_units);
+    const glm::vec3 taken
+        = glm::max(-to_vec3(light.color), glm::vec3(0)) * (cvars::values().pt_dlight_scale / lightmap_units);
     const glm::vec3 origin = to_vec3(light.origin);
     if (taken != glm::vec3(0) && is_sane(taken) && is_sane(origin) && is_sane(light.intensity))
         snapshot_.dark_lights.push_back({ origin, light.intensity, taken });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Faces of which a part shines: the pieces cover the face, without cracks, and send the light that the whole face
 // would.
+#include "common/colour.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "synthetic_bsp.hpp"
 
@@ -126,16 +127,17 @@ TEST(FacePieces, SendWhatTheWholeFaceWould)
     WorkLimit work = limit_of_pieces(panel.bsp);
     const auto power = [&](const PictureColour& picture) {
         float sum = 0;
-        for (const shared::Emitter& e :
-            emitters_of_face(panel.bsp, panel.face, [&](const std::string&) { return picture; }, {}, work)) {
+        for (const shared::Emitter& e : emitters_of_face(
+                 panel.bsp, panel.face, [&](const std::string&) { return picture; }, {}, work)) {
             EXPECT_GT(e.area, 0);
-            sum += e.area * glm::dot(e.radiance, vec3(0.2126f, 0.7152f, 0.0722f));
+            sum += e.area * luminance(e.radiance);
         }
         return sum;
     };
     EXPECT_GT(power(whole), 0);
     EXPECT_NEAR(power(parted), power(whole), 1e-4f * power(whole));
-    const auto emitters = emitters_of_face(panel.bsp, panel.face, [&](const std::string&) { return parted; }, {}, work);
+    const auto emitters = emitters_of_face(
+        panel.bsp, panel.face, [&](const std::string&) { return parted; }, {}, work);
     const auto triangles = triangles_of_face(panel.bsp, panel.face, parted, work);
     size_t next = 0;
     for (const FaceTriangle& t : triangles)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Light lists of maps that nobody of this project made: set VKPT_TEST_MAPS to a folder of BSP files. What samplers are
 // worth is tested in our own map in any case.
+#include "common/quantile.hpp"
 #include "glsl_libraries.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
@@ -265,9 +266,8 @@ TEST(RealMaps, TreesAreBetterThanSubsetsInMostMaps)
         }
         std::string line;
         std::map<std::string, double> median;
-        for (auto& [name, values] : errors) {
-            std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(values.size() / 2));
-            median[name] = values[values.size() / 2];
+        for (const auto& [name, values] : errors) {
+            median[name] = find_median(values);
             line += fmt::format(" {} {:.3f}", name, median[name]);
         }
         fmt::print("{}: {:.0f} lights a list,{}\n", bsp.name,
@@ -275,7 +275,8 @@ TEST(RealMaps, TreesAreBetterThanSubsetsInMostMaps)
         ratios.push_back(median["light_tree"] / median["subset"]);
         EXPECT_LT(median["light_tree"], 0.25 * median["uniform"]) << bsp.name;
     }
-    // Not by much, as lists are short, and not in every map: a tree does not know how narrow the spots below a node are.
+    // Not by much, as lists are short, and not in every map: a tree does not know how narrow the spots below a node
+    // are.
     std::ranges::sort(ratios);
     EXPECT_LT(ratios[ratios.size() / 2], 1);
     EXPECT_LT(ratios[ratios.size() * 3 / 5], 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The module's converged pictures against the path tracer beside this file, which is given nothing but what `vkpt export`
-// writes. One room in every run; our map, and glossy and metal rooms, under the label "long".
+// The module's converged pictures against the path tracer beside this file, which is given nothing but what `vkpt
+// export` writes. One room in every run; our map, and glossy and metal rooms, under the label "long".
+#include "common/colour.hpp"
 #include "tests/client/run_program.hpp"
 #include "tests/module/game_folder.hpp"
 #include "tests/module/map_builder.hpp"
@@ -34,8 +35,8 @@ class Truth : public testing::Test {
 protected:
     std::vector<std::string> arguments_of(const View& view) const
     {
-        std::vector<std::string> arguments { view.scene, "--size", view.size, "--module", VKPT_TESTED_MODULE, "--basedir",
-            folder_.path().string(), "--set", "pt_bounces=" + std::to_string(view.bounces) };
+        std::vector<std::string> arguments { view.scene, "--size", view.size, "--module", VKPT_TESTED_MODULE,
+            "--basedir", folder_.path().string(), "--set", "pt_bounces=" + std::to_string(view.bounces) };
         for (const std::string& setting : view.settings)
             arguments.insert(arguments.end(), { "--set", setting });
         return arguments;
@@ -69,8 +70,8 @@ protected:
                 for (int v = y; v < std::min(y + block, module.height); v++)
                     for (int u = x; u < std::min(x + block, module.width); u++) {
                         const size_t pixel = size_t(v) * size_t(module.width) + size_t(u);
-                        theirs += analysis::luminance(&module.rgb[3 * pixel]);
-                        ours += glm::dot(own[pixel], glm::dvec3(0.2126, 0.7152, 0.0722));
+                        theirs += luminance(&module.rgb[3 * pixel]);
+                        ours += luminance(own[pixel]);
                     }
                 module_sum += theirs;
                 own_sum += ours;
@@ -148,7 +149,8 @@ protected:
     }
     void expect_agreement_with(int bounces, int own_samples)
     {
-        expect_agreement({ "maps/matte.bsp@0,-384,54,0,90", "96x64", 8192, own_samples, bounces, { "pt_roughness_default=1" } },
+        expect_agreement(
+            { "maps/matte.bsp@0,-384,54,0,90", "96x64", 8192, own_samples, bounces, { "pt_roughness_default=1" } },
             0.003, 0.01);
     }
 };
