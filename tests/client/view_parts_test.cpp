@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The viewer without its window: camera, divider, settings, errors, graphs, and who is drawn next.
+#include "client/view/actions.hpp"
 #include "client/view/error.hpp"
 #include "client/view/fly_camera.hpp"
 #include "client/view/graph.hpp"
@@ -209,6 +210,15 @@ TEST(Error, ReferenceKnowsHowFarItIsOff)
     EXPECT_EQ(*reference.own_rmse(), 0);
     reference.update(analysis::make_image(100, 200), 3); // another size
     EXPECT_FALSE(reference.own_rmse());
+}
+
+TEST(Keys, F5AsksForEditedShaders)
+{
+    State state;
+    SDL_KeyboardEvent event {};
+    event.keysym.sym = SDLK_F5;
+    EXPECT_TRUE(run_key(state, event));
+    EXPECT_TRUE(state.must_reload_shaders);
 }
 
 TEST(Passes, MediansAndTotals)
