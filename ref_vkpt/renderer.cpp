@@ -369,7 +369,7 @@ static void choose_light_sampler(Module& m)
     const LightSampler& sampler = m.sampler_choice.choose(
         m.scene.world(), m.gpu_world, wants_settled_frames(), [&](const SamplerTables& tables) {
             m.graphics.finish();
-            upload_sampler_tables(m.gpu_world, *m.scene.world(), tables, m.graphics.uploader);
+            upload_sampler_tables(m.gpu_world, tables, m.graphics.uploader);
             m.graphics.uploader.flush();
         });
     m.frame.set_light_sampler(sampler.name);

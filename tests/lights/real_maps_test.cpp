@@ -201,10 +201,10 @@ struct LitMap {
     {
         scene.emitters = extract_emitters(bsp, grey, {}).emitters;
         lists.build(bsp, scene.emitters);
-        multisets = make_light_multisets(bsp, lists, scene.emitters);
-        trees = make_light_trees(lists.lists(), lists.static_indices(), scene.emitters);
-        scene.static_indices = multisets.entries;
-        scene.take_trees(trees);
+        tables = make_sampler_tables(
+            { lists.lists(), lists.static_indices(), scene.emitters, &bsp, &lists }, shared::SAMPLER_NEEDS);
+        scene.static_indices = tables.indices;
+        scene.tables = tables;
     }
 
     // Whether a surface at `p` can be lit at all.
@@ -214,8 +214,8 @@ struct LitMap {
         if (cluster < 0 || lists.lists()[size_t(cluster)].static_count == 0)
             return false;
         scene.range = lists.lists()[size_t(cluster)];
-        scene.multiset = multisets.ranges[size_t(cluster)];
-        scene.tree_root = trees.roots[size_t(cluster)];
+        scene.tables.multisets = { tables.multisets[size_t(cluster)] }; // the list's own
+        scene.tables.tree_roots = { tables.tree_roots[size_t(cluster)] };
         scene.point.position = p;
         scene.point.normal = scene.point.view = normal;
         scene.point.roughness = 0.9f;
@@ -224,8 +224,7 @@ struct LitMap {
 
     const formats::Bsp& bsp;
     LightLists lists;
-    LightMultisets multisets;
-    LightTrees trees;
+    SamplerTables tables; // of all lists
     ListCase scene;
 };
 
