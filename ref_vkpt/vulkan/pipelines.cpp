@@ -31,7 +31,7 @@ enum RayStage : uint32_t { stage_generation, stage_miss, stage_closest_hit, stag
 constexpr std::string_view shared_stages[] = { "trace.rmiss", "trace.rchit", "trace.rahit" };
 enum RayGroup : uint32_t { group_generation, group_miss, group_hit, group_count };
 
-// Of lib/texels.glsl: whether tables are read as texels, which is its default.
+// Of lib/device/texels.glsl: whether tables are read as texels, which is its default.
 const VkSpecializationInfo* table_access(const Device& device)
 {
     static constexpr VkBool32 as_texels = VK_FALSE;

@@ -5,8 +5,8 @@
 
 #include "../shared/functions.h"
 #include "../shared/scene.h"
-#include "whole_numbers.glsl"
-#include "wide_loads.glsl"
+#include "device/whole_numbers.glsl"
+#include "device/wide_loads.glsl"
 
 VKPT_BUFFER(EmitterBuffer, Emitter, 16);
 VKPT_BUFFER(EmitterOutlineBuffer, EmitterOutline, 8);

@@ -117,7 +117,7 @@ struct FilterPush {
     uint level;      // from 0
 };
 
-// What a level of lib/denoise_spread.glsl is told (push constants).
+// What a level of denoise/denoise_spread.glsl is told (push constants).
 struct SpreadPush {
     ScreenBuffer source; // of the type of the buffer `filtered`
     ScreenBuffer target; // of the last level: none
