@@ -5,6 +5,7 @@
 #include "client/analysis/flip.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/scene.hpp"
+#include "common/quantile.hpp"
 #include "formats/image.hpp"
 #include "tests/module/game_folder.hpp"
 #include "tests/module/map_builder.hpp"
@@ -177,8 +178,8 @@ Picture make_reference(const Options& options, const Journey& journey, int frame
     if (std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(picture.data()), bytes))
         return picture;
     // In the scenes made for MIS it converges soonest.
-    Run run(options,
-        { { "pt_accumulate", "1" }, { "pt_light_sampler", options.scene.empty() ? "subset" : "subset_mis" } });
+    Run run(
+        options, { { "pt_accumulate", "1" }, { "pt_light_sampler", options.scene.empty() ? "subset" : "subset_mis" } });
     for (int i = 0; i < options.samples; i++)
         run.draw(camera_at(journey, frame_time(frame)), frame_time(frame));
     picture = run.radiance();
@@ -268,20 +269,14 @@ Errors measure(
     return errors;
 }
 
-double median(std::vector<double> values)
-{
-    std::ranges::sort(values);
-    return values.empty() ? 0 : values[values.size() / 2];
-}
-
 void print_times(const std::string& mode, const Errors& errors)
 {
     double total = 0;
     for (const auto& [name, values] : errors.milliseconds)
-        total += median(values);
+        total += find_median(values);
     fmt::print("\n{}, all passes {:.1f} ms\n", mode, total);
     for (const auto& [name, values] : errors.milliseconds)
-        fmt::print("| {} | {:.2f} ms | {:.1f} % |\n", name, median(values), 100 * median(values) / total);
+        fmt::print("| {} | {:.2f} ms | {:.1f} % |\n", name, find_median(values), 100 * find_median(values) / total);
 }
 
 // Error, FLIP and flicker (at rest).

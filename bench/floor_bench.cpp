@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a pass over the screen costs before it does anything: an empty one, and ones that copy a screen buffer or an image of
-// four floats or half floats. And what a table costs that every lane reads elsewhere: 16 times 16 bytes a pixel, out of
-// one that the caches hold, by buffer references as the module's passes do and as a buffer of texels.
+// What a pass over the screen costs before it does anything: an empty one, and ones that copy a screen buffer or an
+// image of four floats or half floats. And what a table costs that every lane reads elsewhere: 16 times 16 bytes a
+// pixel, out of one that the caches hold, by buffer references as the module's passes do and as a buffer of texels.
 #include "bench/ray_sets.hpp"
 #include "tests/trace/headless_compute.hpp"
 
@@ -54,7 +54,7 @@ void run(int rounds)
             pass.seconds.push_back(
                 cpu_seconds_of([&] { device.dispatch(pass.pipeline, &push, pixels / pixels_per_group); }));
     for (const Pass& pass : passes)
-        std::printf("%-26s %.2f\n", pass.name, median(pass.seconds) * 1e3);
+        std::printf("%-26s %.2f\n", pass.name, find_median(pass.seconds) * 1e3);
 }
 
 } // namespace

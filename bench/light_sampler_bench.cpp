@@ -4,6 +4,7 @@
 // in Markdown, for docs/light-sampling.md.
 #include "client/host/errors.hpp"
 #include "client/host/scene.hpp"
+#include "common/quantile.hpp"
 #include "tests/module/game_folder.hpp"
 #include "tests/module/map_builder.hpp"
 
@@ -58,20 +59,14 @@ struct Milliseconds {
     double frame = 0; // all passes
 };
 
-double median(std::vector<double> values)
-{
-    std::ranges::sort(values);
-    return values.empty() ? 0 : values[values.size() / 2];
-}
-
 // Of the part `what` of `times`, as ratio to those of the same round in `reference` where there are any.
-double median(const std::vector<Milliseconds>& times, double Milliseconds::*what,
+double find_median_part(const std::vector<Milliseconds>& times, double Milliseconds::*what,
     const std::vector<Milliseconds>* reference = nullptr)
 {
     std::vector<double> values;
     for (size_t i = 0; i < times.size(); i++)
         values.push_back(times[i].*what / (reference ? (*reference)[i].*what : 1));
-    return median(std::move(values));
+    return find_median(std::move(values));
 }
 
 // A map in the module.
@@ -200,7 +195,8 @@ void print_costs(const Options& options)
     fmt::print("{} at {}x{}, medians of {} rounds\n\n| sampler | R | ratio | ms |\n|---|---|---|---|\n", options.scene,
         options.width, options.height, options.rounds);
     for (const Case& c : cases)
-        fmt::print("| `{}` | {} | {:.2f} | {:.0f} |\n", c.sampler, c.subset, median(ratios[c]), median(times[c]));
+        fmt::print(
+            "| `{}` | {} | {:.2f} | {:.0f} |\n", c.sampler, c.subset, find_median(ratios[c]), find_median(times[c]));
 }
 
 // What a hall under ten thousand small triangles differs in, apart from how many of them shine.
@@ -266,9 +262,10 @@ void print_counts(const Options& options, const Hall& hall)
                 times[i].push_back(runs[i]->measure(which));
         fmt::print("| `{}` |", c.sampler);
         for (const std::vector<Milliseconds>& of_run : times)
-            fmt::print(" {:.0f} of {:.0f} ({:.2f}, {:.2f}) |", median(of_run, &Milliseconds::light),
-                median(of_run, &Milliseconds::frame), median(of_run, &Milliseconds::light, &times[0]),
-                median(of_run, &Milliseconds::frame, &times[0]));
+            fmt::print(" {:.0f} of {:.0f} ({:.2f}, {:.2f}) |", find_median_part(of_run, &Milliseconds::light),
+                find_median_part(of_run, &Milliseconds::frame),
+                find_median_part(of_run, &Milliseconds::light, &times[0]),
+                find_median_part(of_run, &Milliseconds::frame, &times[0]));
         fmt::print("\n");
     }
 }

@@ -101,11 +101,4 @@ double cpu_seconds_of(const std::function<void()>& work)
     return cpu_seconds() - start;
 }
 
-double median(std::vector<double> values)
-{
-    auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 } // namespace vkpt::tests

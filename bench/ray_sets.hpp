@@ -2,6 +2,7 @@
 // The rays that the tracing benches trace, and how they take time.
 #pragma once
 
+#include "common/quantile.hpp"
 #include "tests/trace/scenes.hpp"
 #include "tests/trace/trace_rays.h"
 
@@ -33,6 +34,5 @@ std::vector<RaySet> make_ray_sets(
 
 // CPU time of the process, all threads, during `work`.
 double cpu_seconds_of(const std::function<void()>& work);
-double median(std::vector<double> values);
 
 } // namespace vkpt::tests

@@ -74,12 +74,12 @@ void report_set(const RaySet& set, const std::vector<Contender>& contenders)
 {
     const double millions = double(set.rays.size()) * 1e-6;
     for (const Contender& contender : contenders) {
-        std::printf("%-10s %-18s %7.2f", set.name, contender.name.c_str(), millions / median(contender.seconds));
+        std::printf("%-10s %-18s %7.2f", set.name, contender.name.c_str(), millions / find_median(contender.seconds));
         for (const Contender& other : contenders) {
             std::vector<double> ratios;
             for (size_t round = 0; round < contender.seconds.size(); round++)
                 ratios.push_back(other.seconds[round] / contender.seconds[round]);
-            std::printf("  %6.2f", median(ratios));
+            std::printf("  %6.2f", find_median(ratios));
         }
         std::printf("\n");
     }
@@ -92,8 +92,8 @@ void report_build(std::span<const BvhTriangle> triangles)
         Bvh bvh;
         for (int i = 0; i < 9; i++)
             times.push_back(cpu_seconds_of([&] { bvh = build_bvh(triangles, quality); }));
-        std::printf("build %s: %.2f ms, %.2f M triangles/s, %u nodes, depth %u\n", name, median(times) * 1e3,
-            double(triangles.size()) * 1e-6 / median(times), bvh.node_count, bvh.max_depth);
+        std::printf("build %s: %.2f ms, %.2f M triangles/s, %u nodes, depth %u\n", name, find_median(times) * 1e3,
+            double(triangles.size()) * 1e-6 / find_median(times), bvh.node_count, bvh.max_depth);
     }
 }
 

@@ -214,7 +214,7 @@ void show_row(const Row& row, const Row& first)
         std::vector<double> ratios;
         for (size_t round = 0; round < row.seconds[set].size(); round++)
             ratios.push_back(row.seconds[set][round] / first.seconds[set][round]);
-        std::printf("  %6.1f x%.2f", median(row.seconds[set]) * 1e9, median(ratios));
+        std::printf("  %6.1f x%.2f", find_median(row.seconds[set]) * 1e9, find_median(ratios));
     }
     std::printf("\n");
 }
@@ -297,7 +297,8 @@ void report_threads(const Options& options)
             ratios.push_back(seconds[0].back() / seconds[1].back());
         }
         std::printf("%-8s CPU of the busiest thread: of one %.1f ms, of two %.1f ms, x%.2f\n",
-            contenders[0].sets()[set].set.name, median(seconds[0]) * 1e3, median(seconds[1]) * 1e3, median(ratios));
+            contenders[0].sets()[set].set.name, find_median(seconds[0]) * 1e3, find_median(seconds[1]) * 1e3,
+            find_median(ratios));
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "game/light_text.hpp"
 
+#include "common/colour.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -221,9 +223,8 @@ std::string write_light_file(std::span<const Light> lights, std::string_view map
 
 formats::CodedLight code_light(const Light& light, uint32_t phase)
 {
-    const auto linear = [](float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); };
     formats::CodedLight coded;
-    coded.colour = { linear(light.colour.x), linear(light.colour.y), linear(light.colour.z) };
+    coded.colour = { decode_srgb(light.colour.x), decode_srgb(light.colour.y), decode_srgb(light.colour.z) };
     coded.value = light.value;
     coded.radius = light.radius;
     coded.style = light.style;

@@ -7,6 +7,7 @@
 #include "ref_vkpt/frame/graphics.hpp"
 #include "ref_vkpt/frame/sampler_choice.hpp"
 #include "ref_vkpt/frame/scene_queries.hpp"
+#include "ref_vkpt/frame/shader_reload.hpp"
 #include "ref_vkpt/frame/shader_warm_up.hpp"
 #include "ref_vkpt/overlay/overlay.hpp"
 #include "ref_vkpt/preset_command.hpp"
@@ -43,6 +44,7 @@ struct Module {
     const View& view() const { return views[selected_view]; }
     // About the selected view's scene, if it has one.
     SceneQueries queries() { return { graphics, frame, view(), gpu_world }; }
+    ShaderReload shader_reload;
     std::optional<ShaderWarmUp> warm_up; // from the first map's registration on
     FrameCapture capture;
     PresetCommand preset;

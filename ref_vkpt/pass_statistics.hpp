@@ -27,9 +27,6 @@ private:
     std::vector<Pass> passes_;
 };
 
-// Nearest rank: the smallest value that at least `fraction` of all values do not exceed. `values` is not empty.
-float find_quantile(std::vector<float> values, double fraction);
-
 // Adds the time from its making to its end of life under `name`, less what timers inside took. On the engine's thread.
 class CpuTimer {
 public:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/presets.hpp"
 
+#include "common/quantile.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -74,9 +76,7 @@ bool PresetMeasurement::add_frame(double now, double milliseconds)
     times_.push_back(milliseconds);
     if (now - *start_ < seconds_each)
         return false;
-    std::ranges::nth_element(times_, times_.begin() + std::ptrdiff_t(times_.size() / 2));
-    medians_[stage_++] = times_[times_.size() / 2];
-    times_.clear();
+    medians_[stage_++] = find_median(std::exchange(times_, {}));
     start_.reset();
     frames_seen_ = 0;
     return true;

@@ -211,6 +211,7 @@ constexpr Command commands[] = {
     { "pt_preset", [] { run_command([] { module() ? module()->preset.run() : void(); }); } },
     { "pt_menu", [] { run_command([] { module() ? module()->overlay.toggle_menu() : void(); }); } },
     { "mat", [] { run_command([] { module() ? run_material_command(*module()) : void(); }); } },
+    { "reload_shader", [] { run_command([] { module() ? module()->shader_reload.look() : void(); }); } },
     { "pt_times_print", [] { run_command([] { module() ? print_pass_statistics(*module()) : void(); }); } },
     { "screenshot", [] { run_command(take_screenshot); } },
     { "imagelist", [] { run_command([] { module() ? module()->textures.print_list() : void(); }); } },
@@ -228,6 +229,7 @@ Module::Module(const GraphicsSettings& settings)
     , draw2d(graphics.gpu, graphics.bindings, graphics.pipelines, textures, frames_in_flight)
     , scene(textures)
     , frame(graphics, workers)
+    , shader_reload(cvars::values().pt_shader_dir, graphics.pipelines)
 {
 }
 
@@ -368,18 +370,32 @@ void end_registration()
 
 // ---- the frame
 
-// Pictures that are compared, and times, are of the sampler that was asked for.
-static void choose_light_sampler(Module& m)
+// Pictures that are compared, and times, are of the sampler and the shaders that were asked for.
+static bool wants_settled_frames()
 {
     const CvarValues& cvars = cvars::values();
-    const bool waits = cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
-    const LightSampler& sampler
-        = m.sampler_choice.choose(m.scene.world(), m.gpu_world, waits, [&](const SamplerTables& tables) {
-              m.graphics.finish();
-              upload_sampler_tables(m.gpu_world, *m.scene.world(), tables, m.graphics.uploader);
-              m.graphics.uploader.flush();
-          });
+    return cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
+}
+
+static void choose_light_sampler(Module& m)
+{
+    const LightSampler& sampler = m.sampler_choice.choose(
+        m.scene.world(), m.gpu_world, wants_settled_frames(), [&](const SamplerTables& tables) {
+            m.graphics.finish();
+            upload_sampler_tables(m.gpu_world, tables, m.graphics.uploader);
+            m.graphics.uploader.flush();
+        });
     m.frame.set_light_sampler(sampler.name);
+}
+
+static void take_edited_shaders(Module& m)
+{
+    if (!m.shader_reload.is_on())
+        return;
+    if (m.shader_reload.update(
+            frame_shaders(m.frame.trace_backend()), wants_settled_frames(), [&] { m.graphics.finish(); }))
+        for (View& view : m.views)
+            view.accumulated_frames = 0;
 }
 
 void begin_frame(float)
@@ -394,7 +410,10 @@ void begin_frame(float)
         measure_trace_backends(m);
     m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
     if (!m.graphics.is_recording()) // else the engine left a frame by its error exit
+    {
         choose_light_sampler(m);
+        take_edited_shaders(m);
+    }
     PassStatistics* const statistics = wanted_statistics();
     m.graphics.timer.collect_into(statistics);
     CpuTimer::collect_into(statistics);
@@ -469,7 +488,7 @@ static void print_speeds(const Module& m)
 static OverlayFacts overlay_facts(const Module& m)
 {
     return { m.graphics.size(), m.view().rendered_size, m.graphics.timer.frame_milliseconds(),
-        &m.graphics.timer.times() };
+        &m.graphics.timer.times(), &m.shader_reload.errors() };
 }
 
 void end_frame()

@@ -10,7 +10,7 @@ top=${1:-$root}
 
 # From below to above; of two entries that fit a file the longer one counts. docs/architecture.md says what each part does.
 layers='
-shaders/shared shaders/passes.def formats ref_vkpt/extension.hpp ref_vkpt/renderer.hpp ref_vkpt/engine/contract.hpp
+common shaders/shared shaders/passes.def formats ref_vkpt/extension.hpp ref_vkpt/renderer.hpp ref_vkpt/engine/contract.hpp
 ref_vkpt/engine ref_vkpt/cvars ref_vkpt/files ref_vkpt/noise ref_vkpt/preset ref_vkpt/pass_statistics ref_vkpt/workers
 ref_vkpt/vulkan
 ref_vkpt/lights
@@ -23,7 +23,7 @@ ref_vkpt/module.hpp ref_vkpt/scene_contents ref_vkpt/material_commands
 ref_vkpt/renderer.cpp ref_vkpt/extension.cpp ref_vkpt/engine/exports.cpp'
 
 cd "$top" || exit 1
-found=$(grep -rHoE '^#include "[^"]+"' ref_vkpt shaders/shared formats --include='*.[ch]pp' --include='*.h' \
+found=$(grep -rHoE '^#include "[^"]+"' ref_vkpt shaders/shared formats common --include='*.[ch]pp' --include='*.h' \
     | awk -v layers="$layers" '
         function layer_of(path,    i, best, found) {
             found = -1
@@ -43,7 +43,7 @@ found=$(grep -rHoE '^#include "[^"]+"' ref_vkpt shaders/shared formats --include
             file = half[1]; target = half[2]; sub(/"$/, "", target)
             if (target !~ /\//) next # beside the file
             if (layer_of(file) < 0) { print file " is in no layer of scripts/check_layers.sh"; next }
-            if (target ~ /^(ref_vkpt|shaders|formats)\// && layer_of(target) > layer_of(file)) print file " includes " target ", of a layer above"
+            if (target ~ /^(ref_vkpt|shaders|formats|common)\// && layer_of(target) > layer_of(file)) print file " includes " target ", of a layer above"
         }' | sort -u)
 [[ -z $found ]] && exit 0
 say "$found"

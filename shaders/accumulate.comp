@@ -5,7 +5,7 @@
 // nothing moves.
 #define VKPT_DEVIATIONS_ARE_KNOWN
 #include "lib/frame.glsl"
-#include "lib/denoise_spread.glsl"
+#include "denoise/denoise_spread.glsl"
 #include "lib/picture.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DarkLightBuffer { DarkLight v[]; };

@@ -5,7 +5,7 @@
 // it takes over the very surface and the random numbers. What then differs is the light (Schied, Peters and Dachsbacher 2018,
 // section 4; they project last view's samples forwards, here this view's pixels look backwards).
 #include "lib/frame.glsl"
-#include "lib/denoise.glsl"
+#include "denoise/denoise.glsl"
 
 // Pixels that the old sample may lie off: sideways, and so along the surface at grazing angles.
 const float most_pixels_off = 1.5;

@@ -4,7 +4,7 @@
 // From radiance to what the screen shows, at the window's size: under water it sways, bright things shine over, exposure and tone
 // curve, the engine's blend, gamma, and 8 bits by blue noise. Debug views take the picture's place.
 #include "lib/frame.glsl"
-#include "lib/bloom.glsl"
+#include "bloom/bloom.glsl"
 #include "lib/debug_views.glsl"
 #include "lib/random.glsl"
 #include "lib/sharpen.glsl"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/analysis/display.hpp"
 
+#include "common/colour.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -26,16 +28,6 @@ formats::Rgba8 heat_colour(float value)
 }
 
 } // namespace
-
-float encode_srgb(float linear)
-{
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
-float decode_srgb(float encoded)
-{
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
 
 float choose_exposure(const LinearImage& image)
 {

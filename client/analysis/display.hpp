@@ -8,8 +8,6 @@
 namespace vkpt::analysis {
 
 // The transfer curve of IEC 61966-2-1; both ways 0..1.
-float encode_srgb(float linear);
-float decode_srgb(float encoded);
 
 // The factor that brings a picture's log-average luminance to middle grey, .18 (Reinhard et al. 2002, "Photographic
 // Tone Reproduction for Digital Images", equations 1 and 2). 1 for display pictures and black ones.

@@ -2,6 +2,8 @@
 // A picture as linear light, and the files that it is read from.
 #pragma once
 
+#include "common/colour.hpp"
+
 #include <cstddef>
 #include <filesystem>
 #include <span>
@@ -20,8 +22,6 @@ struct LinearImage {
 };
 LinearImage make_image(int width, int height);
 
-// Rec. 709 weights.
-inline float luminance(const float* rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
 std::vector<float> luminances(const LinearImage& image);
 double mean_luminance(const LinearImage& image);
 

@@ -241,13 +241,14 @@ void run_bench(const BenchOptions& options)
     Bench bench(options, files, host_options);
     const std::vector<BenchResult> results = bench.run(variants);
     const size_t block = size_t(bench.turn_length());
-    nlohmann::ordered_json json = to_json(results[0]);
+    nlohmann::ordered_json json = to_json(results[0], BenchSamples::written);
     print_table(results[0]);
     if (!variants.empty()) {
         fmt::print("\n{}: {} against {}\n", variants[0].name, variants[1].value, variants[0].value);
         print_comparison(results[0], variants[0].value, results[1], variants[1].value, block);
         json["ab"] = { { "name", variants[0].name }, { "values", { variants[0].value, variants[1].value } },
-            { "second", to_json(results[1]) }, { "ratios", compare_to_json(results[0], results[1], block) } };
+            { "second", to_json(results[1], BenchSamples::written) },
+            { "ratios", compare_to_json(results[0], results[1], block) } };
     }
     if (before) {
         check_same_scene(*before, results[0], options.against);

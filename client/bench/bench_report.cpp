@@ -4,7 +4,6 @@
 #include "client/host/errors.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 
@@ -13,28 +12,6 @@ namespace vkpt::client {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr int bench_schema = 1;
-
-// Microseconds are as fine as any clock here is.
-double rounded(double value) { return std::round(value * 1e4) / 1e4; }
-
-Json samples_to_json(const std::vector<float>& ms)
-{
-    Json list = Json::array();
-    for (const float sample : ms)
-        list.push_back(rounded(sample));
-    return list;
-}
-
-Json task_to_json(const TimedTask& task, bool with_p95)
-{
-    Json json { { "name", task.name }, { "median_ms", rounded(find_median(task.ms)) } };
-    if (with_p95)
-        json["p95_ms"] = rounded(find_quantile(task.ms, 0.95));
-    json["samples_ms"] = samples_to_json(task.ms);
-    return json;
-}
 
 TimedTask task_from_json(const Json& json)
 {
@@ -67,44 +44,6 @@ std::string describe_rays(const BenchResult& result)
 }
 
 } // namespace
-
-double BenchResult::mrays_per_second() const
-{
-    const double median = find_median(frame_ms);
-    return median > 0 ? rays_per_frame() / (median * 1000) : 0;
-}
-
-Json to_json(const BenchResult& result)
-{
-    Json json;
-    json["schema"] = bench_schema;
-    json["scene"] = result.scene;
-    json["size"] = { result.width, result.height };
-    json["frames"] = result.frames;
-    json["settings"] = Json::object();
-    for (const auto& [name, text] : result.settings)
-        json["settings"][name] = text;
-    json["device"] = result.device;
-    json["driver"] = result.driver;
-    json["trace_backend"] = result.trace_backend;
-    json["frame_ms"] = { { "median", rounded(find_median(result.frame_ms)) },
-        { "p5", rounded(find_quantile(result.frame_ms, 0.05)) },
-        { "p95", rounded(find_quantile(result.frame_ms, 0.95)) }, { "samples", samples_to_json(result.frame_ms) } };
-    json["passes"] = Json::array();
-    for (const TimedTask& pass : result.passes)
-        json["passes"].push_back(task_to_json(pass, true));
-    json["cpu"] = Json::array();
-    for (const TimedTask& task : result.cpu)
-        json["cpu"].push_back(task_to_json(task, false));
-    json["rays_per_frame"] = std::round(result.rays_per_frame());
-    json["mrays_per_s"] = rounded(result.mrays_per_second());
-    json["rays"]
-        = { { "nearest", std::round(result.nearest_rays) }, { "visibility", std::round(result.visibility_rays) } };
-    json["peak_rss_mib"] = std::round(result.peak_rss_mib * 10) / 10;
-    json["gpu_mib"] = std::round(result.gpu_mib * 10) / 10;
-    json["start"] = { { "first_frame_s", rounded(result.first_frame_seconds) } };
-    return json;
-}
 
 BenchResult read_bench_json(const std::filesystem::path& path)
 {
@@ -181,8 +120,8 @@ Json compare_to_json(const BenchResult& first, const BenchResult& second, size_t
             if (!has_ratio(before) || !has_ratio(now))
                 return;
             const Ratio ratio = find_ratio(before, now, block);
-            list.push_back({ { "name", name }, { "ratio", rounded(ratio.value) }, { "low", rounded(ratio.low) },
-                { "high", rounded(ratio.high) } });
+            list.push_back({ { "name", name }, { "ratio", round_time(ratio.value) }, { "low", round_time(ratio.low) },
+                { "high", round_time(ratio.high) } });
         });
     return list;
 }

@@ -36,22 +36,12 @@ template <class Statistic> Ratio with_interval(double value, Statistic draw)
 
 } // namespace
 
-float find_quantile(std::vector<float> values, double fraction)
-{
-    if (values.empty())
-        return 0;
-    const double rank = std::ceil(fraction * double(values.size())) - 1;
-    const size_t place = size_t(std::clamp(rank, 0.0, double(values.size() - 1)));
-    std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(place));
-    return values[place];
-}
-
-float find_median(std::vector<float> values) { return find_quantile(std::move(values), 0.5); }
-
 Ratio find_ratio(std::span<const float> first, std::span<const float> second, size_t block)
 {
     if (first.size() != second.size()) {
-        const auto median = [](std::span<const float> values) { return find_median({ values.begin(), values.end() }); };
+        const auto median = [](std::span<const float> values) {
+            return find_median(std::vector<float>(values.begin(), values.end()));
+        };
         return with_interval(median(second) / double(median(first)), [&](std::minstd_rand& random) {
             const float below = find_median(resample(first, 1, random));
             return find_median(resample(second, 1, random)) / below;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Order statistics of measured times, and how sure a ratio of two of them is.
+// How sure a ratio of measured times is.
 #pragma once
+
+#include "common/quantile.hpp"
 
 #include <span>
 #include <vector>
 
 namespace vkpt::client {
-
-// Nearest rank: the smallest value that at least `fraction` (0..1] of all do not exceed. Empty: 0.
-float find_quantile(std::vector<float> values, double fraction);
-float find_median(std::vector<float> values);
 
 struct Ratio {
     double value = 1;

@@ -4,6 +4,7 @@
 #include "client/analysis/display.hpp"
 #include "client/analysis/flip.hpp"
 #include "client/host/errors.hpp"
+#include "common/quantile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,15 +23,6 @@ bool measures_costly(int run) { return run < costly_runs; }
 
 // For changes from frame to frame an eighth of the samples will do.
 int flicker_reference_samples(const MeasureOptions& options) { return std::max(options.reference.samples / 8, 1); }
-
-double median(std::vector<double> values)
-{
-    if (values.empty())
-        return 0;
-    const auto middle = values.begin() + ptrdiff_t(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 // What the runs of one variant left.
 struct Runs {
@@ -133,7 +125,8 @@ private:
                 run_filtered(i, run);
             else
                 run_unfiltered(i, run);
-            const double light = median({ runs_[i].light_ms.begin() + ptrdiff_t(first_time), runs_[i].light_ms.end() });
+            const double light
+                = find_median(std::vector(runs_[i].light_ms.begin() + ptrdiff_t(first_time), runs_[i].light_ms.end()));
             if (i == 0)
                 first_light = light;
             runs_[i].light_ratios.push_back(first_light > 0 ? light / first_light : 1);
@@ -210,9 +203,9 @@ private:
         result.bias = estimate_bias(runs.mean_differences, reference.mean_interval);
         result.local_bias = estimate_local_bias(runs.blocks, reference.block_variances);
         result.spectrum = average_spectra(runs.spectra);
-        result.ms = median(runs.ms);
-        result.light_ms = median(runs.light_ms);
-        result.light_ratio = median(runs.light_ratios);
+        result.ms = find_median(runs.ms);
+        result.light_ms = find_median(runs.light_ms);
+        result.light_ratio = find_median(runs.light_ratios);
         for (size_t point = 0; point < runs.curve.size(); point++)
             result.curve.push_back({ options_.samples << point, average_errors(runs.curve[point]).rmse });
     }

@@ -178,6 +178,8 @@ constexpr Action table[] = {
         [](State& state) { state.must_save_window = true; } },
     { SDLK_TAB, plain, window_group, "Tab, F11", "the panel; full screen",
         [](State& state) { state.shows_panel = !state.shows_panel; } },
+    { SDLK_F5, plain, window_group, "F5", "look for edited shaders (pt_shader_dir)",
+        [](State& state) { state.must_reload_shaders = true; } },
     { SDLK_F1, plain, window_group, "F1, H", "this help", [](State& state) { state.shows_help = !state.shows_help; } },
     { SDLK_h, plain, window_group, "", "", [](State& state) { state.shows_help = !state.shows_help; } },
     { SDLK_ESCAPE, plain, window_group, "Esc", "close the help; leave", leave },

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/view/graph.hpp"
 
+#include "common/quantile.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,11 +45,7 @@ double PassHistory::median(std::string_view name) const
     for (const std::vector<PassRow>& frame : frames_)
         if (const auto found = std::ranges::find(frame, name, &PassRow::name); found != frame.end())
             times.push_back(found->milliseconds);
-    if (times.empty())
-        return 0;
-    const auto middle = times.begin() + std::ptrdiff_t(times.size() / 2);
-    std::ranges::nth_element(times, middle);
-    return *middle;
+    return find_median(std::move(times));
 }
 
 double PassHistory::scale() const

@@ -70,6 +70,8 @@ public:
         for (const auto& [name, value] : request.settings)
             if (const engine::Cvar* cvar = host_.cvars().find(name); cvar && cvar->text != value)
                 host_.cvars().set(name, value);
+        if (request.reloads_shaders)
+            host_.run_text("reload_shader\n");
         source_.set_camera(request.camera);
         source_.draw(host_, request.frame);
         RenderedFrame result;

@@ -29,6 +29,7 @@ struct RenderRequest {
     int frame = 0;
     bool starts_anew = false; // the reference: average from here on
     bool compares = false; // with the reference
+    bool reloads_shaders = false;
     std::optional<glm::ivec2> inspected; // pixel of the picture
 };
 

@@ -50,6 +50,7 @@ struct State {
     std::optional<Inspection> inspection;
 
     bool shows_panel = true, shows_help = false, must_quit = false, must_save_window = false;
+    bool must_reload_shaders = false;
     size_t highlighted = 0; // of `live`, by keyboard
     std::string notice; // at the bottom for a while
     bool notice_is_bad = false;

@@ -291,6 +291,7 @@ void Viewer::request_frame()
     }
     if (request.side == Side::a)
         last_a_ = request;
+    request.reloads_shaders = std::exchange(state_.must_reload_shaders, false);
     thread_.submit(std::move(request));
 }
 

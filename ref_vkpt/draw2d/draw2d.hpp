@@ -93,7 +93,7 @@ private:
     Gpu gpu_;
     Bindings& bindings_;
     TextureStore& textures_;
-    VkPipeline pipeline_;
+    Pipelines& pipelines_;
     VkDeviceAddress output_ = 0;
     VkExtent2D size_ {}; // of the output
 

@@ -68,7 +68,7 @@ Draw2d::Draw2d(
     : gpu_(gpu)
     , bindings_(bindings)
     , textures_(textures)
-    , pipeline_(pipelines.compute("draw_quads.comp"))
+    , pipelines_(pipelines)
     , frames_(frames_in_flight)
 {
 }
@@ -99,7 +99,7 @@ void Draw2d::record(VkCommandBuffer commands)
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
         const shared::QuadPush push = upload_lists();
         const DebugLabel label(gpu_.device, commands, "draw_quads");
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.compute("draw_quads.comp"));
         bindings_.bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, 0);
         vkCmdPushConstants(commands, bindings_.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);
         vkCmdDispatch(commands, uint32_t(tiles_.size()), 1, 1);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/render_scale.hpp"
 
+#include "common/quantile.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,9 +38,7 @@ void RenderScale::add_frame(double milliseconds, const Limits& limits)
     times_.push_back(milliseconds);
     if (times_.size() < frames_measured)
         return;
-    std::ranges::nth_element(times_, times_.begin() + frames_measured / 2);
-    const double median = times_[frames_measured / 2];
-    times_.clear();
+    const double median = find_median(std::exchange(times_, {}));
     // Time goes with the pixels, that is with the square; rounded down to a whole step.
     const uint32_t now = percent(limits);
     const double share = limits.target_ms / median;

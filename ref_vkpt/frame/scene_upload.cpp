@@ -14,7 +14,7 @@ namespace {
 // What a map's data looks like to the shaders where there is no map: one list with every emitter.
 struct NoWorld {
     std::vector<shared::LightList> lists;
-    std::vector<shared::LightMultiset> multisets { {} };
+    std::array<uint32_t, 16> empty_entry {}; // of any sampler's table
     std::vector<uint32_t> indices;
     std::vector<shared::BspTreeNode> tree;
 };
@@ -153,7 +153,11 @@ void SceneUpload::fill_light_lists(const Job& job)
         const NoWorld none = make_no_world(job.scene.emitters.size());
         out.light_lists = uploads_.push(none.lists);
         out.static_light_indices = out.dynamic_light_indices = uploads_.push(none.indices);
-        out.light_multisets = uploads_.push(none.multisets);
+        const uint64_t empty = uploads_.push(std::as_bytes(std::span(none.empty_entry)));
+        out.sampler_tables = {
+#define VKPT_SAMPLER_TABLE(name, type, alignment) empty,
+#include "shaders/shared/sampler_tables.def"
+        };
         out.bsp_tree = uploads_.push(none.tree);
         out.light_list_count = 1;
         return;
@@ -161,11 +165,8 @@ void SceneUpload::fill_light_lists(const Job& job)
     const GpuWorld& world = *job.gpu_world;
     const LightLists& lights = *job.scene.light_lists;
     out.static_light_indices = world.light_indices.address();
-    out.light_multisets = world.light_multisets.address();
-    out.light_tree_roots = world.light_tree_roots.address();
-    out.light_tree_places = world.light_tree_places.address();
+    out.sampler_tables = world.sampler_tables();
     out.light_tree_lights = world.light_tree_lights;
-    out.light_trees = world.light_trees.address();
     out.light_lists = job.kept.light_lists.write(graphics_.slot(), lights.lists());
     out.dynamic_light_indices = job.kept.dynamic_light_indices.write(graphics_.slot(), lights.dynamic_indices());
     out.bsp_tree = world.bsp_tree.address();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/shader_warm_up.hpp"
 
+#include "common/parallel.hpp"
 #include "ref_vkpt/engine/errors.hpp"
 #include "ref_vkpt/files/hash.hpp"
 #include "ref_vkpt/frame/scene_texels.hpp"
@@ -89,8 +90,7 @@ ShaderWarmUp::ShaderWarmUp(const Device& device, Pipelines& pipelines, std::vect
         compiled_file_ = directory + "/compiled.txt";
         read_compiled();
     }
-    const size_t cores = std::max(std::thread::hardware_concurrency(), 1u);
-    for (size_t i = 0; i < std::min({ cores, most_threads, shaders_.size() }); i++)
+    for (size_t i = 0; i < std::min({ size_t(core_count()), most_threads, shaders_.size() }); i++)
         threads_.emplace_back([this] { run_thread(); });
 }
 

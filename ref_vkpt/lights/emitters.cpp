@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/lights/emitters.hpp"
 
+#include "common/colour.hpp"
 #include "ref_vkpt/lights/animated_lights.hpp"
 #include "ref_vkpt/lights/cluster_finder.hpp"
-#include "ref_vkpt/lights/luminance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -156,8 +156,7 @@ bool is_glowing(const BspTexinfo& texinfo, const PictureColour& picture)
         && !(texinfo.flags & (formats::SURF_NODRAW | formats::SURF_WARP));
 }
 
-std::vector<FaceTriangle> triangles_of_face(
-    const Bsp& bsp, size_t face, const PictureColour& picture, WorkLimit& work)
+std::vector<FaceTriangle> triangles_of_face(const Bsp& bsp, size_t face, const PictureColour& picture, WorkLimit& work)
 {
     const glm::vec3 normal = bsp.face_normal(face);
     std::vector<FaceTriangle> triangles;
@@ -204,15 +203,13 @@ uint32_t face_lightstyle(const formats::BspFace& face)
     return steady;
 }
 
-glm::vec3 frame_radiance(
-    const Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales)
+glm::vec3 frame_radiance(const Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales)
 {
     const BspTexinfo& frame = bsp.texinfos[texinfo];
     return classify(frame) == Emission::face ? average_radiance(frame, colour(frame.texture), scales) : glm::vec3(0);
 }
 
-glm::vec3 face_radiance(
-    const Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales)
+glm::vec3 face_radiance(const Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales)
 {
     glm::vec3 brightest(0);
     for_each_frame(bsp, texinfo, [&](uint32_t frame) {
@@ -223,8 +220,8 @@ glm::vec3 face_radiance(
     return brightest;
 }
 
-std::vector<shared::Emitter> emitters_of_face(const Bsp& bsp, size_t face, const AverageColour& colour,
-    const EmissionScales& scales, WorkLimit& work)
+std::vector<shared::Emitter> emitters_of_face(
+    const Bsp& bsp, size_t face, const AverageColour& colour, const EmissionScales& scales, WorkLimit& work)
 {
     const BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
     const bool is_sky = classify(texinfo) == Emission::sky;

@@ -2,6 +2,7 @@
 #include "ref_vkpt/lights/light_multisets.hpp"
 
 #include "ref_vkpt/lights/light_source.hpp"
+#include "ref_vkpt/lights/sampler_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -195,6 +196,15 @@ LightMultisets make_light_multisets(
         result.ranges[cluster] = { uint32_t(first), uint32_t(result.entries.size() - first) };
     }
     return result;
+}
+
+void add_light_multisets(const SamplerTableSource& source, SamplerTables& tables)
+{
+    if (!source.bsp)
+        return;
+    LightMultisets multisets = make_light_multisets(*source.bsp, *source.light_lists, source.emitters);
+    tables.multisets = std::move(multisets.ranges);
+    tables.indices = std::move(multisets.entries);
 }
 
 } // namespace vkpt

@@ -2,6 +2,7 @@
 #include "ref_vkpt/lights/light_trees.hpp"
 
 #include "ref_vkpt/lights/light_source.hpp"
+#include "ref_vkpt/lights/sampler_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -236,6 +237,16 @@ LightTrees make_light_trees(std::span<const shared::LightList> lists, std::span<
     for (const shared::LightList& list : lists)
         builder.append(list.first_static, static_indices.subspan(list.first_static, list.static_count));
     return trees;
+}
+
+void add_light_trees(const SamplerTableSource& source, SamplerTables& tables)
+{
+    LightTrees trees = make_light_trees(source.lists, source.static_indices, source.emitters);
+    tables.tree_nodes = std::move(trees.nodes);
+    tables.tree_roots = std::move(trees.roots);
+    tables.tree_places = std::move(trees.places);
+    tables.tree_lights = uint32_t(tables.indices.size());
+    tables.indices.insert(tables.indices.end(), trees.lights.begin(), trees.lights.end());
 }
 
 } // namespace vkpt

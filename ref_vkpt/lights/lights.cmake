@@ -14,6 +14,7 @@ add_library(vkpt_lights STATIC
     ${CMAKE_CURRENT_LIST_DIR}/ltc_table.cpp
     ${CMAKE_CURRENT_LIST_DIR}/outlines.cpp
     ${CMAKE_CURRENT_LIST_DIR}/point_lights.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/sampler_tables.cpp
     ${CMAKE_CURRENT_LIST_DIR}/suns.cpp
     ${CMAKE_CURRENT_LIST_DIR}/triangulate.cpp)
 find_package(fmt REQUIRED)

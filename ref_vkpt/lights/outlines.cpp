@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/lights/outlines.hpp"
 
-#include "ref_vkpt/lights/luminance.hpp"
+#include "common/colour.hpp"
 #include "ref_vkpt/lights/octahedral.hpp"
 #include "ref_vkpt/lights/spot_cone.hpp"
 
@@ -44,8 +44,7 @@ shared::EmitterOutline make_outline(const shared::Emitter& emitter, float lights
             { std::bit_cast<uint32_t>(emitter.p1.x), std::bit_cast<uint32_t>(emitter.reach), 0, 0 } };
         if (has_cone(emitter)) {
             sphere.shape[2] = encode_octahedral(emitter.p2);
-            sphere.shape[3]
-                = pack_cosine(emitter.p1.z) | pack_cosine(outer_cosine(emitter) - shared::CONE_SLACK) << 16;
+            sphere.shape[3] = pack_cosine(emitter.p1.z) | pack_cosine(outer_cosine(emitter) - shared::CONE_SLACK) << 16;
         }
         return sphere;
     }

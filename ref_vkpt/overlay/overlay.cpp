@@ -22,6 +22,14 @@ void Overlay::obey_keys(double frame_milliseconds)
     keys_.set_open(menu_.is_open());
 }
 
+static std::vector<PanelLine> describe_shader_errors(const std::vector<std::string>& errors)
+{
+    std::vector<PanelLine> lines;
+    for (const std::string& error : errors)
+        lines.push_back({ error, lines.empty() });
+    return lines;
+}
+
 std::vector<PanelLine> Overlay::describe_times(const OverlayFacts& facts) const
 {
     const CvarValues& cvars = cvars::values();
@@ -47,6 +55,8 @@ void Overlay::draw(Draw2d& draw2d, const OverlayFacts& facts)
         draw_panel(draw2d, facts.window, PanelSide::right, describe_times(facts));
     if (menu_.is_open())
         draw_panel(draw2d, facts.window, PanelSide::left, menu_.describe(facts.frame_milliseconds));
+    else
+        draw_panel(draw2d, facts.window, PanelSide::left, describe_shader_errors(*facts.shader_errors));
 }
 
 } // namespace vkpt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What this renderer draws over the game's own picture: pt_show_times and pt_menu.
+// What this renderer draws over the game's own picture: pt_show_times, pt_menu, and errors in shaders that are edited.
 #pragma once
 
 #include "ref_vkpt/overlay/settings_menu.hpp"
@@ -14,6 +14,7 @@ struct OverlayFacts {
     glm::uvec2 rendered; // pixels of the 3D view
     double frame_milliseconds; // on the device
     const std::vector<PassTime>* passes;
+    const std::vector<std::string>* shader_errors; // see ShaderReload
 };
 
 class Overlay {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/bright_parts.hpp"
 
-#include "ref_vkpt/lights/luminance.hpp"
+#include "common/colour.hpp"
 #include "ref_vkpt/scene/picture_files.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Cells {
             glm::vec3* const row = &at(0, y * height / image.height);
             for (int x = 0; x < image.width; x++) {
                 const formats::Rgba8& texel = image.at(x, y);
-                row[column[size_t(x)]] += linear_color(texel) * (float(texel.a) / 255);
+                row[column[size_t(x)]] += decode_colour(texel) * (float(texel.a) / 255);
             }
         }
         const float texels = float(image.width) * float(image.height) / float(width * height);

@@ -32,15 +32,6 @@ constexpr float depth_hack_scale = 0.25f;
 
 glm::vec3 to_vec3(const float v[3]) { return { v[0], v[1], v[2] }; }
 
-glm::vec3 to_linear(const formats::Rgba8& colour)
-{
-    const auto linear = [](uint8_t value) {
-        const float v = float(value) / 255;
-        return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-    };
-    return { linear(colour.r), linear(colour.g), linear(colour.b) };
-}
-
 class SnapshotBuilder {
 public:
     SnapshotBuilder(
@@ -357,7 +348,7 @@ void SnapshotBuilder::add_sprite(const Entity& entity, const Model::Sprite& spri
 void SnapshotBuilder::add_beam(const Entity& entity)
 {
     shared::Material material = plain_material();
-    const glm::vec3 colour = to_linear(textures_.palette()[size_t(entity.skin_number & 255)]);
+    const glm::vec3 colour = decode_colour(textures_.palette()[size_t(entity.skin_number & 255)]);
     material.tint = colour;
     material.emission = colour * beam_radiance;
     material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
@@ -383,7 +374,7 @@ void SnapshotBuilder::add_null_model(const Entity& entity)
 void SnapshotBuilder::add_particle(const Particle& particle)
 {
     shared::Material material = plain_material();
-    material.tint = to_linear(textures_.palette()[size_t(particle.color & 255)]) * unlit_radiance;
+    material.tint = decode_colour(textures_.palette()[size_t(particle.color & 255)]) * unlit_radiance;
     material.opacity = std::clamp(particle.alpha, 0.0f, 1.0f);
     material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_TRANSLUCENT | shared::MATERIAL_PARTICLE
         | (cvars::values().gl3_particle_square != 0 ? shared::MATERIAL_SQUARE : 0u);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/picture_files.hpp"
 
+#include "common/colour.hpp"
 #include "formats/image_room.hpp"
 
 #include <algorithm>
@@ -69,32 +70,22 @@ std::string describe(const formats::FormatError& error)
     return fmt::format("{} is damaged at byte {}: {}", error.file(), error.offset(), error.reason());
 }
 
-float linear_of(uint8_t encoded)
-{
-    const float value = float(encoded) / 255.0f;
-    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
-}
-
 const std::array<float, 256>& linear_table()
 {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> values;
         for (size_t i = 0; i < values.size(); i++)
-            values[i] = linear_of(uint8_t(i));
+            values[i] = decode_srgb(float(i) / 255.0f);
         return values;
     }();
     return table;
 }
 
-uint8_t encoded_of(float linear)
-{
-    const float value = linear <= 0.0031308f ? linear * 12.92f : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-    return uint8_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
-}
+uint8_t encoded_of(float linear) { return uint8_t(std::lround(std::clamp(encode_srgb(linear), 0.0f, 1.0f) * 255.0f)); }
 
 } // namespace
 
-glm::vec3 linear_color(formats::Rgba8 pixel)
+glm::vec3 decode_colour(formats::Rgba8 pixel)
 {
     const std::array<float, 256>& table = linear_table();
     return { table[pixel.r], table[pixel.g], table[pixel.b] };
@@ -254,7 +245,7 @@ PictureMeasure measure_picture(const formats::Image& image)
     size_t opaque = 0;
     for (const formats::Rgba8& pixel : image.pixels) {
         const double alpha = pixel.a / 255.0;
-        sum += glm::dvec3(linear_color(pixel)) * alpha;
+        sum += glm::dvec3(decode_colour(pixel)) * alpha;
         weight += alpha;
         opaque += pixel.a >= 128;
         measure.has_alpha |= pixel.a < 255;
@@ -281,7 +272,7 @@ formats::Image halve_picture(const formats::Image& from)
                 const int from_x = std::min(2 * x + (corner & 1), from.width - 1);
                 const int from_y = std::min(2 * y + (corner >> 1), from.height - 1);
                 const formats::Rgba8 pixel = from.at(from_x, from_y);
-                color += linear_color(pixel) / 4.0f;
+                color += decode_colour(pixel) / 4.0f;
                 alpha += float(pixel.a) / 4.0f;
             }
             to.pixels[size_t(y) * size_t(to.width) + size_t(x)]

@@ -29,8 +29,8 @@ struct LoadedPicture {
     int width = 0, height = 0; // of the original: texture coordinates and 2D sizes refer to these
 };
 
-// How many pixels the pictures of a level may have together, because an archive of a megabyte can ask for gigabytes: so many
-// from any files, and more by the files' size. (Packs for Quake II have a byte for each ten pixels or fewer.)
+// How many pixels the pictures of a level may have together, because an archive of a megabyte can ask for gigabytes: so
+// many from any files, and more by the files' size. (Packs for Quake II have a byte for each ten pixels or fewer.)
 class PixelBudget {
 public:
     static constexpr size_t pixels_of_any_files = size_t(1) << 25, pixels_per_byte = 32;
@@ -86,7 +86,7 @@ private:
 formats::Palette make_neutral_palette();
 
 // Radiance for an sRGB colour, 0..1.
-glm::vec3 linear_color(formats::Rgba8 pixel);
+glm::vec3 decode_colour(formats::Rgba8 pixel);
 
 struct PictureMeasure {
     glm::vec3 average { 0 }; // linear RGB, weighted by alpha; black where nothing is opaque

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/scene.hpp"
 
+#include "common/colour.hpp"
 #include "formats/entities.hpp"
 #include "formats/material_file.hpp"
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/files/output_folder.hpp"
-#include "ref_vkpt/lights/luminance.hpp"
 #include "ref_vkpt/pass_statistics.hpp"
 #include "ref_vkpt/scene/entities.hpp"
 
@@ -87,8 +87,8 @@ formats::MaterialFile load_material_file(const std::string& path)
 // Whether the picture's bright parts shine without a light value, by its material or by pt_glow_threshold.
 bool is_glowing(const Texture& texture, const MaterialSettings* material)
 {
-    const int threshold = material && material->glow_threshold >= 0 ? material->glow_threshold
-                                                                    : cvars::values().pt_glow_threshold;
+    const int threshold
+        = material && material->glow_threshold >= 0 ? material->glow_threshold : cvars::values().pt_glow_threshold;
     return threshold > 0 && texture.brightest >= threshold;
 }
 
@@ -363,7 +363,8 @@ SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef, ViewLights& lig
         if (sky_.sun) {
             suns.push_back(*sky_.sun);
             const glm::vec3 in_sky = sky_.sun->to_sun;
-            suns.back().to_sun = glm::mat3(snapshot.sky.rotation[0], snapshot.sky.rotation[1], snapshot.sky.rotation[2]) * in_sky;
+            suns.back().to_sun
+                = glm::mat3(snapshot.sky.rotation[0], snapshot.sky.rotation[1], snapshot.sky.rotation[2]) * in_sky;
         }
         add_suns(snapshot, suns, sky_.average);
     }

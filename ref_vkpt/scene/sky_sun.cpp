@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/sky_sun.hpp"
 
-#include "ref_vkpt/lights/luminance.hpp"
+#include "common/colour.hpp"
 #include "ref_vkpt/scene/picture_files.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::optional<PaintedSun> find_painted_sun(const formats::Image& image)
     float brightest = 0;
     double sum = 0;
     for (const formats::Rgba8& texel : image.pixels) {
-        const float light = luminance(linear_color(texel));
+        const float light = luminance(decode_colour(texel));
         brightest = std::max(brightest, light);
         sum += double(light);
     }
@@ -37,7 +37,7 @@ std::optional<PaintedSun> find_painted_sun(const formats::Image& image)
     double count = 0;
     for (int y = 0; y < image.height; y++)
         for (int x = 0; x < image.width; x++) {
-            const glm::vec3 light = linear_color(image.at(x, y));
+            const glm::vec3 light = decode_colour(image.at(x, y));
             if (luminance(light) < share_of_brightest * brightest)
                 continue;
             mins = { std::min(mins.x, x), std::min(mins.y, y) };
@@ -50,13 +50,15 @@ std::optional<PaintedSun> find_painted_sun(const formats::Image& image)
         || float(maxs.y - mins.y + 1) > std::max(largest_side * float(image.height), 1.0f))
         return std::nullopt;
     place /= count;
-    return PaintedSun { glm::vec2(place.x / image.width, place.y / image.height) * 2.0f - 1.0f, glm::vec3(colour / count) };
+    return PaintedSun { glm::vec2(place.x / image.width, place.y / image.height) * 2.0f - 1.0f,
+        glm::vec3(colour / count) };
 }
 
 glm::vec3 direction_on_sky(size_t side, glm::vec2 place)
 {
     const float u = place.x, v = place.y;
-    const glm::vec3 directions[] = { { 1, -u, -v }, { -1, u, -v }, { u, 1, -v }, { -u, -1, -v }, { v, -u, 1 }, { -v, -u, -1 } };
+    const glm::vec3 directions[]
+        = { { 1, -u, -v }, { -1, u, -v }, { u, 1, -v }, { -u, -1, -v }, { v, -u, 1 }, { -v, -u, -1 } };
     return glm::normalize(directions[std::min<size_t>(side, 5)]);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/world.hpp"
 
+#include "common/colour.hpp"
 #include "formats/material_file.hpp"
 #include "ref_vkpt/lights/light_entities.hpp"
-#include "ref_vkpt/lights/luminance.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
 #include "ref_vkpt/scene/material_guess.hpp"
 
@@ -56,8 +56,7 @@ uint32_t triangle_mask(const BspTexinfo& texinfo)
 bool has_holes(const Bsp& bsp, uint32_t texinfo)
 {
     bool holes = false;
-    for_each_frame(
-        bsp, texinfo, [&](uint32_t frame) { holes |= (bsp.texinfos[frame].flags & SURF_ALPHATEST) != 0; });
+    for_each_frame(bsp, texinfo, [&](uint32_t frame) { holes |= (bsp.texinfos[frame].flags & SURF_ALPHATEST) != 0; });
     return holes;
 }
 
@@ -174,8 +173,8 @@ Bvh build_world_bvh(const MapGeometry& geometry)
     return build_bvh(triangles, BvhQuality::best);
 }
 
-// Flowing surfaces move by 1.6 of their pictures a second, liquids by half of one, as the engine's OpenGL renderers move
-// them.
+// Flowing surfaces move by 1.6 of their pictures a second, liquids by half of one, as the engine's OpenGL renderers
+// move them.
 glm::vec2 scroll_of(const BspTexinfo& texinfo, float time)
 {
     if (!(texinfo.flags & SURF_FLOWING))
@@ -227,9 +226,8 @@ uint32_t World::animation_frame(uint32_t texinfo, int frame) const
     return count + texinfo;
 }
 
-std::unique_ptr<World> load_world(
-    formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture, const EmissionScales& scales,
-    std::string_view more_entities)
+std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture,
+    const EmissionScales& scales, std::string_view more_entities)
 {
     // In place from the start: the light lists keep a pointer to the map.
     auto made = std::make_unique<World>();
@@ -259,7 +257,8 @@ std::unique_ptr<World> load_world(
     for (size_t face = 0; face < world.bsp.faces.size(); face++)
         if (emitters.first_of_face[face] >= 0)
             world.animated_lights.add(world.bsp, face,
-                std::span(emitters.emitters).subspan(size_t(emitters.first_of_face[face]), emitters.count_of_face[face]),
+                std::span(emitters.emitters)
+                    .subspan(size_t(emitters.first_of_face[face]), emitters.count_of_face[face]),
                 colour, scales);
     world.emission = emitters.face_emission;
     messages.insert(messages.end(), emitters.messages.begin(), emitters.messages.end());
@@ -274,8 +273,8 @@ std::unique_ptr<World> load_world(
     world.brush_meshes.emplace_back();
     for (size_t i = 1; i < world.bsp.models.size(); i++) {
         const MapGeometry& geometry = world.models.emplace_back(
-            make_brush_geometry(
-            { world.bsp, world.pictures, face_clusters, pieces, triangles, false }, i, colour, scales, world.animated_lights));
+            make_brush_geometry({ world.bsp, world.pictures, face_clusters, pieces, triangles, false }, i, colour,
+                scales, world.animated_lights));
         world.brush_meshes.push_back(make_brush_mesh(geometry.triangles, geometry.masks));
     }
     world.bvh_future

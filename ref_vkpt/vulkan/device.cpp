@@ -3,7 +3,7 @@
 
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/errors.hpp"
-#include "ref_vkpt/vulkan/processor.hpp"
+#include "ref_vkpt/vulkan/lavapipe.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -57,7 +57,7 @@ public:
     std::string driver;
     DriverIdentity identity;
     bool is_cpu = false;
-    // Whether shaders read tables and screen buffers as texels (lib/texels.glsl) or by address.
+    // Whether shaders read tables and screen buffers as texels (lib/device/texels.glsl) or by address.
     bool reads_texels() const { return reads_texels_; }
     const char* table_reads() const { return reads_texels_ ? "texels" : "address"; }
     bool has_swapchain = false;

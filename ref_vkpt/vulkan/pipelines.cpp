@@ -28,9 +28,10 @@ std::string read_file(const std::string& path)
 
 // The stages of a ray tracing pipeline, and its groups in the order of the shader binding table.
 enum RayStage : uint32_t { stage_generation, stage_miss, stage_closest_hit, stage_any_hit, stage_count };
+constexpr std::string_view shared_stages[] = { "trace.rmiss", "trace.rchit", "trace.rahit" };
 enum RayGroup : uint32_t { group_generation, group_miss, group_hit, group_count };
 
-// Of lib/texels.glsl: whether tables are read as texels, which is its default.
+// Of lib/device/texels.glsl: whether tables are read as texels, which is its default.
 const VkSpecializationInfo* table_access(const Device& device)
 {
     static constexpr VkBool32 as_texels = VK_FALSE;
@@ -76,9 +77,16 @@ Pipelines::~Pipelines()
     vkDestroyPipelineCache(gpu_.device.handle, cache_, nullptr);
 }
 
-VkShaderModule Pipelines::make_module(std::string_view shader) const
+std::span<const uint32_t> Pipelines::code_of(std::string_view shader)
 {
-    const std::span<const uint32_t> code = find_shader(shader);
+    const std::scoped_lock lock(mutex_);
+    const auto replaced = replaced_.find(shader);
+    return replaced != replaced_.end() ? std::span<const uint32_t>(replaced->second) : find_shader(shader);
+}
+
+VkShaderModule Pipelines::make_module(std::string_view shader)
+{
+    const std::span<const uint32_t> code = code_of(shader);
     if (code.empty())
         throw FatalError(fmt::format("shader {} is not part of this build", shader));
     VkShaderModuleCreateInfo info { VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO };
@@ -89,7 +97,7 @@ VkShaderModule Pipelines::make_module(std::string_view shader) const
     return module;
 }
 
-VkPipeline Pipelines::make_compute_pipeline(std::string_view shader) const
+VkPipeline Pipelines::make_compute_pipeline(std::string_view shader)
 {
     const VkShaderModule module = make_module(shader);
     VkComputePipelineCreateInfo info { VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO };
@@ -133,9 +141,9 @@ VkPipeline Pipelines::compute(std::string_view shader)
     return pipeline;
 }
 
-VkPipeline Pipelines::make_ray_pipeline(std::string_view shader) const
+VkPipeline Pipelines::make_ray_pipeline(std::string_view shader)
 {
-    const std::string_view names[stage_count] = { shader, "trace.rmiss", "trace.rchit", "trace.rahit" };
+    const std::string_view names[stage_count] = { shader, shared_stages[0], shared_stages[1], shared_stages[2] };
     constexpr VkShaderStageFlagBits kinds[stage_count] = { VK_SHADER_STAGE_RAYGEN_BIT_KHR, VK_SHADER_STAGE_MISS_BIT_KHR,
         VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, VK_SHADER_STAGE_ANY_HIT_BIT_KHR };
     VkPipelineShaderStageCreateInfo stages[stage_count] {};
@@ -195,6 +203,62 @@ const RayPipeline& Pipelines::ray(std::string_view shader)
     RayPipeline& kept = ray_.emplace(shader, std::move(pipeline)).first->second;
     fill_table(kept);
     return kept;
+}
+
+std::vector<std::string> Pipelines::used_shaders()
+{
+    const std::scoped_lock lock(mutex_);
+    std::vector<std::string> shaders;
+    for (const auto& [shader, pipeline] : compute_)
+        shaders.push_back(shader);
+    for (const auto& [shader, pipeline] : ray_)
+        shaders.push_back(shader);
+    if (!ray_.empty())
+        shaders.insert(shaders.end(), std::begin(shared_stages), std::end(shared_stages));
+    return shaders;
+}
+
+bool Pipelines::replace(
+    const std::string& shader, const std::vector<uint32_t>& code, const std::function<void()>& finish)
+{
+    const std::span<const uint32_t> known = code_of(shader);
+    if (std::ranges::equal(known, code))
+        return false;
+    const std::vector<uint32_t> before(known.begin(), known.end());
+    std::unique_lock lock(mutex_);
+    one_is_made_.wait(lock, [&] { return !compute_.contains(shader) || compute_[shader] != VK_NULL_HANDLE; });
+    const bool is_computed = compute_.contains(shader), is_shared = std::ranges::count(shared_stages, shader) > 0;
+    replaced_[shader] = code;
+    lock.unlock();
+    VkPipeline computed = VK_NULL_HANDLE;
+    std::map<std::string, RayPipeline> traced;
+    try {
+        if (is_computed)
+            computed = make_compute_pipeline(shader);
+        for (const auto& [name, pipeline] : ray_)
+            if (is_shared || name == shader) {
+                traced[name].handle = make_ray_pipeline(name);
+                fill_table(traced[name]);
+            }
+    } catch (...) {
+        for (const auto& [name, pipeline] : traced)
+            vkDestroyPipeline(gpu_.device.handle, pipeline.handle, nullptr);
+        vkDestroyPipeline(gpu_.device.handle, computed, nullptr);
+        lock.lock();
+        replaced_[shader] = before;
+        throw;
+    }
+    finish();
+    if (is_computed) {
+        lock.lock();
+        std::swap(compute_[shader], computed);
+    }
+    vkDestroyPipeline(gpu_.device.handle, computed, nullptr);
+    for (auto& [name, pipeline] : traced) {
+        std::swap(ray_[name], pipeline);
+        vkDestroyPipeline(gpu_.device.handle, pipeline.handle, nullptr);
+    }
+    return true;
 }
 
 void Pipelines::save_cache() const

@@ -6,10 +6,12 @@
 #include "ref_vkpt/vulkan/shaders.hpp"
 
 #include <condition_variable>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vkpt {
 
@@ -32,21 +34,27 @@ public:
     VkPipeline compute(std::string_view shader);
     // `shader`: the ray generation one.
     const RayPipeline& ray(std::string_view shader);
-    // The caller destroys the module.
-    VkShaderModule make_module(std::string_view shader) const;
+    // The shaders of all pipelines that there are.
+    std::vector<std::string> used_shaders();
+    // From now on `shader` has this code. `finish` waits for the device and is called where a pipeline is made anew.
+    // False: it has that code already. What fails is thrown, and leaves all as it was. On the thread that calls ray().
+    bool replace(const std::string& shader, const std::vector<uint32_t>& code, const std::function<void()>& finish);
     VkPipelineCache cache() const { return cache_; }
 
 private:
     void save_cache() const;
-    VkPipeline make_compute_pipeline(std::string_view shader) const;
-    VkPipeline make_ray_pipeline(std::string_view shader) const;
+    std::span<const uint32_t> code_of(std::string_view shader);
+    VkShaderModule make_module(std::string_view shader);
+    VkPipeline make_compute_pipeline(std::string_view shader);
+    VkPipeline make_ray_pipeline(std::string_view shader);
     void fill_table(RayPipeline& pipeline) const;
 
     Gpu gpu_;
     const Bindings& bindings_;
     std::string cache_file_;
     VkPipelineCache cache_ = VK_NULL_HANDLE;
-    std::mutex mutex_; // of compute_
+    std::mutex mutex_; // of the three below
+    std::map<std::string, std::vector<uint32_t>, std::less<>> replaced_; // shaders with other code than the build's
     std::condition_variable one_is_made_;
     std::map<std::string, VkPipeline, std::less<>> compute_; // VK_NULL_HANDLE: a thread is making it
     std::map<std::string, RayPipeline, std::less<>> ray_;

@@ -11,6 +11,14 @@ namespace vkpt {
 // SPIR-V; empty: no such shader. Names: "tone_map.comp"; where a light sampler is part of a pass:
 // "direct_light.comp:subset".
 std::span<const uint32_t> find_shader(std::string_view name);
+// How the build compiled it; all empty: no such shader.
+struct ShaderBuild {
+    std::string_view file; // in shaders/
+    std::string_view light_sampler; // "": the pass does not depend on it
+    std::string_view options; // of glslangValidator, with spaces between
+};
+ShaderBuild find_shader_build(std::string_view name);
+
 // The light samplers that the build found, sorted.
 struct LightSampler {
     const char* name;

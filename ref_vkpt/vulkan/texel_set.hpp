@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A descriptor set of buffers that shaders read as texels (shaders/lib/texels.glsl): as many bindings, or one array.
+// A descriptor set of buffers that shaders read as texels (shaders/lib/device/texels.glsl): as many bindings, or one array.
 // Destroying it demands that the device no longer uses it.
 #pragma once
 

@@ -4,7 +4,7 @@
 #define VKPT_LIB_ALPHA_TEST
 
 #include "frame.glsl"
-#include "wide_loads.glsl"
+#include "device/wide_loads.glsl"
 
 vec2 interpolate_uv(Triangle triangle, vec2 barycentrics)
 {

@@ -6,7 +6,7 @@
 #define VKPT_LIB_BSDF
 
 #include "../shared/functions.h"
-#include "quick_floats.glsl"
+#include "device/quick_floats.glsl"
 
 struct Surface {
     vec3 position;

@@ -3,7 +3,7 @@
 #ifndef VKPT_LIB_DEBUG_VIEWS
 #define VKPT_LIB_DEBUG_VIEWS
 
-#include "denoise.glsl"
+#include "../denoise/denoise.glsl"
 #include "random.glsl"
 
 // A colour that tells neighbouring numbers apart.

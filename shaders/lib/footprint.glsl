@@ -5,7 +5,7 @@
 #ifndef VKPT_LIB_FOOTPRINT
 #define VKPT_LIB_FOOTPRINT
 
-#include "quick_floats.glsl"
+#include "device/quick_floats.glsl"
 #include "trace.glsl"
 
 struct Footprint {

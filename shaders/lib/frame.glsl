@@ -16,8 +16,8 @@
 
 #define VKPT_SCENE_TEXELS
 #include "../shared/frame.h"
-#include "texels.glsl"
-#include "whole_numbers.glsl"
+#include "device/texels.glsl"
+#include "device/whole_numbers.glsl"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 1) uniform sampler samplers[SAMPLER_COUNT];

@@ -7,7 +7,7 @@
 #ifndef VKPT_LIB_LAYERS
 #define VKPT_LIB_LAYERS
 
-#include "whole_numbers.glsl"
+#include "device/whole_numbers.glsl"
 
 // Pixels are of one of three classes: those to the right and above are of the next class, those to the left and below of the last one.
 const uint layer_classes = 3u;

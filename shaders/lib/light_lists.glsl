@@ -5,29 +5,27 @@
 
 #include "../shared/functions.h"
 #include "../shared/scene.h"
-#include "whole_numbers.glsl"
-#include "wide_loads.glsl"
+#include "device/whole_numbers.glsl"
+#include "device/wide_loads.glsl"
 
 VKPT_BUFFER(EmitterBuffer, Emitter, 16);
 VKPT_BUFFER(EmitterOutlineBuffer, EmitterOutline, 8);
 VKPT_BUFFER(LightListBuffer, LightList, 16);
 VKPT_BUFFER(LightIndexBuffer, uint, 4);
-VKPT_BUFFER(LightMultisetBuffer, LightMultiset, 8);
-VKPT_BUFFER(LightTreeBuffer, LightTreeNode, 8);
 VKPT_BUFFER(LightstyleBuffer, float, 4);
 VKPT_BUFFER(BspTreeBuffer, BspTreeNode, 8);
+#define VKPT_SAMPLER_TABLE(name, type, alignment) VKPT_BUFFER(SamplerTable_##name, type, alignment);
+#include "../shared/sampler_tables.def"
 
-// Addresses of all tables: eight bytes each in the order below, then the counts.
+// Addresses of all tables, and the counts.
 struct LightTables {
     EmitterBuffer emitters;
     EmitterOutlineBuffer outlines;
     LightListBuffer lists;            // one per cluster, then the one for points outside every cluster
     LightIndexBuffer static_indices;
     LightIndexBuffer dynamic_indices;
-    LightMultisetBuffer multisets;    // one per list
-    LightTreeBuffer tree_nodes;
-    LightIndexBuffer tree_roots;      // one per list: which node its tree begins with
-    LightIndexBuffer tree_places;     // where the light of a static index is among the tree's
+#define VKPT_SAMPLER_TABLE(name, type, alignment) SamplerTable_##name name;
+#include "../shared/sampler_tables.def"
     LightstyleBuffer lightstyles;     // one scale per lightstyle
     BspTreeBuffer tree;
     uint list_count;

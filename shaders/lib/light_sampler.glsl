@@ -9,7 +9,7 @@
 #include "light_lists.glsl"
 #include "light_weights.glsl"
 #include "random.glsl"
-#include "whole_numbers.glsl"
+#include "device/whole_numbers.glsl"
 
 // The random numbers of one choice. `light` and `point` are dimensions of their own, stratified over the picture.
 struct LightRandom {

@@ -12,7 +12,7 @@
 #include "emitters.glsl"
 #include "packing.glsl"
 #include "projected_triangle.glsl"
-#include "whole_numbers.glsl"
+#include "device/whole_numbers.glsl"
 
 const float least_contribution = 1e-30f;    // the weight of what is possible but predicted to be nothing
 const float greatest_contribution = 1e20f;  // keeps sums of weights finite

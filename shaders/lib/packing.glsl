@@ -5,8 +5,8 @@
 #define VKPT_LIB_PACKING
 
 #include "../shared/functions.h"
-#include "quick_floats.glsl"
-#include "whole_numbers.glsl"
+#include "device/quick_floats.glsl"
+#include "device/whole_numbers.glsl"
 
 // The last 16 bits of two words, the last 8 of four.
 uint join_halves(uvec2 v)

@@ -4,7 +4,7 @@
 #ifndef VKPT_LIB_SHARPEN
 #define VKPT_LIB_SHARPEN
 
-#include "quick_floats.glsl"
+#include "device/quick_floats.glsl"
 
 // Between black and white, in steps that look alike; `exposed`: radiance times exposure.
 vec3 to_shades(vec3 exposed) { return sqrt(exposed / (1.0 + exposed)); }

@@ -30,11 +30,19 @@ vec3 leave_surface(vec3 position, vec3 normal)
 
 LightTables light_tables()
 {
-    return LightTables(EmitterBuffer(frame.scene.emitters), EmitterOutlineBuffer(frame.scene.emitter_outlines), LightListBuffer(frame.scene.light_lists),
-        LightIndexBuffer(frame.scene.static_light_indices), LightIndexBuffer(frame.scene.dynamic_light_indices),
-        LightMultisetBuffer(frame.scene.light_multisets), LightTreeBuffer(frame.scene.light_trees), LightIndexBuffer(frame.scene.light_tree_roots),
-        LightIndexBuffer(frame.scene.light_tree_places), LightstyleBuffer(frame.scene.lightstyles), BspTreeBuffer(frame.scene.bsp_tree),
-        frame.scene.light_list_count, frame.scene.light_tree_lights);
+    LightTables tables;
+    tables.emitters = EmitterBuffer(frame.scene.emitters);
+    tables.outlines = EmitterOutlineBuffer(frame.scene.emitter_outlines);
+    tables.lists = LightListBuffer(frame.scene.light_lists);
+    tables.static_indices = LightIndexBuffer(frame.scene.static_light_indices);
+    tables.dynamic_indices = LightIndexBuffer(frame.scene.dynamic_light_indices);
+#define VKPT_SAMPLER_TABLE(name, type, alignment) tables.name = SamplerTable_##name(frame.scene.sampler_tables.name);
+#include "../shared/sampler_tables.def"
+    tables.lightstyles = LightstyleBuffer(frame.scene.lightstyles);
+    tables.tree = BspTreeBuffer(frame.scene.bsp_tree);
+    tables.list_count = frame.scene.light_list_count;
+    tables.tree_lights = frame.scene.light_tree_lights;
+    return tables;
 }
 
 float lightstyle_scale(uint lightstyle) { return LightstyleBuffer(frame.scene.lightstyles).v[lightstyle]; }

@@ -22,9 +22,9 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "../shared/trace.h"
-#include "quick_floats.glsl"
+#include "device/quick_floats.glsl"
 #include "ray.glsl"
-#include "texels.glsl"
+#include "device/texels.glsl"
 
 VKPT_TEXELS(bvh_nodes, TEXELS_TREE_NODES)
 VKPT_TEXELS(bvh_triangles, TEXELS_TREE_TRIANGLES)

@@ -117,7 +117,7 @@ struct FilterPush {
     uint level;      // from 0
 };
 
-// What a level of lib/denoise_spread.glsl is told (push constants).
+// What a level of denoise/denoise_spread.glsl is told (push constants).
 struct SpreadPush {
     ScreenBuffer source; // of the type of the buffer `filtered`
     ScreenBuffer target; // of the last level: none
@@ -149,6 +149,11 @@ struct Sky {
     uint present;     // 0: `radiance` alone is the sky
 };
 
+struct SamplerTableAddresses {
+#define VKPT_SAMPLER_TABLE(name, type, alignment) uint64_t name;
+#include "sampler_tables.def"
+};
+
 // Addresses of the scene's tables. Triangle ids and emitter indices: first the map's, then those of this frame's moving things.
 struct SceneView {
     BvhView trees; // the map's and the moving things'
@@ -164,10 +169,7 @@ struct SceneView {
     uint64_t light_lists;
     uint64_t static_light_indices;
     uint64_t dynamic_light_indices;
-    uint64_t light_multisets; // among the static indices, one per list
-    uint64_t light_trees; // LightTreeNode
-    uint64_t light_tree_roots; // a node's number per list
-    uint64_t light_tree_places; // a uint per static index
+    SamplerTableAddresses sampler_tables;
     // The same for samples that repeat the last view's random numbers, see LightLists::repeat(). 0: nothing has changed.
     uint64_t repeated_lists;
     uint64_t repeated_light_indices;

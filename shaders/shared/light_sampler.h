@@ -41,10 +41,13 @@ VKPT_CONST uint SAMPLER_DRAWS_POINTS = 16u;
 // lights that its list held, and once more about those that have come. Without MIS only.
 VKPT_CONST uint SAMPLER_NEWCOMERS_APART = 32u;
 // The tables beside the lists that it reads: the device has them only for samplers that say so.
-VKPT_CONST uint SAMPLER_NEEDS_MULTISETS = 64u;
-VKPT_CONST uint SAMPLER_NEEDS_TREES = 128u;
+#define VKPT_SAMPLER_NEED(trait, bit, make) VKPT_CONST uint trait = bit;
+#include "sampler_tables.def"
 
-VKPT_CONST uint SAMPLER_NEEDS = SAMPLER_NEEDS_MULTISETS | SAMPLER_NEEDS_TREES;
+VKPT_CONST uint SAMPLER_NEEDS = 0u
+#define VKPT_SAMPLER_NEED(trait, bit, make) | trait
+#include "sampler_tables.def"
+    ;
 
 VKPT_SHARED_END
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The scene's tables as buffers of texels: their bindings in descriptor set 2 (lib/texels.glsl, frame/scene_texels.hpp).
+// The scene's tables as buffers of texels: their bindings in descriptor set 2 (lib/device/texels.glsl, frame/scene_texels.hpp).
 // Texels are of four words, but for the lists' lights, which are of one.
 #ifndef VKPT_SHARED_TEXELS_H
 #define VKPT_SHARED_TEXELS_H

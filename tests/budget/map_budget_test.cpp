@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // No map of less than a megabyte takes more than the budget of tests/formats/file_budget.hpp, from its bytes to all that is
 // made of it at load.
-#include "ref_vkpt/lights/light_multisets.hpp"
-#include "ref_vkpt/lights/light_trees.hpp"
+#include "ref_vkpt/lights/sampler_tables.hpp"
 #include "ref_vkpt/scene/world.hpp"
 #include "tests/budget/hostile_maps.hpp"
 #include "tests/formats/file_budget.hpp"
@@ -30,8 +29,9 @@ void use_map(const std::vector<std::byte>& file)
     const auto world = load_world(file, "maps/bad.bsp", find_picture, {});
     world->bvh();
     world->make_materials(1, {});
-    make_light_multisets(world->bsp, world->light_lists, world->models[0].emitters);
-    make_light_trees(world->light_lists.lists(), world->light_lists.static_indices(), world->models[0].emitters);
+    const LightLists& lists = world->light_lists;
+    make_sampler_tables({ lists.lists(), lists.static_indices(), world->models[0].emitters, &world->bsp, &lists },
+        shared::SAMPLER_NEEDS);
 }
 
 Cost expect_cheap(const std::string& name, const std::vector<std::byte>& file)

@@ -9,17 +9,6 @@ namespace {
 
 using namespace vkpt::client;
 
-TEST(BenchStatistics, QuantilesByNearestRank)
-{
-    const std::vector<float> values { 5, 1, 4, 2, 3 };
-    EXPECT_EQ(find_median(values), 3);
-    EXPECT_EQ(find_quantile(values, 0.05), 1);
-    EXPECT_EQ(find_quantile(values, 0.95), 5);
-    EXPECT_EQ(find_quantile(values, 0.4), 2);
-    EXPECT_EQ(find_median({ 1, 2 }), 1);
-    EXPECT_EQ(find_median({}), 0);
-}
-
 // Frames whose cost differs tenfold, each measured twice with noise of 10 %.
 std::vector<float> measure_frames(size_t count, float factor, unsigned seed)
 {

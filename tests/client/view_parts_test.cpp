@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The viewer without its window: camera, divider, settings, errors, graphs, and who is drawn next.
+#include "client/view/actions.hpp"
 #include "client/view/error.hpp"
 #include "client/view/fly_camera.hpp"
 #include "client/view/graph.hpp"
@@ -211,6 +212,15 @@ TEST(Error, ReferenceKnowsHowFarItIsOff)
     EXPECT_FALSE(reference.own_rmse());
 }
 
+TEST(Keys, F5AsksForEditedShaders)
+{
+    State state;
+    SDL_KeyboardEvent event {};
+    event.keysym.sym = SDLK_F5;
+    EXPECT_TRUE(run_key(state, event));
+    EXPECT_TRUE(state.must_reload_shaders);
+}
+
 TEST(Passes, MediansAndTotals)
 {
     PassHistory history;
@@ -218,7 +228,7 @@ TEST(Passes, MediansAndTotals)
         history.add({ { "direct_light", double(i) }, { "tone_map", 1 } });
     history.add({ { "direct_light", 100 }, { "denoise", 7 } });
     EXPECT_EQ(history.names(), (std::vector<std::string> { "direct_light", "tone_map", "denoise" }));
-    EXPECT_EQ(history.median("direct_light"), 3);
+    EXPECT_EQ(history.median("direct_light"), 2);
     EXPECT_EQ(history.median("denoise"), 7) << "frames without the pass do not count";
     EXPECT_EQ(history.median("nothing"), 0);
     EXPECT_EQ(history.total(5), 107);

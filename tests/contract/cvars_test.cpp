@@ -181,7 +181,7 @@ TEST_F(Cvars, ValuesOfTheConfigurationCountFromTheStart)
 // What a server writes into them by "set NAME VALUE u" comes too late.
 TEST_F(Cvars, WhatNamesFilesIsReadAtTheStartOnly)
 {
-    for (const char* name : { "pt_capture_dir", "pt_capture_mib", "pt_bench_json" })
+    for (const char* name : { "pt_capture_dir", "pt_capture_mib", "pt_bench_json", "pt_shader_dir" })
         EXPECT_EQ(find_cvar_row(name)->keep, CvarKeep::start) << name;
     mock.set("pt_capture_dir", "mine");
     mock.set("pt_capture_mib", "0");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/engine/picture_statistics.hpp"
 
+#include "common/colour.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -13,7 +15,7 @@ namespace vkpt::tests {
 namespace {
 
 // Rec. 709 weights on encoded values.
-double luminance(formats::Rgba8 pixel) { return (0.2126 * pixel.r + 0.7152 * pixel.g + 0.0722 * pixel.b) / 255.0; }
+double luminance(formats::Rgba8 pixel) { return vkpt::luminance<double>(pixel.r, pixel.g, pixel.b) / 255.0; }
 
 double estimate_noise(const formats::Image& picture)
 {

@@ -30,9 +30,9 @@ constexpr size_t warm_up_rounds = 2, least_rounds = warm_up_rounds + 2;
 constexpr double most_growth = 0.01; // of the memory after the warm-up
 
 // Not set at random: they write files, end the run, or take another driver's measure of time.
-constexpr std::string_view left_alone[] = { "pt_validation", "pt_device", "pt_capture_dir", "pt_capture_every",
-    "pt_bench_json", "pt_table_reads", "pt_times", "r_mode", "r_customwidth", "r_customheight", "vid_fullscreen",
-    "r_lightlevel" };
+constexpr std::string_view left_alone[]
+    = { "pt_validation", "pt_device", "pt_capture_dir", "pt_capture_every", "pt_bench_json", "pt_shader_dir",
+          "pt_table_reads", "pt_times", "r_mode", "r_customwidth", "r_customheight", "vid_fullscreen", "r_lightlevel" };
 
 int read_number(const char* variable, int otherwise)
 {
@@ -149,11 +149,12 @@ private:
     // None that could end the engine or write a file.
     std::string write_nonsense()
     {
-        static constexpr const char* words[] = { "pt_info", "imagelist", "modellist", "pt_times_print", "viewpos", "give all",
-            "god", "noclip", "score", "inven", "toggleconsole;wait;toggleconsole", "menu_video;wait;forcemenuoff",
-            "zzz \"", "set", "set a", "map nothere", "pt_bounces", "pt_bounces 1 2 3", "gamemap \"*\"", "sky",
-            "kill", "use blaster", "weapnext", "cmd", "say \xff\xfe\x80", "crosshair 99", "viewsize 1e9", "fov -5",
-            "fov 1000", "fov 90;viewsize 100", "bind", "alias x y;x", "pt_trace_measure", "demomap nothere.dm2" };
+        static constexpr const char* words[]
+            = { "pt_info", "imagelist", "modellist", "pt_times_print", "viewpos", "give all", "god", "noclip", "score",
+                  "inven", "toggleconsole;wait;toggleconsole", "menu_video;wait;forcemenuoff", "zzz \"", "set", "set a",
+                  "map nothere", "pt_bounces", "pt_bounces 1 2 3", "gamemap \"*\"", "sky", "kill", "use blaster",
+                  "weapnext", "cmd", "say \xff\xfe\x80", "crosshair 99", "viewsize 1e9", "fov -5", "fov 1000",
+                  "fov 90;viewsize 100", "bind", "alias x y;x", "pt_trace_measure", "demomap nothere.dm2" };
         if (const size_t word = pick(std::size(words) + 1); word < std::size(words))
             return words[word];
         std::string noise;

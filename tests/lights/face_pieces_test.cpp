@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Faces of which a part shines: the pieces cover the face, without cracks, and send the light that the whole face
 // would.
+#include "common/colour.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "synthetic_bsp.hpp"
 
@@ -130,7 +131,7 @@ TEST(FacePieces, SendWhatTheWholeFaceWould)
         for (const shared::Emitter& e : emitters_of_face(
                  panel.bsp, panel.face, [&](const std::string&) { return picture; }, {}, work)) {
             EXPECT_GT(e.area, 0);
-            sum += e.area * glm::dot(e.radiance, vec3(0.2126f, 0.7152f, 0.0722f));
+            sum += e.area * luminance(e.radiance);
         }
         return sum;
     };

@@ -148,7 +148,7 @@ TEST_F(Hall, ErrorIsLowerThanWithEachLightOnce)
         scene.emitters = lamps;
         scene.static_indices = multisets.entries;
         scene.range = lists.lists()[size_t(cluster)];
-        scene.multiset = multisets.ranges[size_t(cluster)];
+        scene.tables.multisets = { multisets.ranges[size_t(cluster)] };
         const double truth = once.integrate(scene, quadrature);
         for (int i = 0; i < draws; i++) {
             const Draw draw = make_draw(rng);

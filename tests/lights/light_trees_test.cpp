@@ -141,7 +141,8 @@ TEST(LightTrees, LeavesAreSmall)
 TEST(LightTrees, ErrorIsLowerThanOfSubsetsWhereListsAreLong)
 {
     LampHall hall(3000);
-    const LightTrees trees = make_trees(hall);
+    const SamplerTables tables = make_sampler_tables(
+        { hall.lists.lists(), hall.lists.static_indices(), hall.lamps }, shared::SAMPLER_NEEDS_TREES);
     const Sampler &subset = find_sampler("subset_dynamic"), &tree = find_sampler("light_tree");
     constexpr int points = 30, draws = 200;
     double subset_error = 0, tree_error = 0;
@@ -151,10 +152,10 @@ TEST(LightTrees, ErrorIsLowerThanOfSubsetsWhereListsAreLong)
         const int cluster = hall.cluster_at(scene.point.position);
         ASSERT_GE(cluster, 0);
         scene.emitters = hall.lamps;
-        scene.static_indices = hall.lists.static_indices();
+        scene.static_indices = tables.indices;
         scene.range = hall.lists.lists()[size_t(cluster)];
-        scene.take_trees(trees);
-        scene.tree_root = trees.roots[size_t(cluster)];
+        scene.tables = tables;
+        scene.tables.tree_roots = { tables.tree_roots[size_t(cluster)] }; // the list's own
         const double truth = tree.integrate(scene, 2);
         for (int i = 0; i < draws; i++) {
             const Draw draw = make_draw(hall.rng);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whole numbers by way of floats, and numbers in a few bits: shaders/lib/whole_numbers.glsl and packing.glsl against
+// Whole numbers by way of floats, and numbers in a few bits: shaders/lib/device/whole_numbers.glsl and packing.glsl against
 // C++'s own arithmetic and GLM's packing.
 #include "glsl_libraries.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Light lists of maps that nobody of this project made: set VKPT_TEST_MAPS to a folder of BSP files. What samplers are
 // worth is tested in our own map in any case.
+#include "common/quantile.hpp"
 #include "glsl_libraries.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
@@ -201,10 +202,10 @@ struct LitMap {
     {
         scene.emitters = extract_emitters(bsp, grey, {}).emitters;
         lists.build(bsp, scene.emitters);
-        multisets = make_light_multisets(bsp, lists, scene.emitters);
-        trees = make_light_trees(lists.lists(), lists.static_indices(), scene.emitters);
-        scene.static_indices = multisets.entries;
-        scene.take_trees(trees);
+        tables = make_sampler_tables(
+            { lists.lists(), lists.static_indices(), scene.emitters, &bsp, &lists }, shared::SAMPLER_NEEDS);
+        scene.static_indices = tables.indices;
+        scene.tables = tables;
     }
 
     // Whether a surface at `p` can be lit at all.
@@ -214,8 +215,8 @@ struct LitMap {
         if (cluster < 0 || lists.lists()[size_t(cluster)].static_count == 0)
             return false;
         scene.range = lists.lists()[size_t(cluster)];
-        scene.multiset = multisets.ranges[size_t(cluster)];
-        scene.tree_root = trees.roots[size_t(cluster)];
+        scene.tables.multisets = { tables.multisets[size_t(cluster)] }; // the list's own
+        scene.tables.tree_roots = { tables.tree_roots[size_t(cluster)] };
         scene.point.position = p;
         scene.point.normal = scene.point.view = normal;
         scene.point.roughness = 0.9f;
@@ -224,8 +225,7 @@ struct LitMap {
 
     const formats::Bsp& bsp;
     LightLists lists;
-    LightMultisets multisets;
-    LightTrees trees;
+    SamplerTables tables; // of all lists
     ListCase scene;
 };
 
@@ -266,9 +266,8 @@ TEST(RealMaps, TreesAreBetterThanSubsetsInMostMaps)
         }
         std::string line;
         std::map<std::string, double> median;
-        for (auto& [name, values] : errors) {
-            std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(values.size() / 2));
-            median[name] = values[values.size() / 2];
+        for (const auto& [name, values] : errors) {
+            median[name] = find_median(values);
             line += fmt::format(" {} {:.3f}", name, median[name]);
         }
         fmt::print("{}: {:.0f} lights a list,{}\n", bsp.name,

@@ -6,15 +6,11 @@
 
 namespace vkpt::test {
 
-void ListCase::make_tree() { take_trees(make_light_trees(std::span(&range, 1), static_indices, emitters)); }
-
-void ListCase::take_trees(const LightTrees& trees)
+void ListCase::make_tables(const shared::LightMultiset& multiset)
 {
-    tree_root = 0;
-    tree_nodes = trees.nodes;
-    tree_places = trees.places;
-    tree_lights = uint32_t(static_indices.size());
-    static_indices.insert(static_indices.end(), trees.lights.begin(), trees.lights.end());
+    tables = make_sampler_tables({ std::span(&range, 1), static_indices, emitters }, shared::SAMPLER_NEEDS);
+    tables.multisets = { multiset };
+    static_indices = tables.indices;
 }
 
 float draw_unit(std::mt19937& rng) { return float(rng() >> 8) * 0x1p-24f; }

@@ -2,7 +2,7 @@
 // The light samplers as C++: every file of shaders/light_samplers, compiled into a namespace of its own.
 #pragma once
 
-#include "ref_vkpt/lights/light_trees.hpp"
+#include "ref_vkpt/lights/sampler_tables.hpp"
 #include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
 #include "shaders/shared/light_sampler.h"
@@ -22,25 +22,18 @@ struct ShadingPoint {
     float roughness = 0.5f, metallic = 0;
 };
 
-// A light list in memory, its static part once more as a multiset and as a tree. Emitters that are not in it are part
+// A light list in memory, with the tables of samplers about its static part. Emitters that are not in it are part
 // of the scene, too: BSDF rays may meet them.
 struct ListCase {
     std::vector<shared::Emitter> emitters;
     std::vector<uint32_t> static_indices, dynamic_indices;
     std::vector<float> lightstyles = std::vector<float>(256, 1.0f);
     shared::LightList range {};
-    shared::LightMultiset multiset {};
-    // See make_tree() and take_trees().
-    std::vector<shared::LightTreeNode> tree_nodes;
-    std::vector<uint32_t> tree_places; // by static index
-    uint32_t tree_root = 0;
-    uint32_t tree_lights = 0; // so many static indices behind the list
+    SamplerTables tables;
     ShadingPoint point;
 
-    // Whenever the static lights have changed: who descends it needs it.
-    void make_tree();
-    // Those of all lists of the static indices; whose root tree_root is, is left to the caller.
-    void take_trees(const LightTrees& trees);
+    // Whenever the static lights have changed. `multiset`: of the static indices, which hold it already.
+    void make_tables(const shared::LightMultiset& multiset);
 
     bool contains(uint32_t emitter) const
     {

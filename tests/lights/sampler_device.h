@@ -3,7 +3,7 @@
 #ifndef VKPT_TESTS_SAMPLER_DEVICE_H
 #define VKPT_TESTS_SAMPLER_DEVICE_H
 
-#include "shaders/shared/language.h"
+#include "shaders/shared/frame.h"
 
 VKPT_SHARED_BEGIN
 
@@ -36,10 +36,7 @@ struct DeviceCase {
     uint64_t lists; // one
     uint64_t static_indices;
     uint64_t dynamic_indices;
-    uint64_t multisets; // one
-    uint64_t tree_roots; // one
-    uint64_t tree_nodes;
-    uint64_t tree_places;
+    SamplerTableAddresses sampler_tables;
     uint64_t lightstyles;
     uint64_t ltc;
     uint64_t draws;
@@ -57,7 +54,7 @@ struct DeviceCase {
     vec3 albedo;
     uint tree_lights;
 };
-VKPT_ASSERT_SIZE(DeviceCase, 184);
+VKPT_ASSERT_SIZE(DeviceCase, 152 + sizeof(SamplerTableAddresses));
 
 VKPT_CONST uint SAMPLER_GROUP = 64u; // lanes, an estimate each
 

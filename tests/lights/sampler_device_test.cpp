@@ -111,17 +111,15 @@ protected:
         c.outlines = upload(outlines);
         c.lists = upload(std::vector { list.range });
         // Buffers are never empty.
-        const auto padded = [](std::vector<uint32_t> indices) {
-            indices.push_back(0);
-            return indices;
+        const auto padded = [](auto items) {
+            items.emplace_back();
+            return items;
         };
         c.static_indices = upload(padded(list.static_indices));
         c.dynamic_indices = upload(padded(list.dynamic_indices));
-        c.multisets = upload(std::vector { list.multiset });
-        c.tree_roots = upload(std::vector { list.tree_root });
-        c.tree_nodes = upload(list.tree_nodes);
-        c.tree_places = upload(padded(list.tree_places));
-        c.tree_lights = list.tree_lights;
+#define VKPT_SAMPLER_TABLE(name, type, alignment) c.sampler_tables.name = upload(padded(list.tables.name));
+#include "shaders/shared/sampler_tables.def"
+        c.tree_lights = list.tables.tree_lights;
         c.lightstyles = upload(list.lightstyles);
         c.ltc = upload(std::vector<float>(ltc_table.begin(), ltc_table.end()));
         c.draws = upload(draws);

@@ -68,23 +68,24 @@ void fill_list(ListCase& list, const std::vector<uint32_t>& indices)
     list.dynamic_indices.assign(first_dynamic, 0);
     const auto middle = indices.end() - long(dynamic_count);
     for (auto index = middle; index != indices.end(); ++index)
-        if (shared::Emitter& e = list.emitters[*index]; e.type == shared::EMITTER_SPHERE && !has_cone(e) && *index % 2 == 0)
+        if (shared::Emitter& e = list.emitters[*index];
+            e.type == shared::EMITTER_SPHERE && !has_cone(e) && *index % 2 == 0)
             make_sun(e);
     list.static_indices.insert(list.static_indices.end(), indices.begin(), middle);
     list.dynamic_indices.insert(list.dynamic_indices.end(), middle, indices.end());
-    // Behind the list, each light once, twice, four or eight times: any numbers are right, but where what is near is rare,
-    // estimates take too long to converge.
+    // Behind the list, each light once, twice, four or eight times: any numbers are right, but where what is near is
+    // rare, estimates take too long to converge.
     constexpr uint32_t greatest_exponent = 3;
     constexpr float near = 20;
-    list.multiset.first = uint32_t(list.static_indices.size());
+    shared::LightMultiset multiset { uint32_t(list.static_indices.size()), 0 };
     for (auto index = indices.begin(); index != middle; ++index) {
         const bool is_near = glm::length(list.emitters[*index].p0) < near;
         const uint32_t exponent = is_near ? greatest_exponent : (*index * 2654435761u) >> 30u;
         list.static_indices.insert(
             list.static_indices.end(), size_t(1) << exponent, *index | exponent << shared::LIGHT_COPIES_SHIFT);
     }
-    list.multiset.count = uint32_t(list.static_indices.size()) - list.multiset.first;
-    list.make_tree();
+    multiset.count = uint32_t(list.static_indices.size()) - multiset.first;
+    list.make_tables(multiset);
 }
 
 void lower(shared::Emitter& e)

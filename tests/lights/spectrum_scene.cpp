@@ -41,8 +41,7 @@ SpectrumScene::SpectrumScene(size_t light_count, float roughness, uint32_t seed)
         list_.static_indices.push_back(uint32_t(i));
     }
     list_.range.static_count = uint32_t(light_count);
-    list_.multiset = { 0, uint32_t(light_count) };
-    list_.make_tree();
+    list_.make_tables({ 0, uint32_t(light_count) });
     list_.point.roughness = roughness;
     for (size_t y = 0; y < coarse_side; y++)
         for (size_t x = 0; x < coarse_side; x++)

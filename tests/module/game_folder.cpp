@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/module/game_folder.hpp"
 
+#include "common/colour.hpp"
 #include "formats/model.hpp"
 
 #include <cmath>
@@ -66,10 +67,7 @@ const formats::Palette& test_palette()
 
 glm::vec3 linear_colour(uint8_t index, float offset)
 {
-    const auto linear = [offset](uint8_t value) {
-        const double v = (value + double(offset)) / 255;
-        return float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-    };
+    const auto linear = [offset](uint8_t value) { return float(decode_srgb((value + double(offset)) / 255)); };
     const formats::Rgba8& entry = test_palette()[index];
     return { linear(entry.r), linear(entry.g), linear(entry.b) };
 }

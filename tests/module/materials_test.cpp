@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Files of materials, and the command that edits them.
+#include "common/colour.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
@@ -47,7 +48,7 @@ protected:
         session.draw();
         const double shown = double(session.capture_display().at(32, 24).r) / 255;
         session.set("pt_debug_view", "off");
-        return std::pow((shown + 0.055) / 1.055, 2.4); // it is shown sRGB-encoded
+        return decode_srgb(shown); // it is shown sRGB-encoded
     }
 
     GameFolder folder_;
@@ -61,7 +62,8 @@ TEST_F(Materials, ComeFromFiles)
         session.load_map("floor");
         plain = see_floor(session);
     }
-    add_text("materials/baseq2.mat", "textures/test/floor:\n    base_factor 0.5\n    roughness_override 0.4\n    shine 3\n");
+    add_text(
+        "materials/baseq2.mat", "textures/test/floor:\n    base_factor 0.5\n    roughness_override 0.4\n    shine 3\n");
     {
         Session session(folder_, matte);
         session.load_map("floor");

@@ -23,9 +23,13 @@ namespace {
 std::string compile_with_names(const Pass& pass)
 {
     const std::string file = fmt::format("{}{}.spv", testing::TempDir(), pass.name);
+    std::string source;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(VKPT_SHADERS))
+        if (entry.path().filename() == fmt::format("{}.comp", pass.name))
+            source = entry.path().string();
     const std::string command = fmt::format("{0} --quiet -V -g --target-env vulkan1.2 -I{1} -I{2}/selected/subset_mis "
-                                            "-DVKPT_TRACE_SOFTWARE -DVKPT_SAMPLER_MIS {4} -o {3} {1}/{5}.comp",
-        VKPT_GLSLANG, VKPT_SHADERS, VKPT_BUILT_SHADERS, file, fmt::format("-DVKPT_PUSH={}", pass.push), pass.name);
+                                            "-DVKPT_TRACE_SOFTWARE -DVKPT_SAMPLER_MIS {4} -o {3} {5}",
+        VKPT_GLSLANG, VKPT_SHADERS, VKPT_BUILT_SHADERS, file, fmt::format("-DVKPT_PUSH={}", pass.push), source);
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     std::ifstream stream(file, std::ios::binary);
     const std::string code { std::istreambuf_iterator<char>(stream), {} };

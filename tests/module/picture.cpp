@@ -62,6 +62,4 @@ bool meets_box(const CameraRay& ray, glm::vec3 mins, glm::vec3 maxs)
     return first <= last;
 }
 
-float luminance(glm::vec3 colour) { return glm::dot(colour, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
-
 } // namespace vkpt::tests

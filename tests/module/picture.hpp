@@ -2,6 +2,7 @@
 // Captured pictures, and where their pixels look.
 #pragma once
 
+#include "common/colour.hpp"
 #include "formats/image.hpp"
 #include "ref_vkpt/engine/contract.hpp"
 
@@ -33,7 +34,5 @@ struct CameraRay {
 CameraRay camera_ray(const engine::RefDef& view, glm::vec2 place);
 // Whether the ray meets the box.
 bool meets_box(const CameraRay& ray, glm::vec3 mins, glm::vec3 maxs);
-
-float luminance(glm::vec3 colour);
 
 } // namespace vkpt::tests

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How pictures on walls and floors are read: over the whole of what a pixel shows of them, and as the player wants
 // large texels.
+#include "common/colour.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
@@ -44,11 +45,7 @@ protected:
         folder_.reset();
     }
 
-    static double linear(uint8_t value)
-    {
-        const double encoded = value / 255.0;
-        return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-    }
+    static double linear(uint8_t value) { return decode_srgb(value / 255.0); }
     // The floor's mean over a pixel.
     static double covered(int x, int y)
     {

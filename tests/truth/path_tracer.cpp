@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/truth/path_tracer.hpp"
 
+#include "common/colour.hpp"
+#include "common/parallel.hpp"
 #include "tests/truth/ray_tree.hpp"
 #include "tests/truth/surface_model.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <mutex>
 #include <numbers>
 #include <random>
 #include <stdexcept>
-#include <thread>
 
 namespace vkpt::truth {
 
@@ -24,7 +22,10 @@ using std::numbers::pi;
 
 class Random {
 public:
-    explicit Random(uint64_t seed) : engine_(seed) {}
+    explicit Random(uint64_t seed)
+        : engine_(seed)
+    {
+    }
     double next() { return std::generate_canonical<double, 53>(engine_); }
 
 private:
@@ -115,7 +116,8 @@ LightPoint sample_spherical_triangle(const std::array<dvec3, 3>& corners, dvec3 
         return {};
     const double part = xi.x * solid_angle, s = std::sin(part - alpha), t = std::cos(part - alpha);
     const double u = t - std::cos(alpha), v = s + std::sin(alpha) * glm::dot(a, b);
-    const double q = std::clamp(((v * t - u * s) * std::cos(alpha) - v) / ((v * s + u * t) * std::sin(alpha)), -1.0, 1.0);
+    const double q
+        = std::clamp(((v * t - u * s) * std::cos(alpha) - v) / ((v * s + u * t) * std::sin(alpha)), -1.0, 1.0);
     const auto across = [](dvec3 from, dvec3 axis) { return glm::normalize(from - axis * glm::dot(from, axis)); };
     const dvec3 moved = a * q + across(c, a) * std::sqrt(1 - q * q);
     const double z = 1 - xi.y * (1 - glm::dot(moved, b));
@@ -145,7 +147,8 @@ LightPoint sample_sphere(const Emitter& emitter, dvec3 receiver, dvec2 xi)
 {
     const double z = 2 * xi.x - 1, sine = std::sqrt(std::max(0.0, 1 - z * z)), around = 2 * pi * xi.y;
     const dvec3 normal(sine * std::cos(around), sine * std::sin(around), z);
-    return finish_point(emitter.centre + normal * emitter.radius, normal, 4 * pi * emitter.radius * emitter.radius, receiver);
+    return finish_point(
+        emitter.centre + normal * emitter.radius, normal, 4 * pi * emitter.radius * emitter.radius, receiver);
 }
 
 class Tracer {
@@ -213,11 +216,12 @@ private:
     // About what a light sends to a surface if nothing is between; 0 only where it sends nothing.
     static double weigh(const Emitter& emitter, const SurfacePoint& s)
     {
-        const double power = glm::dot(emitter.radiance, dvec3(0.2126, 0.7152, 0.0722)) * emitter.area;
+        const double power = luminance(emitter.radiance) * emitter.area;
         if (emitter.type == EmitterType::sphere) {
             const dvec3 way = emitter.centre - s.position;
             const double height = glm::dot(way, s.geometric_normal), distance = glm::length(way);
-            return height < -emitter.radius ? 0 : power * (0.1 + std::max(0.0, height / distance))
+            return height < -emitter.radius ? 0
+                                            : power * (0.1 + std::max(0.0, height / distance))
                     / std::max(distance * distance, emitter.radius * emitter.radius);
         }
         const auto& p = emitter.corners;
@@ -253,17 +257,17 @@ private:
             return dvec3(0);
         const dvec3 origin = leave(s);
         const dvec2 xi(random.next(), random.next());
-        const LightPoint light
-            = chosen->type == EmitterType::sphere ? sample_sphere(*chosen, origin, xi) : sample_triangle(*chosen, origin, xi);
+        const LightPoint light = chosen->type == EmitterType::sphere ? sample_sphere(*chosen, origin, xi)
+                                                                     : sample_triangle(*chosen, origin, xi);
         if (light.pdf <= 0)
             return dvec3(0);
         const dvec3 way = light.point - origin;
         const double distance = glm::length(way);
         const dvec3 direction = way / distance, reflected = reflect_light(s, direction);
-        if (reflected == dvec3(0) || tree_.is_blocked(origin, direction, distance - std::max(1e-3, 1e-5 * distance), bounce_mask_))
+        if (reflected == dvec3(0)
+            || tree_.is_blocked(origin, direction, distance - std::max(1e-3, 1e-5 * distance), bounce_mask_))
             return dvec3(0);
-        const dvec3 radiance
-            = chosen->type == EmitterType::sky ? see_sky(scene_.sky, direction) : chosen->radiance;
+        const dvec3 radiance = chosen->type == EmitterType::sky ? see_sky(scene_.sky, direction) : chosen->radiance;
         return reflected * radiance / (light.pdf * own / sum);
     }
 
@@ -282,30 +286,14 @@ std::vector<dvec3> render(const Scene& scene, const TraceSettings& settings)
     const Tracer tracer(scene, settings);
     const int width = scene.camera.width, height = scene.camera.height;
     std::vector<dvec3> picture(size_t(width) * size_t(height), dvec3(0));
-    std::atomic<int> next_row = 0;
-    std::exception_ptr error;
-    std::mutex mutex;
-    const auto work = [&] {
-        try {
-            for (int y; (y = next_row++) < height;)
-                for (int x = 0; x < width; x++) {
-                    const size_t pixel = size_t(y) * size_t(width) + size_t(x);
-                    Random random(settings.seed * 1'000'003 + pixel);
-                    for (int i = 0; i < settings.samples_per_pixel; i++)
-                        picture[pixel] += tracer.trace_pixel(x, y, random) / double(settings.samples_per_pixel);
-                }
-        } catch (...) {
-            const std::lock_guard lock(mutex);
-            error = std::current_exception();
-            next_row = height;
+    parallel_for(size_t(height), core_count(), [&](size_t y) {
+        for (int x = 0; x < width; x++) {
+            const size_t pixel = y * size_t(width) + size_t(x);
+            Random random(settings.seed * 1'000'003 + pixel);
+            for (int i = 0; i < settings.samples_per_pixel; i++)
+                picture[pixel] += tracer.trace_pixel(x, int(y), random) / double(settings.samples_per_pixel);
         }
-    };
-    std::vector<std::jthread> threads;
-    for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); i++)
-        threads.emplace_back(work);
-    threads.clear();
-    if (error)
-        std::rethrow_exception(error);
+    });
     return picture;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The module's converged pictures against the path tracer beside this file, which is given nothing but what `vkpt
 // export` writes. One room in every run; our map, and glossy and metal rooms, under the label "long".
+#include "common/colour.hpp"
 #include "tests/client/run_program.hpp"
 #include "tests/module/game_folder.hpp"
 #include "tests/module/map_builder.hpp"
@@ -70,8 +71,8 @@ protected:
                 for (int v = y; v < std::min(y + block, module.height); v++)
                     for (int u = x; u < std::min(x + block, module.width); u++) {
                         const size_t pixel = size_t(v) * size_t(module.width) + size_t(u);
-                        theirs += analysis::luminance(&module.rgb[3 * pixel]);
-                        ours += glm::dot(own[pixel], glm::dvec3(0.2126, 0.7152, 0.0722));
+                        theirs += luminance(&module.rgb[3 * pixel]);
+                        ours += luminance(own[pixel]);
                     }
                 module_sum += theirs;
                 own_sum += ours;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tools/asset_generator/pictures.hpp"
 
+#include "common/parallel.hpp"
 #include "tools/asset_generator/output.hpp"
 #include "tools/asset_generator/palette.hpp"
-#include "tools/asset_generator/parallel.hpp"
 
 #include <cmath>
 
@@ -77,7 +77,7 @@ void write_pictures(const Output& out)
         for (Picture& picture : more())
             all.push_back(std::move(picture));
     nearest_index(glm::vec3(0)); // builds the shared table before the threads start
-    for_each_index(all.size(), [&](size_t i) {
+    parallel_for(all.size(), core_count(), [&](size_t i) {
         const Picture& picture = all[i];
         Canvas canvas(picture.width, picture.height, picture.detail);
         picture.draw(canvas);

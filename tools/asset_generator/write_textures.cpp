@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // textures/: each recipe as a WAL (what compilers read) and as a PNG of twice the size (what players see).
+#include "common/parallel.hpp"
 #include "tools/asset_generator/output.hpp"
 #include "tools/asset_generator/palette.hpp"
-#include "tools/asset_generator/parallel.hpp"
 #include "tools/asset_generator/surface.hpp"
 
 #include <cmath>
@@ -55,7 +55,7 @@ void write_textures(const Output& out)
         for (Texture& texture : more())
             all.push_back(std::move(texture));
     nearest_index(glm::vec3(0)); // builds the shared table before the threads start
-    for_each_index(all.size(), [&](size_t i) { write_texture(out, all[i]); });
+    parallel_for(all.size(), core_count(), [&](size_t i) { write_texture(out, all[i]); });
 }
 
 } // namespace vkpt::tools

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tools/calibrate_light/luxels.hpp"
 
+#include "common/colour.hpp"
 #include "formats/entities.hpp"
 
 #include <algorithm>
@@ -102,8 +103,7 @@ std::optional<glm::vec3> read_baked(const Bsp& bsp, size_t offset, float ambient
 {
     const uint8_t* rgb = bsp.lighting.data() + offset;
     const glm::vec3 value = glm::vec3(rgb[0], rgb[1], rgb[2]) - ambient;
-    if (std::max({ rgb[0], rgb[1], rgb[2] }) >= clipped_value
-        || glm::dot(value, glm::vec3(0.2126f, 0.7152f, 0.0722f)) < least_value)
+    if (std::max({ rgb[0], rgb[1], rgb[2] }) >= clipped_value || luminance(value) < least_value)
         return std::nullopt;
     return value / lightmap_unit;
 }

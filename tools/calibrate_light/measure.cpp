@@ -3,6 +3,7 @@
 
 #include "client/host/errors.hpp"
 #include "client/host/scene.hpp"
+#include "common/colour.hpp"
 
 #include <array>
 #include <cerrno>
@@ -19,8 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr int view_size = 16; // pixels: the view itself is of no interest
 constexpr const char* probe_map = "maps/vkpt_calibrate.bsp";
-
-float luminance(const float* rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
 
 std::vector<std::byte> read_file(const fs::path& path)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tools/map_compiler/compiler.hpp"
 
+#include "common/parallel.hpp"
 #include "tools/map_compiler/emit.hpp"
 #include "tools/map_compiler/lighting.hpp"
 #include "tools/map_compiler/visibility.hpp"
@@ -61,7 +62,7 @@ Compiled compile_brush_model(const World& world, BrushModel& model)
     return result;
 }
 
-std::vector<uint8_t> compile_visibility(const ClusterGraph& graph, const CompileOptions& options, int threads)
+std::vector<uint8_t> compile_visibility(const ClusterGraph& graph, const CompileOptions& options, unsigned threads)
 {
     VisibilityOptions visibility;
     visibility.threads = threads;
@@ -77,7 +78,7 @@ std::vector<uint8_t> compile_visibility(const ClusterGraph& graph, const Compile
 
 formats::Bsp compile_map(std::string_view text, std::string_view file, const CompileOptions& options)
 {
-    const int threads = options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
+    const unsigned threads = options.threads > 0 ? unsigned(options.threads) : core_count();
     TextureLibrary textures(options.textures);
     World world = build_world(parse_map(text, file), textures, options.warn);
     for (const std::string& name : textures.missing())

@@ -96,6 +96,6 @@ void make_patches(LightScene& scene);
 void make_sources(LightScene& scene, const WarningSink& warn);
 // radiosity.cpp: fills the patches' `bounced` from their `direct`. Returns the number of patch pairs that see each
 // other.
-size_t bounce_light(LightScene& scene, int threads);
+size_t bounce_light(LightScene& scene, unsigned threads);
 
 } // namespace vkpt::tools

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tools/map_compiler/lighting.hpp"
 
+#include "common/parallel.hpp"
 #include "tools/map_compiler/light_scene.hpp"
-#include "tools/map_compiler/parallel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -240,7 +240,7 @@ void store_face(Bsp& bsp, size_t index, FaceLight& light, const PlanePatches& pl
 
 } // namespace
 
-void light_map(Bsp& bsp, const World& world, int threads, const WarningSink& progress)
+void light_map(Bsp& bsp, const World& world, unsigned threads, const WarningSink& progress)
 {
     LightScene scene(bsp, world);
     make_patches(scene);

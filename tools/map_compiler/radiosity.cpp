@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Light that is reflected from patch to patch.
+#include "common/parallel.hpp"
 #include "tools/map_compiler/light_scene.hpp"
-#include "tools/map_compiler/parallel.hpp"
 
 #include <algorithm>
 
@@ -43,7 +43,7 @@ std::vector<Exchange> find_exchanges(const LightScene& scene, size_t index)
 
 } // namespace
 
-size_t bounce_light(LightScene& scene, int threads)
+size_t bounce_light(LightScene& scene, unsigned threads)
 {
     std::vector<Patch>& patches = scene.patches;
     const size_t count = patches.size();

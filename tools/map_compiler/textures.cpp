@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tools/map_compiler/textures.hpp"
 
+#include "common/colour.hpp"
 #include "formats/bsp.hpp"
 #include "tools/map_compiler/map_source.hpp"
 
@@ -106,9 +107,10 @@ TextureInfo TextureLibrary::load(const std::string& name)
     return info;
 }
 
-// Emitted light takes the picture's mean colour as stored (not linearised), scaled until its largest part is 1, or, for dark
-// pictures, until it is 2 m (m: the largest part before): so the classic tool reads light values. It reflects by the same
-// colour, which makes every wall nearly white; we reflect by the picture's linear mean, as the path tracer does.
+// Emitted light takes the picture's mean colour as stored (not linearised), scaled until its largest part is 1, or, for
+// dark pictures, until it is 2 m (m: the largest part before): so the classic tool reads light values. It reflects by
+// the same colour, which makes every wall nearly white; we reflect by the picture's linear mean, as the path tracer
+// does.
 void TextureLibrary::read_colours(formats::Bytes file, const std::string& name, TextureInfo& info) const
 {
     const formats::Image image = formats::read_wal(file, name, *palette_);
@@ -117,7 +119,7 @@ void TextureLibrary::read_colours(formats::Bytes file, const std::string& name, 
         const glm::dvec3 colour = glm::dvec3(pixel.r, pixel.g, pixel.b) / 255.0;
         stored += colour;
         for (int i = 0; i < 3; i++)
-            linear[i] += colour[i] <= 0.04045 ? colour[i] / 12.92 : std::pow((colour[i] + 0.055) / 1.055, 2.4);
+            linear[i] += decode_srgb(colour[i]);
     }
     const double count = double(std::max<size_t>(1, image.pixels.size()));
     info.reflectivity = linear / count;

@@ -3,7 +3,7 @@
 // tools made it known: a beam starts at one portal and is narrowed at every further one by the planes that touch both.
 #include "tools/map_compiler/visibility.hpp"
 
-#include "tools/map_compiler/parallel.hpp"
+#include "common/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -94,13 +94,13 @@ public:
         }
     }
 
-    void find_possible(int threads)
+    void find_possible(unsigned threads)
     {
         parallel_for(count_, threads, [&](size_t i) { flood_possible(i); });
     }
 
     // Narrow passages first: their finished result narrows the search of the others.
-    void flow(int threads)
+    void flow(unsigned threads)
     {
         std::vector<std::pair<size_t, size_t>> order;
         for (size_t i = 0; i < count_; i++) {

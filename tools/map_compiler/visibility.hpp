@@ -23,7 +23,7 @@ struct ClusterGraph {
 ClusterGraph make_clusters(Tree& tree, const PlaneSet& planes);
 
 struct VisibilityOptions {
-    int threads = 1;
+    unsigned threads = 1;
     // Above this many portals only the cheap, larger set (what the portals' planes allow) is made.
     size_t max_flow_portals = 4000;
 };

@@ -4,9 +4,9 @@
 #ifndef VKPT_LIB_DENOISE
 #define VKPT_LIB_DENOISE
 
-#include "bounce_blocks.glsl"
-#include "reprojection.glsl"
-#include "surfaces.glsl"
+#include "../lib/bounce_blocks.glsl"
+#include "../lib/reprojection.glsl"
+#include "../lib/surfaces.glsl"
 
 // Light of a pixel with the standard deviation of its luminance, either for each of the two lobes. Where too few frames tell how much the
 // luminance varies, minus the root of its mean square: the spatial filter's first levels measure it among the neighbours. The levels behind

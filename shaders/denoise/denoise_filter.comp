@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The first level of the spatial filter: 3 x 3 pixels.
-#include "lib/frame.glsl"
-#include "lib/denoise_taps.glsl"
+#include "../lib/frame.glsl"
+#include "denoise_taps.glsl"
 
 VKPT_PUSH_CONSTANTS
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// Independent pieces of work on several threads, which are made for them; ref_vkpt/workers.hpp keeps threads.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <exception>
@@ -8,10 +10,13 @@
 #include <thread>
 #include <vector>
 
-namespace vkpt::tools {
+namespace vkpt {
 
-// Calls work(i) for every i < count, on `threads` threads. The first exception is passed on.
-template <class Work> void parallel_for(size_t count, int threads, const Work& work)
+inline unsigned core_count() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+// Calls work(i) for every i < count, on `threads` threads, the caller's among them. The first exception is passed on,
+// and what had not begun by then is left out.
+template <class Work> void parallel_for(size_t count, unsigned threads, const Work& work)
 {
     std::atomic<size_t> next { 0 };
     std::exception_ptr failure;
@@ -22,13 +27,14 @@ template <class Work> void parallel_for(size_t count, int threads, const Work& w
                 work(i);
         } catch (...) {
             const std::lock_guard lock(mutex);
-            failure = std::current_exception();
+            if (!failure)
+                failure = std::current_exception();
             next = count;
         }
     };
     {
         std::vector<std::jthread> others;
-        for (int i = 1; i < threads; i++)
+        for (unsigned i = 1; i < threads; i++)
             others.emplace_back(run);
         run();
     }
@@ -36,4 +42,4 @@ template <class Work> void parallel_for(size_t count, int threads, const Work& w
         std::rethrow_exception(failure);
 }
 
-} // namespace vkpt::tools
+} // namespace vkpt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "ref_vkpt/vulkan/processor.hpp"
+#include "ref_vkpt/vulkan/lavapipe.hpp"
 
 #include <limits>
 

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How much the repeated samples have changed since the last view: the difference, and the greater of the two, for either lobe.
-#include "lib/frame.glsl"
-#include "lib/denoise.glsl"
+#include "../lib/frame.glsl"
+#include "denoise.glsl"
 
 void compare_stratum(uvec2 stratum, uint number)
 {

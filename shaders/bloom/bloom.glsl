@@ -4,8 +4,8 @@
 #ifndef VKPT_LIB_BLOOM
 #define VKPT_LIB_BLOOM
 
-#include "frame.glsl"
-#include "packing.glsl"
+#include "../lib/frame.glsl"
+#include "../lib/packing.glsl"
 
 vec3 load_bloom_level(uint64_t level, uvec2 size, ivec2 pixel)
 {

@@ -6,8 +6,8 @@
 #ifndef VKPT_LIB_WIDE_LOADS
 #define VKPT_LIB_WIDE_LOADS
 
-#include "../shared/functions.h"
-#include "../shared/scene.h"
+#include "../../shared/functions.h"
+#include "../../shared/scene.h"
 
 #ifdef __cplusplus
 #define VKPT_FETCH(type, table, index) (table).v[index]

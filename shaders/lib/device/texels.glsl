@@ -6,7 +6,7 @@
 #ifndef VKPT_LIB_TEXELS
 #define VKPT_LIB_TEXELS
 
-#include "../shared/texels.h"
+#include "../../shared/texels.h"
 
 #ifndef VKPT_TEXEL_SET
 #define VKPT_TEXEL_SET 2

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
 // This frame's light, averaged with what the last view knew of the same surface; and how much it varies.
-#include "lib/frame.glsl"
-#include "lib/denoise.glsl"
-#include "lib/layers.glsl"
+#include "../lib/frame.glsl"
+#include "denoise.glsl"
+#include "../lib/layers.glsl"
 
 // Frames that the averages are worth at most; specular light's where the picture moves, for what a surface reflects moves otherwise.
 const float most_frames = 32.0, most_moving_frames = 4.0;

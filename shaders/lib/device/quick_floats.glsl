@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Float functions that CPU drivers work out much faster than the built-in ones. Theirs treat NaN with care and have no instruction for
 // 16 lanes: a minimum or maximum takes them some eight instructions, a root or a quotient the time of ten to twenty.
+// They are used for whatever is never negative in code that runs for each ray, light, tap or pixel; elsewhere the built-in ones are.
 #ifndef VKPT_LIB_QUICK_FLOATS
 #define VKPT_LIB_QUICK_FLOATS
 
-#include "../shared/functions.h"
+#include "../../shared/functions.h"
 
 // max and min unless both numbers are negative: such floats are ordered as their bits are. Of two negative numbers either one. NaN
 // counts as greater than all (its sign bit set: as less than 0).

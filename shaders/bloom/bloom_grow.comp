@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Mixes a level of the bloom's pyramid with the coarser ones below it, from the smallest upwards.
-#include "lib/frame.glsl"
-#include "lib/bloom.glsl"
+#include "../lib/frame.glsl"
+#include "bloom.glsl"
 
 VKPT_PUSH_CONSTANTS
 

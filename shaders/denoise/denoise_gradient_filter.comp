@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // One level of the gradient's filter: 3 x 3 strata, `step` apart, as far as they lie on the same plane. Sums, not averages: only
 // the ratio of difference and greater value counts.
-#include "lib/frame.glsl"
-#include "lib/denoise.glsl"
+#include "../lib/frame.glsl"
+#include "denoise.glsl"
 
 VKPT_PUSH_CONSTANTS
 

@@ -5,9 +5,9 @@
 // showed there is limited to what this view's neighbourhood makes likely (Salvi 2016, variance clipping; Karis 2014). The result
 // may have more pixels than were rendered: then each of them takes from the samples that happen to lie near its middle, and over
 // the frames samples lie everywhere.
-#include "lib/frame.glsl"
-#include "lib/bsdf.glsl"
-#include "lib/packing.glsl"
+#include "../lib/frame.glsl"
+#include "../lib/bsdf.glsl"
+#include "../lib/packing.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 

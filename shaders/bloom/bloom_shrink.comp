@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A level of the bloom's pyramid from the one before, of twice its size; the first one from the picture, of four times its size.
-#include "lib/frame.glsl"
-#include "lib/bloom.glsl"
-#include "lib/bsdf.glsl"
+#include "../lib/frame.glsl"
+#include "bloom.glsl"
+#include "../lib/bsdf.glsl"
 
 VKPT_PUSH_CONSTANTS
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };

@@ -4,7 +4,7 @@
 #ifndef VKPT_LIB_WHOLE_NUMBERS
 #define VKPT_LIB_WHOLE_NUMBERS
 
-#include "../shared/functions.h"
+#include "../../shared/functions.h"
 
 // Whole numbers from -2^22 to 2^22, added to this (1.5 * 2^23), are the last bits of the sum; other numbers are rounded.
 const float whole_base = 12582912.0f;
