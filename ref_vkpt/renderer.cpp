@@ -382,6 +382,8 @@ void begin_frame(float)
     m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
     if (!m.graphics.is_recording()) // else the engine left a frame by its error exit
         choose_light_sampler(m);
+    if (m.view().snapshot && !m.graphics.is_recording() && m.frame.light_cache.wants_filling(m.gpu_world))
+        m.frame.light_cache.fill(m.graphics, m.frame, m.view(), m.gpu_world);
     PassStatistics* const statistics = wanted_statistics();
     m.graphics.timer.collect_into(statistics);
     CpuTimer::collect_into(statistics);
