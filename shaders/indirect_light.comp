@@ -73,7 +73,7 @@ CachedLight find_cached_light(HitSurface hit)
 vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixel_random)
 {
     bool known = (frame.flags & FRAME_LIGHT_CACHE) != 0u && cached.known && path.ray_length >= least_cached_distance
-        && reflects_like_cache(path.surface);
+        && reflects_like_cache(path.surface, cached);
     path.lit_by_cache = known;
     LightRandom random = light_random(pixel_random, path.vertex);
     LightListView list = open_light_list_for(random, path.cluster);

@@ -93,16 +93,28 @@ CachedLight read_light_cache(uint cache_face, vec3 position)
     return result;
 }
 
+// What a GGX layer without Fresnel's term reflects in the mean over all views; the rest would be reflected more than once, or leaves below
+// the horizon. Fitted to sums over directions, within 0.01 for alpha from 0.1 to 1.
+float mean_ggx_reflectance(float alpha)
+{
+    float root = sqrt(alpha);
+    return 1.0 / (1.0 + 1.45 * alpha * root * sqrt(root)); // alpha^1.75
+}
+
+float direction_spread(CachedLight cached) { return quick_clamp(1.0 - length(cached.direction), 0.0, 1.0); }
+
 // Radiance that the surface sends back of the light. Diffuse light exactly: Fresnel's term is linear in schlick_power. The layer sees one
 // light in the mean direction, and is rougher by as much as directions are spread: half vectors half as much as directions, whose
-// variance along each axis is about one less the mean's length.
+// variance along each axis is about one less the mean's length. It reflects as much as with its own roughness.
 vec3 reflect_cached_light(Surface s, CachedLight cached)
 {
     float rise = layer_rise(s), nv = dot(s.normal, view_above_horizon(s));
     float diffuse = coupled_diffuse_base(s, nv) * (1.0 - dielectric_fresnel(s, rise * cached.power));
-    float spread = quick_clamp(1.0 - length(cached.direction), 0.0, 1.0), alpha = ggx_alpha(s.roughness);
-    s.roughness = sqrt(sqrt(quick_min(alpha * alpha + 0.5 * spread, 1.0)));
-    vec3 layer = evaluate_brdf(s, normalize(cached.direction + s.normal * 1e-6)).specular;
+    float alpha = ggx_alpha(s.roughness), wide_alpha = sqrt(quick_min(alpha * alpha + 0.5 * direction_spread(cached), 1.0));
+    Surface wide = s;
+    wide.roughness = sqrt(wide_alpha);
+    vec3 layer = evaluate_brdf(wide, normalize(cached.direction + s.normal * 1e-6)).specular
+        * (mean_ggx_reflectance(alpha) / mean_ggx_reflectance(wide_alpha));
     return cached.light * (bsdf_pi * (s.albedo * diffuse + layer));
 }
 
@@ -115,8 +127,12 @@ vec3 show_light_cache(HitSurface hit)
     return cached.guide != 0u ? cached.light * vec3(0.2, 1.0, 0.2) : cached.light;
 }
 
-// Narrower lobes show what the cache does not keep: where the light comes from.
-const float least_cached_roughness = 0.45;
-bool reflects_like_cache(Surface s) { return s.roughness >= least_cached_roughness && s.metallic < 0.5; }
+// Narrower lobes show what the cache does not keep: each direction that light comes from. So do metals, of which lobes are all that is
+// seen, unless it all comes from one side.
+const float least_cached_roughness = 0.34, most_spread_on_metal = 0.1;
+bool reflects_like_cache(Surface s, CachedLight cached)
+{
+    return s.roughness >= least_cached_roughness && (s.metallic < 0.5 || direction_spread(cached) <= most_spread_on_metal);
+}
 
 #endif

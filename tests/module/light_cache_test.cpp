@@ -17,12 +17,16 @@ constexpr glm::ivec2 picture_size { 64, 48 };
 // What is seen is lit by bounces alone, above all from the spot on a wall right beside a lamp behind a screen.
 class LightCache : public testing::Test {
 protected:
-    LightCache() { folder_.add_wall("wall", 180); }
+    LightCache()
+    {
+        folder_.add_wall("wall", 180);
+        folder_.add_wall("metal", 180);
+    }
 
-    void add_room(int style)
+    void add_room(int style, const char* material = "wall")
     {
         MapBuilder map;
-        const uint16_t wall = map.add_material("wall");
+        const uint16_t wall = map.add_material(material);
         map.add_room({ -256, -256, 0 }, { 256, 256, 192 }, wall);
         map.add_block({ -200, -100, 0 }, { -192, 100, 160 }, wall);
         map.add_point_light({ -248, 0, 80 }, 200, style);
@@ -78,17 +82,30 @@ std::vector<float> block_errors(const Radiance& picture, const Radiance& expecte
 
 // Against the converged picture that is aimed by the cache and does not read it; that one is compared with one without
 // the cache in LetsPhotoModeConvergeToTheSame.
-TEST_F(LightCache, KeepsTheLight)
+void expect_same_light(Session& session)
 {
-    add_room(0);
-    const auto session = start({ { "flt_denoiser", "temporal" }, { "flt_taa", "on" }, { "pt_seed", "0" } });
-    const Radiance expected = session->accumulate(4096);
-    session->set("pt_accumulate", "0");
-    const Radiance cached = mean_of_first_frames(*session, 800);
+    const Radiance expected = session.accumulate(4096);
+    session.set("pt_accumulate", "0");
+    const Radiance cached = mean_of_first_frames(session, 800);
     ASSERT_GT(luminance(expected.mean()), 0);
     EXPECT_NEAR(luminance(cached.mean()) / luminance(expected.mean()), 1, 0.02);
     const std::vector<float> errors = block_errors(cached, expected);
     EXPECT_LT(errors[errors.size() * 95 / 100], 0.05);
+}
+
+const CvarList unlimited { { "flt_denoiser", "temporal" }, { "flt_taa", "on" }, { "pt_seed", "0" } };
+
+TEST_F(LightCache, KeepsTheLight)
+{
+    add_room(0);
+    expect_same_light(*start(unlimited));
+}
+
+// The layer is all that is seen of it: the directions that light comes from matter.
+TEST_F(LightCache, KeepsTheLightOfMetal)
+{
+    add_room(0, "metal");
+    expect_same_light(*start(unlimited));
 }
 
 // One frame without history.
