@@ -176,8 +176,10 @@ private:
     shared::CacheGuide describe_guide(const Block& block) const
     {
         const glm::vec3 normal = sources_.layout.planes[block.face].normal;
-        const uint32_t power = glm::packHalf1x16(std::min(block.power * cell_area() * power_scale, 6e4f));
-        return { block.centre / block.power, pack_normal(normal) | power << 16 };
+        // The length of the octahedron's normal.
+        const float length = 1 / (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
+        const uint32_t power = glm::packHalf1x16(std::min(block.power * cell_area() * power_scale / length, 6e4f));
+        return { block.centre / block.power, glm::packSnorm2x8(fold_normal(normal)) | power << 16 };
     }
 
     // The number stays 0 where there are too many.
@@ -203,11 +205,12 @@ private:
         result_.blocks.push_back(out);
     }
 
-    static uint32_t pack_normal(glm::vec3 n)
+    // Octahedral.
+    static glm::vec2 fold_normal(glm::vec3 n)
     {
         n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
         const glm::vec2 folded(std::copysign(1 - std::abs(n.y), n.x), std::copysign(1 - std::abs(n.x), n.y));
-        return glm::packSnorm2x8(n.z < 0 ? folded : glm::vec2(n.x, n.y));
+        return n.z < 0 ? folded : glm::vec2(n.x, n.y);
     }
 
     const GuideSources& sources_;

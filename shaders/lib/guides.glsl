@@ -41,10 +41,25 @@ float weigh_guide(Surface s, uint entry)
     float cosines = quick_max(dot(way, s.normal), 0.0) * quick_max(-dot(way, normal), 0.0);
     // Never nearer than half a block is large.
     const float nearest2 = 1024.0;
-    return power * cosines * inversesqrt(dot(normal, normal)) / (quick_max(distance2, 1e-6) * quick_max(distance2, nearest2));
+    return power * cosines / (quick_max(distance2, 1e-6) * quick_max(distance2, nearest2));
 }
 
-// One sweep: Listing 47-2, as offer_light in light_sampler.glsl.
+// One of four by what is left of the random number.
+void choose_in_group(inout Guides guides, vec4 weights, float xi)
+{
+    float threshold = xi * ((weights.x + weights.y) + (weights.z + weights.w)), before = 0.0;
+    uint first = guides.chosen;
+    [[unroll]] for (uint i = 0u; i < 4u; i++) {
+        bool taken = weights[i] > 0.0 && threshold >= before;
+        guides.chosen = taken ? first + i : guides.chosen;
+        guides.weight = taken ? weights[i] : guides.weight;
+        guides.rest = taken ? threshold - before : guides.rest;
+        before += weights[i];
+    }
+    guides.rest = quick_clamp(guides.rest / quick_max(guides.weight, 1e-30), 0.0, 0.99999994);
+}
+
+// One sweep: Listing 47-2, as offer_light in light_sampler.glsl, over groups of four, of which each costs a division.
 Guides open_guides(Surface s, int cluster, float xi)
 {
     Guides guides = no_guides;
@@ -53,17 +68,21 @@ Guides open_guides(Surface s, int cluster, float xi)
     uvec2 list = load_element(frame.scene.cache.guide_lists, uint(cluster), uvec2(0u));
     guides.first = list.x;
     guides.count = list.y;
-    [[dont_unroll]] for (uint i = 0u; i < guides.count; i++) {
-        float w = weigh_guide(s, guides.first + i), before = guides.total;
-        guides.total += w;
+    vec4 weights = vec4(0.0); // of the chosen group
+    [[dont_unroll]] for (uint i = 0u; i < guides.count; i += 4u) {
+        uvec4 entry = guides.first + min(i + uvec4(0u, 1u, 2u, 3u), guides.count - 1u);
+        vec4 w = vec4(weigh_guide(s, entry.x), weigh_guide(s, entry.y), weigh_guide(s, entry.z), weigh_guide(s, entry.w));
+        w = mix(w, vec4(0.0), greaterThanEqual(i + uvec4(0u, 1u, 2u, 3u), uvec4(guides.count)));
+        float group = (w.x + w.y) + (w.z + w.w), before = guides.total;
+        guides.total += group;
         float threshold = xi * guides.total;
-        bool offered = w > 0.0, taken = offered && threshold >= before;
+        bool offered = group > 0.0, taken = offered && threshold >= before;
         guides.chosen = taken ? guides.first + i : guides.chosen;
-        guides.weight = taken ? w : guides.weight;
-        float rest = (taken ? threshold - before : threshold) / (taken ? w : before);
+        weights = taken ? w : weights;
+        float rest = (taken ? threshold - before : threshold) / (taken ? group : before);
         xi = offered ? quick_clamp(rest, 0.0, 0.99999994) : xi;
     }
-    guides.rest = xi;
+    choose_in_group(guides, weights, xi);
     return guides;
 }
 

@@ -64,7 +64,8 @@ VKPT_ASSERT_SIZE(CacheValue, 16);
 // They are aimed at. What a block is weighed by:
 struct CacheGuide {
     vec3 centre; // of what it sends
-    uint look;   // radiance times area (16-bit float, upper half) and normal (octahedral, 8 bits each)
+    uint look;   // radiance times area (16-bit float, upper half) and normal (octahedral, 8 bits each). The normal is of the octahedron, not
+                 // of unit length: what it is longer or shorter, the radiance makes up for
 };
 VKPT_ASSERT_SIZE(CacheGuide, 16);
 VKPT_CONST uint CACHE_GUIDE_SIDE = 4u; // cells along a block's edge
