@@ -414,6 +414,8 @@ void begin_frame(float)
         choose_light_sampler(m);
         take_edited_shaders(m);
     }
+    if (m.view().snapshot && !m.graphics.is_recording() && m.frame.light_cache.wants_filling(m.gpu_world))
+        m.frame.light_cache.fill(m.graphics, m.frame, m.view(), m.gpu_world);
     PassStatistics* const statistics = wanted_statistics();
     m.graphics.timer.collect_into(statistics);
     CpuTimer::collect_into(statistics);

@@ -5,6 +5,8 @@
 // sampler also what its rays find of the emitters that direct_light sampled; then it runs without bounces, too.
 #include "lib/frame.glsl"
 #include "lib/bounce_blocks.glsl"
+#include "lib/guides.glsl"
+#include "lib/light_cache.glsl"
 #include "lib/lighting.glsl"
 #include "lib/reprojection.glsl"
 
@@ -20,7 +22,13 @@ struct BouncePath {
     vec3 throughput;
     vec3 radiance;
     float ray_length; // of the last segment
+    vec3 met;   // where the last segment ended
+    uint guide; // that it ended on, 0: none
+    bool lit_by_cache; // the surface: its direct light is complete, whatever MIS makes of it elsewhere
 };
+
+// Nearer than this a surface's light varies over what the ray's end stands for: it is sampled.
+const float least_cached_distance = 32.0;
 
 float limit_radiance(vec3 radiance)
 {
@@ -41,7 +49,7 @@ vec3 count_emission(BouncePath path, BsdfSample bsdf, HitSurface hit, Random pix
         return is_sky ? sky_radiance(bsdf.direction) : hit.emission;
     }
 #ifdef VKPT_SAMPLER_MIS
-    if (hit.front == 0.0)
+    if (hit.front == 0.0 || path.lit_by_cache)
         return vec3(0.0);
     float weight = weigh_met_emitter(path.surface, path.cluster, light_random(pixel_random, path.vertex),
         uint(hit.emitter), hit.surface.position, bsdf.pdf);
@@ -53,11 +61,37 @@ vec3 count_emission(BouncePath path, BsdfSample bsdf, HitSurface hit, Random pix
 #endif
 }
 
-// Traces a BSDF sample and moves the path to what it finds. False: the path has ended.
+// What the light cache knows of the light that the map's own lights send to what the path has just met.
+CachedLight find_cached_light(HitSurface hit)
+{
+    if ((frame.flags & (FRAME_LIGHT_CACHE | FRAME_GUIDES)) == 0u || hit.front == 0.0)
+        return nothing_cached;
+    return read_light_cache(hit.cache_face, hit.surface.position);
+}
+
+// Radiance that the path's new surface sends back of the light that arrives there directly.
+vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixel_random)
+{
+    bool known = (frame.flags & FRAME_LIGHT_CACHE) != 0u && cached.known && path.ray_length >= least_cached_distance
+        && reflects_like_cache(path.surface, cached);
+    path.lit_by_cache = known;
+    LightRandom random = light_random(pixel_random, path.vertex);
+    LightListView list = open_light_list_for(random, path.cluster);
+    if (known)
+        list = dynamic_lights(list);
+    ReflectedLight direct = ReflectedLight(vec3(0.0), vec3(0.0));
+    if (light_count(list) > 0u)
+        direct = sample_lights(list, path.surface, random, !known && path.vertex < bsdf_ray_count());
+    vec3 radiance = direct.diffuse * path.surface.albedo + direct.specular;
+    return known ? radiance + reflect_cached_light(path.surface, cached) : radiance;
+}
+
+// Traces a ray and moves the path to what it finds. False: the path has ended.
 bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
 {
     Ray ray = Ray(leave_surface(path.surface.position, path.surface.geometric_normal), bsdf.direction, 0.0, ray_far);
     RawHit raw = trace_nearest(ray, mask_bounce);
+    path.guide = 0u;
     if (raw.triangle == TRACE_MISS)
         return false; // outside of a closed map; a view without a world has no sky that lights
     path.ray_length = raw.t;
@@ -66,56 +100,114 @@ bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
     if ((hit.flags & MATERIAL_SKY) != 0u || path.vertex >= uint(frame.cvars.pt_bounces))
         return false;
     path.surface = hit.surface;
+    path.met = hit.surface.position;
     path.cluster = hit.cluster;
     path.vertex += 1u;
-    ReflectedLight direct = sample_direct_light(
-        path.surface, path.cluster, light_random(pixel_random, path.vertex), path.vertex < bsdf_ray_count());
-    path.radiance += path.throughput * (direct.diffuse * path.surface.albedo + direct.specular);
+    CachedLight cached = find_cached_light(hit);
+    path.guide = cached.guide;
+    path.radiance += path.throughput * reflect_direct_light(path, cached, pixel_random);
     return true;
 }
 
 // What the path of a pixel has found.
 struct FoundLight {
     vec3 radiance;
-    vec3 direction; // where the first BSDF sample went
-    float pdf;      // its density; 0: nothing was found
+    vec3 direction; // where the first ray went
+    float pdf;      // the density that it was drawn with; 0: nothing was found
     float reflected_distance;
 };
+const FoundLight nothing_found = FoundLight(vec3(0.0), vec3(0.0), 0.0, -1.0);
 
-// `reflected`: what the pixel's surface reflects of the radiance, by the density it was found with.
-FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary, out BsdfValue reflected)
+const uint first_guide_dimension = 10u; // in the first bounce's block, behind those of the BSDF sample and of the light where it ends
+const float guided_share = 0.5; // of the first rays, where there are guides. Half: then MIS weighs the two densities as they are
+
+// The path's first ray, as sample_bsdf draws it or towards a guide.
+BsdfSample choose_first_ray(BouncePath path, Guides guides, bool to_guide, inout GuideSample aim, Random random)
+{
+    if (!to_guide) {
+        vec2 xi = next_vec2(random);
+        return sample_bsdf(path.surface, xi, next_float(random));
+    }
+    random.dimension += first_guide_dimension + 2u;
+    aim = sample_guide(guides, path.surface, next_vec2(random));
+    BsdfSample result;
+    result.direction = aim.direction;
+    result.pdf = aim.pdf;
+    result.value = evaluate_bsdf(path.surface, aim.direction);
+    if (result.value.diffuse <= 0.0 && result.value.specular == vec3(0.0))
+        result.pdf = 0.0;
+    result.lobe = BSDF_LOBE_DIFFUSE;
+    return result;
+}
+
+// The share of what the first ray found that is counted for it: both ways to meet a guide's cell share it by MIS, and a ray that
+// was aimed at one and met something else has found nothing.
+float share_with_other_way(Guides guides, PrimarySurface primary, BouncePath path, bool to_guide, GuideSample aim, BsdfSample first)
+{
+    if (guides.total <= 0.0 || path.guide == 0u)
+        return to_guide ? 0.0 : 1.0;
+    float aimed = pdf_guide(guides, primary.surface, path.guide, path.met);
+    if (!to_guide)
+        return mis_share(first.pdf, aimed);
+    // By the density of the place that was met: rounding may have brought the ray to the next cell.
+    return path.guide == aim.guide && aimed > 0.0 ? mis_share(aimed, pdf_bsdf(primary.surface, first.direction)) * first.pdf / aimed : 0.0;
+}
+
+// Chooses a guide, and whether the first ray is aimed at it.
+Guides choose_guide(PrimarySurface primary, Random pixel_random, out bool to_guide)
+{
+    Guides guides = no_guides;
+    to_guide = false;
+#ifndef VKPT_SAMPLER_MIS // whose rays share the emitters that they meet with light sampling, by the density of BSDF rays
+    Random random = random_for_bounce(pixel_random, 2u);
+    random.dimension += first_guide_dimension;
+    guides = open_guides(primary.surface, primary.cluster, next_float(random));
+    to_guide = guides.total > 0.0 && next_float(random) < guided_share;
+#endif
+    return guides;
+}
+
+FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary)
 {
     Random pixel_random = random_of_pixel(pixel, index);
-    BouncePath path = BouncePath(primary.surface, primary.cluster, 0u, vec3(1.0), vec3(0.0), -1.0);
-    FoundLight found = FoundLight(vec3(0.0), vec3(0.0), 0.0, -1.0);
-    reflected = BsdfValue(0.0, vec3(0.0));
+    bool to_guide;
+    Guides guides = choose_guide(primary, pixel_random, to_guide);
+    BouncePath path = BouncePath(primary.surface, primary.cluster, 0u, vec3(1.0), vec3(0.0), -1.0, vec3(0.0), 0u, false);
+    FoundLight found = nothing_found;
+    float share = 1.0;
     [[dont_unroll]] for (uint bounce = 0u; bounce < bsdf_ray_count(); bounce++) {
         Random random = random_for_bounce(pixel_random, bounce + 2u);
-        vec2 xi = next_vec2(random);
-        BsdfSample bsdf = sample_bsdf(path.surface, xi, next_float(random));
+        GuideSample aim = GuideSample(0u, vec3(0.0), 0.0);
+        BsdfSample bsdf = choose_first_ray(path, guides, to_guide && bounce == 0u, aim, random);
         if (bsdf.pdf <= 0.0)
             break;
         if (bounce == 0u) {
             found.direction = bsdf.direction;
-            found.pdf = bsdf.pdf;
-            reflected = BsdfValue(bsdf.value.diffuse / bsdf.pdf, bsdf.value.specular / bsdf.pdf);
+            found.pdf = bsdf.pdf * (guides.total <= 0.0 ? 1.0 : to_guide ? guided_share : 1.0 - guided_share);
         } else {
             path.throughput *= reflected_radiance(path.surface, bsdf.value, vec3(1.0)) / bsdf.pdf;
         }
         bool goes_on = bounce_path(path, bsdf, pixel_random);
-        if (bounce == 0u && bsdf.lobe == BSDF_LOBE_SPECULAR)
-            found.reflected_distance = path.ray_length;
-        if (!goes_on)
+        if (bounce == 0u) {
+            share = share_with_other_way(guides, primary, path, to_guide, aim, bsdf);
+            if (bsdf.lobe == BSDF_LOBE_SPECULAR)
+                found.reflected_distance = path.ray_length;
+        }
+        if (!goes_on || share == 0.0)
             break;
     }
     store_traced_rays(index, load_ray_count(index));
-    found.radiance = path.radiance * limit_radiance(path.radiance);
+    found.radiance = path.radiance * (share * limit_radiance(path.radiance));
     return found;
 }
 
-void add_light(uint index, BsdfValue reflected, vec3 radiance, float reflected_distance)
+void add_light(uint index, Surface s, FoundLight found, float scale)
 {
-    store_reflected_distance(index, reflected_distance);
+    store_reflected_distance(index, found.reflected_distance);
+    if (found.pdf <= 0.0)
+        return;
+    BsdfValue reflected = evaluate_bsdf(s, found.direction);
+    vec3 radiance = found.radiance * (scale / found.pdf);
     ReflectedLight light = load_reflected_light(index);
     store_reflected_light(
         index, ReflectedLight(light.diffuse + reflected.diffuse * radiance, light.specular + reflected.specular * radiance));
@@ -187,7 +279,7 @@ void light_block(uvec2 number, uint)
     bool shares = pixels > 1u && !is_new(block);
     uint alike = shares ? find_alike(block) : 0u;
     float scale = alike != 0u ? float(pixels) / float(bitCount(alike)) : 1.0;
-    FoundLight found = FoundLight(vec3(0.0), vec3(0.0), 0.0, -1.0);
+    FoundLight found = nothing_found;
     [[dont_unroll]] for (uint i = 0u; i < pixels; i++) {
         uvec2 pixel = pixel_of_block(block, i);
         uint index = pixel_index(pixel);
@@ -195,14 +287,12 @@ void light_block(uvec2 number, uint)
         bool leads = i == 0u, alone = !shares || sends_own_rays(primary);
         if (primary.depth >= 0.0) {
             if (leads || alone) {
-                BsdfValue reflected;
-                FoundLight own = follow_path(pixel, index, primary, reflected);
-                add_light(index, reflected, own.radiance * (leads ? scale : 1.0), own.reflected_distance);
+                FoundLight own = follow_path(pixel, index, primary);
+                add_light(index, primary.surface, own, leads ? scale : 1.0);
                 if (leads)
                     found = own;
             } else if ((alike >> i & 1u) != 0u && found.pdf > 0.0) {
-                add_light(index, evaluate_bsdf(primary.surface, found.direction), found.radiance * (scale / found.pdf),
-                    found.reflected_distance);
+                add_light(index, primary.surface, found, scale);
             } else {
                 store_reflected_distance(index, -1.0);
             }

@@ -4,6 +4,7 @@
 // Camera rays through mirrors, glass and water to the first surface that is shaded, written to the G-buffer.
 #include "lib/frame.glsl"
 #include "lib/layers.glsl"
+#include "lib/light_cache.glsl"
 #include "lib/pixel_random.glsl"
 #include "lib/reprojection.glsl"
 #include "lib/surfaces.glsl"
@@ -255,6 +256,8 @@ void see_pixel(uvec2 pixel, uint index)
     }
     store_position(index, vec4(path.hit.surface.position, path.path_length));
     store_surface(index, path.hit);
+    if (frame.cvars.pt_debug_view == DEBUG_VIEW_CACHE)
+        store_emitted(index, show_light_cache(path.hit));
 }
 
 VKPT_RUN_OVER_PIXELS(see_pixel)

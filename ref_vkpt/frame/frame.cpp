@@ -233,7 +233,12 @@ void prepare_menu(shared::FrameUniforms& uniforms)
 // What the world's next frame asks about this one.
 void keep_lists(View& view, shared::FrameUniforms& uniforms, const SceneSnapshot& scene)
 {
-    uniforms.scene.oldest_repeatable = view.lists_changed ? view.history_frame_index : 0;
+    const uint32_t light_cache_flags = uniforms.flags & (shared::FRAME_LIGHT_CACHE | shared::FRAME_GUIDES);
+    // With the cache rays go elsewhere than without.
+    uniforms.scene.oldest_repeatable = light_cache_flags != view.light_cache_flags ? uniforms.frame_index
+        : view.lists_changed                                                       ? view.history_frame_index
+                                                                                   : 0;
+    view.light_cache_flags = light_cache_flags;
     view.lists_changed = scene.light_lists->has_changed();
     view.history_frame_index = uniforms.frame_index;
 }
@@ -263,6 +268,7 @@ void Frame::record_view(
     fill_scene(uniforms, graphics_.commands(), view, scene, gpu_world);
     if (has_world) {
         view.rendered_size = size;
+        light_cache.begin_frame(uniforms, *gpu_world, average);
         keep_lists(view, uniforms, scene);
     }
     uniforms.time = scene.time;

@@ -57,6 +57,8 @@ public:
     PassRecorder& recorder() { return recorder_; }
     FrameUploads& uploads() { return scene_upload_.uploads(); }
 
+    LightCacheKeeper light_cache;
+
 private:
     shared::FrameUniforms make_uniforms(View& view, const Viewpoint& from, glm::uvec2 size);
     void begin_filters(shared::FrameUniforms& uniforms, View& view, const SceneSnapshot& scene,

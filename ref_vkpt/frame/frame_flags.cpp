@@ -25,7 +25,10 @@ uint32_t possible_flags()
     using namespace shared;
     const uint32_t filters = filter_flags();
     return filters | (filters & FRAME_REPROJECTED ? FRAME_HISTORY | FRAME_LAYERED : 0)
+        | (filters & FRAME_DENOISED && uses_light_cache() ? FRAME_LIGHT_CACHE : 0)
         | (cvars::shader_values().pt_bloom > 0 ? FRAME_BLOOM : 0);
 }
+
+bool uses_light_cache() { return cvars::values().pt_indirect != "trace" && cvars::values().pt_bounces > 0; }
 
 } // namespace vkpt

@@ -11,5 +11,7 @@ namespace vkpt {
 uint32_t filter_flags();
 // Those, bloom, and what a live view of a world may have beside.
 uint32_t possible_flags();
+// Whether the settings let bounce rays use the light cache.
+bool uses_light_cache();
 
 } // namespace vkpt

@@ -24,6 +24,7 @@ GpuWorld upload_world(const World& world, const SamplerTables& tables, Uploader&
     GpuWorld gpu;
     upload_sampler_tables(gpu, tables, uploader);
     gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
+    gpu.light_cache = upload_light_cache(world.light_cache, uploader);
     gpu.version = ++versions;
     return gpu;
 }

@@ -2,6 +2,7 @@
 // A map's data that does not change, on the device.
 #pragma once
 
+#include "ref_vkpt/frame/light_cache.hpp"
 #include "ref_vkpt/lights/sampler_tables.hpp"
 #include "ref_vkpt/scene/world.hpp"
 #include "ref_vkpt/vulkan/uploader.hpp"
@@ -19,6 +20,7 @@ struct GpuWorld {
     uint32_t light_tree_lights = 0; // where their order begins in light_indices
     uint32_t sampler_needs = 0; // SamplerTables::needs
     Buffer bsp_tree;
+    GpuLightCache light_cache;
     uint64_t version = 0; // another for every map; 0: not uploaded yet
 
     shared::SamplerTableAddresses sampler_tables() const;

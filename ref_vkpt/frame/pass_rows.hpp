@@ -15,7 +15,7 @@ namespace vkpt {
 
 // See passes.def.
 enum class PassKind { plain, traced, lit, choosing };
-enum class PassExtent { pixels, bounce_blocks, strata, resolved, output, one, levels, other };
+enum class PassExtent { pixels, bounce_blocks, cache_cells, strata, resolved, output, one, levels, other };
 
 // What passes hand on: the screen buffers, and some more.
 enum PassResource : uint32_t {
@@ -24,6 +24,7 @@ enum PassResource : uint32_t {
 #undef VKPT_SCREEN_BUFFER
     resource_picture,
     resource_exposure,
+    resource_light_cache,
     resource_trace_stack, // of every pass that traces
     resource_count
 };
@@ -31,7 +32,7 @@ inline constexpr std::string_view pass_resource_names[] = {
 #define VKPT_SCREEN_BUFFER(type, name) #name,
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
-    "picture", "exposure", "trace_stack"
+    "picture", "exposure", "light_cache", "trace_stack"
 };
 static_assert(std::size(pass_resource_names) == resource_count);
 
@@ -85,8 +86,9 @@ using namespace shared;
 inline constexpr PassKind PLAIN = PassKind::plain, TRACED = PassKind::traced, LIT = PassKind::lit,
                           CHOOSING = PassKind::choosing;
 inline constexpr PassExtent PIXELS = PassExtent::pixels, BOUNCE_BLOCKS = PassExtent::bounce_blocks,
-                            STRATA = PassExtent::strata, RESOLVED = PassExtent::resolved, OUTPUT = PassExtent::output,
-                            ONE = PassExtent::one, LEVELS = PassExtent::levels;
+                            CACHE_CELLS = PassExtent::cache_cells, STRATA = PassExtent::strata,
+                            RESOLVED = PassExtent::resolved, OUTPUT = PassExtent::output, ONE = PassExtent::one,
+                            LEVELS = PassExtent::levels;
 constexpr PassResources add_trace_stack(PassResources resources, PassKind kind)
 {
     return resources | (kind == TRACED || kind == LIT ? PassResources(1) << resource_trace_stack : PassResources(0));

@@ -2,6 +2,7 @@
 // What a frame's pass is run over, by its row's extent.
 #include "ref_vkpt/frame/bloom.hpp"
 #include "ref_vkpt/frame/denoiser.hpp"
+#include "ref_vkpt/frame/light_cache.hpp"
 
 #include <cassert>
 
@@ -37,6 +38,8 @@ PassWork work_over(PassExtent extent, const shared::FrameUniforms& uniforms)
     switch (extent) {
     case PassExtent::bounce_blocks:
         return pixel_work(count_blocks(uniforms.size, uniforms.bounce_block));
+    case PassExtent::cache_cells:
+        return cache_update_work(uniforms);
     case PassExtent::strata:
         return stratum_work(uniforms);
     case PassExtent::resolved:

@@ -63,7 +63,9 @@ void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::
 #define VKPT_STRATUM_BUFFER(type, name) rows_.name = renew_row(row_##name, strata, element_bytes<type>, #name);
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
-    const size_t lanes = size_t(groups) * PIXEL_GROUP_SIZE;
+    // Updates of the light cache may be more lanes than a small picture's pixels.
+    const uint32_t cache_groups = pixel_groups({ CACHE_ROW, CACHE_MOST_UPDATED / CACHE_ROW });
+    const size_t lanes = size_t(std::max(groups, cache_groups)) * PIXEL_GROUP_SIZE;
     renew(trace_stack_, lanes * TRACE_STACK_BYTES_PER_LANE, "trace stack");
     pixels_ = pixels;
     groups_ = groups;

@@ -52,6 +52,9 @@ public:
     size_t static_emitter_count() const { return fixed_->static_emitter_count; }
     // Holds all points of the cluster.
     Bounds cluster_bounds(size_t cluster) const { return fixed_->cluster_bounds(cluster); }
+    // The clusters that can be seen from it, and that see it.
+    const formats::ClusterSet& visible_from(size_t cluster) const { return fixed_->visible_from[cluster]; }
+    size_t cluster_count() const { return fixed_->cluster_count; }
     // Static emitters that touch no cluster (they lie in solid): only the list for outside holds them.
     size_t unlisted_static_count() const { return fixed_->unlisted_static_count; }
     // Dynamic emitters that found no more room in the last update.

@@ -6,8 +6,10 @@ add_library(vkpt_lights STATIC
     ${CMAKE_CURRENT_LIST_DIR}/dynamic_lights.cpp
     ${CMAKE_CURRENT_LIST_DIR}/emitters.cpp
     ${CMAKE_CURRENT_LIST_DIR}/face_pieces.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/guides.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_aim.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_entities.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/light_cache.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_lists.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_multisets.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_trees.cpp

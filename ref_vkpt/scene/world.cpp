@@ -109,6 +109,7 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
         else if (glows)
             triangle.emitter = shared::EMITTER_DIM; // a light entity sends its light
         triangle.cluster = context.is_world ? std::max(context.face_clusters[face], -1) : -1;
+        triangle.cache_face = context.is_world ? uint32_t(face) + 1 : 0;
         geometry.triangles.push_back(triangle);
         geometry.masks.push_back(triangle_mask(texinfo));
         geometry.has_holes.push_back(holes);
@@ -280,6 +281,7 @@ std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, 
     world.bvh_future
         = std::async(std::launch::async, [&geometry = world.models[0]] { return build_world_bvh(geometry); });
     world.light_lists.build(world.bsp, world.models[0].emitters);
+    world.light_cache = lay_out_light_cache(world.bsp, world.light_lists, world.models[0].emitters);
     return made;
 }
 

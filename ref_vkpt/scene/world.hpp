@@ -6,6 +6,7 @@
 #include "formats/bsp.hpp"
 #include "ref_vkpt/lights/animated_lights.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
+#include "ref_vkpt/lights/light_cache.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "ref_vkpt/lights/suns.hpp"
 #include "ref_vkpt/scene/brush_mesh.hpp"
@@ -66,6 +67,7 @@ struct World {
     std::vector<Sun> suns;
     AnimatedLights animated_lights { lightstyle_count };
     LightLists light_lists; // of the map's own emitters
+    LightCacheLayout light_cache;
     // Of model 0: made on a thread of its own while pictures and models are read.
     const Bvh& bvh() const { return bvh_future.get(); }
     std::shared_future<Bvh> bvh_future; // behind `models`, which it reads

@@ -73,7 +73,7 @@ vec3 debug_colour(int view, uvec2 pixel, uint index)
 {
     const float most_rays = 16.0, longest_list = 256.0;
     PrimarySurface primary = load_primary_surface(index);
-    if (view == DEBUG_VIEW_EMISSION)
+    if (view == DEBUG_VIEW_EMISSION || view == DEBUG_VIEW_CACHE) // see primary_visibility
         return load_emitted(index);
     if (view == DEBUG_VIEW_RAYS)
         return heat_colour(float(load_ray_count(index)) / most_rays);

@@ -11,6 +11,8 @@
 #endif
 #ifdef VKPT_ALWAYS_RIS // a pass that measures, whatever sampler the picture is made with
 #include "../light_samplers/ris.glsl"
+#elif defined(VKPT_ALWAYS_SUBSET_PPS)
+#include "../light_samplers/subset_pps.glsl"
 #else
 #include "selected_light_sampler.glsl"
 #endif

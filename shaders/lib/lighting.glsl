@@ -44,19 +44,28 @@ bool arrives(Ray shadow, bool from_sun)
     return (fetch_Material(frame.scene.materials, material).flags & MATERIAL_SKY) != 0u;
 }
 
-ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bool bsdf_ray_follows)
+// The light that was chosen for a surface.
+struct ChosenLight {
+    uint lightstyle;
+    vec3 direction; // to it
+};
+
+ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bool bsdf_ray_follows, out ChosenLight chosen)
 {
     ReflectedLight result = ReflectedLight(vec3(0.0), vec3(0.0));
+    chosen = ChosenLight(0u, vec3(0.0));
     LightOptions options = light_options();
     LightSample light = sample_light(list, s, random, options);
     if (light.emitter < 0)
         return result;
     Emitter emitter = load_emitter(list, uint(light.emitter));
+    chosen.lightstyle = emitter.lightstyle;
     if (emitter.radiance == vec3(0.0))
         return result;
     EmitterSample point = sample_emitter_point(emitter, s, light.point, options);
     if (point.pdf <= 0.0)
         return result;
+    chosen.direction = point.direction;
     BsdfValue bsdf = evaluate_bsdf(s, point.direction);
     if (bsdf.diffuse <= 0.0 && bsdf.specular == vec3(0.0))
         return result;
@@ -81,10 +90,15 @@ ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bo
     return result;
 }
 
-// `bsdf_ray_follows`: a ray drawn by sample_bsdf leaves `s`, and its part is counted elsewhere (weigh_met_emitter).
-ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, bool bsdf_ray_follows)
+ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bool bsdf_ray_follows)
 {
-    LightListView list = open_light_list_for(random, cluster);
+    ChosenLight chosen;
+    return sample_list(list, s, random, bsdf_ray_follows, chosen);
+}
+
+// `bsdf_ray_follows`: a ray drawn by sample_bsdf leaves `s`, and its part is counted elsewhere (weigh_met_emitter).
+ReflectedLight sample_lights(LightListView list, Surface s, LightRandom random, bool bsdf_ray_follows)
+{
 #ifdef VKPT_SAMPLER_NEWCOMERS_APART
     ReflectedLight sum = ReflectedLight(vec3(0.0), vec3(0.0));
     uint parts = has_newcomers(list) ? 2u : 1u;
@@ -97,6 +111,11 @@ ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, b
 #else
     return sample_list(list, s, random, bsdf_ray_follows);
 #endif
+}
+
+ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, bool bsdf_ray_follows)
+{
+    return sample_lights(open_light_list_for(random, cluster), s, random, bsdf_ray_follows);
 }
 
 // The share, by MIS, of the light of an emitter that a BSDF ray of density `bsdf_pdf` from `s` met at `point`; `random` and

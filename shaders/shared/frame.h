@@ -6,6 +6,7 @@
 #include "language.h"
 #include "scene.h"
 #include "cvars.h"
+#include "light_cache.h"
 #include "trace.h"
 
 VKPT_SHARED_BEGIN
@@ -39,6 +40,8 @@ VKPT_CONST uint FRAME_REPLAYED = 256u;  // random numbers follow the buffer rand
 VKPT_CONST uint FRAME_BLOOM = 2048u; // the picture is mixed with what bloom_*.comp made of it
 VKPT_CONST uint FRAME_LAYERED = 8192u; // pixels share out what glass and water show, and are mixed by blend_layers
 VKPT_CONST uint FRAME_NEAREST_TEXELS = 262144u; // large texels of pictures are shown as squares
+VKPT_CONST uint FRAME_LIGHT_CACHE = 524288u; // bounce rays may end in the light cache
+VKPT_CONST uint FRAME_GUIDES = 1048576u; // and are aimed at what stands out in it
 VKPT_CONST uint FRAME_COUNT_RAYS = 4096u; // every ray is counted in `ray_counts`
 VKPT_CONST uint FRAME_SPATIAL = 16384u; // the denoiser also filters over neighbours
 VKPT_CONST uint FRAME_FULLBRIGHT = 32768u; // r_fullbright: surfaces show their pictures
@@ -179,6 +182,7 @@ struct SceneView {
     uint64_t bsp_tree;
     uint light_list_count; // clusters + 1
     uint light_tree_lights; // see LightTables
+    LightCacheView cache;
     Sky sky;
 };
 

@@ -30,7 +30,8 @@ struct Triangle {
     int emitter;       // index into the emitter table, or EMITTER_UNLISTED, EMITTER_DIM
     int cluster;       // PVS cluster if all of it lies in one, else -1: look it up by position
     uint lightstyle;   // scales the material's emission
-    uint padding[2];   // to whole texels, see texels.h
+    uint cache_face;   // number of its face in the light cache, from 1; 0: none
+    uint padding;      // to whole texels, see texels.h
 };
 VKPT_ASSERT_SIZE(Triangle, 96);
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The light cache of a map on the device, and who keeps it up to date: docs/light-cache.md.
+#pragma once
+
+#include "ref_vkpt/frame/pass_recorder.hpp"
+#include "ref_vkpt/scene/world.hpp"
+#include "ref_vkpt/vulkan/uploader.hpp"
+
+namespace vkpt {
+
+struct View;
+struct GpuWorld;
+class Frame;
+class Graphics;
+
+// See LightCacheView.
+struct GpuLightCache {
+    Buffer faces, planes, cells, corners, values;
+    Buffer guides, guide_blocks, guide_lists, guide_entries; // after LightCacheKeeper::fill
+    uint32_t cell_count = 0;
+
+    shared::LightCacheView addresses() const;
+};
+GpuLightCache upload_light_cache(const LightCacheLayout& layout, Uploader& uploader);
+
+class LightCacheKeeper {
+public:
+    // Whether frames ask for a cache that has no values yet.
+    bool wants_filling(const GpuWorld& gpu_world) const;
+    // Between frames, once for each map and after its first view: first values for every cell, and what stands out.
+    void fill(Graphics& graphics, Frame& frame, View& view, GpuWorld& gpu_world);
+    // Tells the shaders what to update in this frame, and what they may use. `average`: the picture is averaged.
+    void begin_frame(shared::FrameUniforms& uniforms, const GpuWorld& gpu_world, bool average);
+
+private:
+    uint64_t world_ = 0; // GpuWorld::version of the map that it was filled for
+    uint32_t next_cell_ = 0, rounds_ = 0;
+};
+
+PassWork cache_update_work(const shared::FrameUniforms& uniforms);
+
+} // namespace vkpt

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Bounce rays that aim at the bright small places of a room: blocks of the light cache's cells. One guide of the cluster's list is
+// chosen by what it is likely to send, a cell of it by its share, and a point on the cell. The ray counts if it ends in that block, and
+// shares what it brings by MIS with the BSDF ray that meets the block by chance: the mean is that of BSDF rays alone, whatever the
+// lists say.
+#ifndef VKPT_LIB_GUIDES
+#define VKPT_LIB_GUIDES
+
+#include "light_cache.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer GuideEntryBuffer { uint v[]; };
+
+// The guides of a surface's cluster, one of which is chosen.
+struct Guides {
+    uint first, count; // entries
+    float total;       // of their weights; 0: none is aimed at
+    uint chosen;       // entry
+    float weight;      // of the chosen one
+    float rest;        // what the choice has left of its random number
+};
+const Guides no_guides = Guides(0u, 0u, 0.0, 0u, 0.0, 0.0);
+
+struct GuideSample {
+    uint guide;
+    vec3 direction;
+    float pdf; // per solid angle; 0: none
+};
+
+uint guide_of_entry(uint entry) { return GuideEntryBuffer(frame.scene.cache.guide_entries).v[entry]; }
+
+// About what the surface receives of an entry's guide.
+float weigh_guide(Surface s, uint entry)
+{
+    uvec4 words = load_element(frame.scene.cache.guides, entry, uvec4(0u));
+    vec3 way = uintBitsToFloat(words.xyz) - s.position;
+    vec2 bits = unpackSnorm4x8(words.w & 0xffffu).xy;
+    vec3 normal = vec3(bits, 1.0 - abs(bits.x) - abs(bits.y));
+    vec2 folded = (1.0 - abs(bits.yx)) * vec2(bits.x < 0.0 ? -1.0 : 1.0, bits.y < 0.0 ? -1.0 : 1.0);
+    normal.xy = normal.z < 0.0 ? folded : bits;
+    float distance2 = dot(way, way), power = unpackHalf2x16(words.w).y;
+    float cosines = quick_max(dot(way, s.normal), 0.0) * quick_max(-dot(way, normal), 0.0);
+    // Never nearer than half a block is large.
+    const float nearest2 = 1024.0;
+    return power * cosines / (quick_max(distance2, 1e-6) * quick_max(distance2, nearest2));
+}
+
+// One of four by what is left of the random number.
+void choose_in_group(inout Guides guides, vec4 weights, float xi)
+{
+    float threshold = xi * ((weights.x + weights.y) + (weights.z + weights.w)), before = 0.0;
+    uint first = guides.chosen;
+    [[unroll]] for (uint i = 0u; i < 4u; i++) {
+        bool taken = weights[i] > 0.0 && threshold >= before;
+        guides.chosen = taken ? first + i : guides.chosen;
+        guides.weight = taken ? weights[i] : guides.weight;
+        guides.rest = taken ? threshold - before : guides.rest;
+        before += weights[i];
+    }
+    guides.rest = quick_clamp(guides.rest / quick_max(guides.weight, 1e-30), 0.0, 0.99999994);
+}
+
+// One sweep: Listing 47-2, as offer_light in light_sampler.glsl, over groups of four, of which each costs a division.
+Guides open_guides(Surface s, int cluster, float xi)
+{
+    Guides guides = no_guides;
+    if ((frame.flags & FRAME_GUIDES) == 0u || cluster < 0)
+        return guides;
+    uvec2 list = load_element(frame.scene.cache.guide_lists, uint(cluster), uvec2(0u));
+    guides.first = list.x;
+    guides.count = list.y;
+    vec4 weights = vec4(0.0); // of the chosen group
+    [[dont_unroll]] for (uint i = 0u; i < guides.count; i += 4u) {
+        uvec4 entry = guides.first + min(i + uvec4(0u, 1u, 2u, 3u), guides.count - 1u);
+        vec4 w = vec4(weigh_guide(s, entry.x), weigh_guide(s, entry.y), weigh_guide(s, entry.z), weigh_guide(s, entry.w));
+        w = mix(w, vec4(0.0), greaterThanEqual(i + uvec4(0u, 1u, 2u, 3u), uvec4(guides.count)));
+        float group = (w.x + w.y) + (w.z + w.w), before = guides.total;
+        guides.total += group;
+        float threshold = xi * guides.total;
+        bool offered = group > 0.0, taken = offered && threshold >= before;
+        guides.chosen = taken ? guides.first + i : guides.chosen;
+        weights = taken ? w : weights;
+        float rest = (taken ? threshold - before : threshold) / (taken ? group : before);
+        xi = offered ? quick_clamp(rest, 0.0, 0.99999994) : xi;
+    }
+    choose_in_group(guides, weights, xi);
+    return guides;
+}
+
+CacheGuideBlock load_guide_block(uint guide)
+{
+    uint64_t address = frame.scene.cache.guide_blocks + uint64_t((guide - 1u) * 64u);
+    uvec4 a = load_element(address, 0u, uvec4(0u)), b = load_element(address, 1u, uvec4(0u)), c = load_element(address, 2u, uvec4(0u)),
+          d = load_element(address, 3u, uvec4(0u));
+    return CacheGuideBlock(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), 0u, uintBitsToFloat(c.xyz), 0u, uint[4](d.x, d.y, d.z, d.w));
+}
+
+uint share_of_cell(CacheGuideBlock block, uint cell)
+{
+    return (block.shares[cell / CACHE_GUIDE_SIDE] >> (cell % CACHE_GUIDE_SIDE * 8u)) & 0xffu;
+}
+
+// Density, per solid angle at `from`, of a point in one of the block's cells, the block being chosen with this probability.
+float guide_density(CacheGuideBlock block, uint cell, float probability, vec3 from, vec3 point)
+{
+    vec3 way = point - from;
+    float distance2 = dot(way, way), height = abs(dot(way, cross(block.across, block.down))); // distance * area * cosine
+    float share = float(share_of_cell(block, cell)) / float(block.total);
+    return height > 0.0 ? probability * share * distance2 * sqrt(distance2) / height : 0.0;
+}
+
+// By its share; xi in [0, 1).
+uint choose_cell(CacheGuideBlock block, float xi)
+{
+    uint threshold = min(uint(xi * float(block.total)), block.total - 1u), sum = 0u, chosen = 0u;
+    [[dont_unroll]] for (uint cell = 0u; cell < CACHE_GUIDE_SIDE * CACHE_GUIDE_SIDE; cell++) {
+        uint share = share_of_cell(block, cell);
+        chosen = share > 0u && sum <= threshold ? cell : chosen;
+        sum += share;
+    }
+    return chosen;
+}
+
+GuideSample sample_guide(Guides guides, Surface s, vec2 xi)
+{
+    GuideSample result;
+    result.guide = guide_of_entry(guides.chosen);
+    CacheGuideBlock block = load_guide_block(result.guide);
+    uint cell = choose_cell(block, guides.rest);
+    vec2 place = vec2(cell % CACHE_GUIDE_SIDE, cell / CACHE_GUIDE_SIDE) + xi;
+    vec3 point = block.corner + block.across * place.x + block.down * place.y;
+    result.direction = normalize(point - s.position);
+    result.pdf = guide_density(block, cell, guides.weight / guides.total, s.position, point);
+    return result;
+}
+
+// Density with which sample_guide would have aimed at this point of a guide. Entries are sorted.
+float pdf_guide(Guides guides, Surface s, uint guide, vec3 point)
+{
+    uint low = guides.first, end = guides.first + guides.count, high = end;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (guide_of_entry(middle) < guide)
+            low = middle + 1u;
+        else
+            high = middle;
+    }
+    if (low == end || guide_of_entry(low) != guide)
+        return 0.0;
+    CacheGuideBlock block = load_guide_block(guide);
+    vec3 way = point - block.corner;
+    vec2 place = vec2(dot(way, block.across) / dot(block.across, block.across), dot(way, block.down) / dot(block.down, block.down));
+    uvec2 at = min(uvec2(max(place, vec2(0.0))), uvec2(CACHE_GUIDE_SIDE - 1u));
+    return guide_density(block, at.y * CACHE_GUIDE_SIDE + at.x, weigh_guide(s, low) / guides.total, s.position, point);
+}
+
+#endif

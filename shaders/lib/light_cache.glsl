@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The light cache, as bounce rays read it: what arrives at a cell of a face from the map's own lights. docs/light-cache.md.
+#ifndef VKPT_LIB_LIGHT_CACHE
+#define VKPT_LIB_LIGHT_CACHE
+
+#include "frame.glsl"
+#include "surfaces.glsl"
+
+CacheFace load_cache_face(uint face)
+{
+    uint64_t address = frame.scene.cache.faces + uint64_t(face * 48u);
+    uvec4 a = load_element(address, 0u, uvec4(0u)), b = load_element(address, 1u, uvec4(0u)), c = load_element(address, 2u, uvec4(0u));
+    return CacheFace(uintBitsToFloat(a), uintBitsToFloat(b), c.x, c.y, uint[2](c.z, c.w));
+}
+
+// CacheValue, unpacked.
+struct LightOfStyle {
+    vec3 light;
+    vec3 direction;
+    float power;
+    uint count;
+    uint guide;
+};
+
+LightOfStyle load_cache_value(uint value)
+{
+    uvec4 words = load_element(frame.scene.cache.values, value, uvec4(0u));
+    LightOfStyle result;
+    uvec3 light = uvec3(words.x, (words.x >> 21u) | (words.y << 11u), words.y >> 10u) << 10u;
+    result.light = uintBitsToFloat(light & 0x7ffffc00u);
+    result.direction = vec3(ivec3(uvec3(words.z, words.z >> 10u, words.z >> 20u) & 1023u) - 512) / 511.0;
+    result.power = float((words.w >> CACHE_POWER_SHIFT) & 0xffu) / 255.0;
+    result.count = words.w & CACHE_COUNT_MASK;
+    result.guide = words.w >> CACHE_GUIDE_SHIFT;
+    return result;
+}
+
+uvec2 cache_face_cells(CacheFace face)
+{
+    const uint mask = (1u << CACHE_SIZE_BITS) - 1u;
+    return uvec2(face.size & mask, (face.size >> CACHE_SIZE_BITS) & mask);
+}
+
+uint cache_face_layers(CacheFace face) { return face.size >> (2u * CACHE_SIZE_BITS); }
+
+uint cache_layer_style(CacheFace face, uint layer) { return (face.styles[layer >> 1u] >> ((layer & 1u) * 16u)) & 0xffffu; }
+
+// Where a cell's layers begin.
+uint find_cache_value(CacheFace face, vec3 position)
+{
+    vec2 place = vec2(dot(position, face.across.xyz) + face.across.w, dot(position, face.down.xyz) + face.down.w);
+    uvec2 cells = cache_face_cells(face);
+    uvec2 cell = min(uvec2(ivec2(max(place, vec2(0.0)))), cells - 1u);
+    return face.first_value + (cell.y * cells.x + cell.x) * cache_face_layers(face);
+}
+
+struct CachedLight {
+    vec3 light; // irradiance / pi
+    vec3 direction; // to it, on average
+    float power; // schlick_power of its angle, on average
+    uint guide; // number of the cell among the guides, 0: it is none
+    bool known;
+};
+
+const CachedLight nothing_cached = CachedLight(vec3(0.0), vec3(0.0), 0.0, 0u, false);
+
+// `cache_face` as Triangle's. Not known: the point has no cell, or one that too little is known of.
+CachedLight read_light_cache(uint cache_face, vec3 position)
+{
+    CachedLight result = nothing_cached;
+    if (cache_face == 0u)
+        return result;
+    CacheFace face = load_cache_face(cache_face - 1u);
+    if (face.size == 0u)
+        return result;
+    uint first = find_cache_value(face, position);
+    result.known = true;
+    [[dont_unroll]] for (uint layer = 0u; layer < cache_face_layers(face); layer++) {
+        float scale = lightstyle_scale(cache_layer_style(face, layer));
+        LightOfStyle value = load_cache_value(first + layer);
+        result.guide = layer == 0u ? value.guide : result.guide;
+        if (scale > 0.0) {
+            float weight = luminance(value.light) * scale;
+            result.known = result.known && value.count >= CACHE_LEAST_SAMPLES;
+            result.light += value.light * scale;
+            result.direction += value.direction * weight;
+            result.power += value.power * weight;
+        }
+    }
+    float total = quick_max(luminance(result.light), 1e-20);
+    result.direction /= total;
+    result.power /= total;
+    return result;
+}
+
+// What a GGX layer without Fresnel's term reflects in the mean over all views; the rest would be reflected more than once, or leaves below
+// the horizon. Fitted to sums over directions, within 0.01 for alpha from 0.1 to 1.
+float mean_ggx_reflectance(float alpha)
+{
+    float root = sqrt(alpha);
+    return 1.0 / (1.0 + 1.45 * alpha * root * sqrt(root)); // alpha^1.75
+}
+
+float direction_spread(CachedLight cached) { return quick_clamp(1.0 - length(cached.direction), 0.0, 1.0); }
+
+// Radiance that the surface sends back of the light. Diffuse light exactly: Fresnel's term is linear in schlick_power. The layer sees one
+// light in the mean direction, and is rougher by as much as directions are spread: half vectors half as much as directions, whose
+// variance along each axis is about one less the mean's length. It reflects as much as with its own roughness.
+vec3 reflect_cached_light(Surface s, CachedLight cached)
+{
+    float rise = layer_rise(s), nv = dot(s.normal, view_above_horizon(s));
+    float diffuse = coupled_diffuse_base(s, nv) * (1.0 - dielectric_fresnel(s, rise * cached.power));
+    float alpha = ggx_alpha(s.roughness), wide_alpha = sqrt(quick_min(alpha * alpha + 0.5 * direction_spread(cached), 1.0));
+    Surface wide = s;
+    wide.roughness = sqrt(wide_alpha);
+    vec3 layer = evaluate_brdf(wide, normalize(cached.direction + s.normal * 1e-6)).specular
+        * (mean_ggx_reflectance(alpha) / mean_ggx_reflectance(wide_alpha));
+    return cached.light * (bsdf_pi * (s.albedo * diffuse + layer));
+}
+
+// For pt_debug_view.
+vec3 show_light_cache(HitSurface hit)
+{
+    CachedLight cached = read_light_cache(hit.cache_face, hit.surface.position);
+    if (!cached.known || hit.front == 0.0)
+        return vec3(0.3, 0.0, 0.3);
+    return cached.guide != 0u ? cached.light * vec3(0.2, 1.0, 0.2) : cached.light;
+}
+
+// Narrower lobes show what the cache does not keep: each direction that light comes from. So do metals, of which lobes are all that is
+// seen, unless it all comes from one side.
+const float least_cached_roughness = 0.34, most_spread_on_metal = 0.1;
+bool reflects_like_cache(Surface s, CachedLight cached)
+{
+    return s.roughness >= least_cached_roughness && (s.metallic < 0.5 || direction_spread(cached) <= most_spread_on_metal);
+}
+
+#endif

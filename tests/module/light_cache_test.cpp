@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The light cache at the ends of bounce rays: the picture's light stays, follows lightstyles at once, passes no wall,
+// and has less noise.
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace vkpt::tests {
+namespace {
+
+constexpr int blinking_style = 5;
+constexpr glm::ivec2 picture_size { 64, 48 };
+
+// What is seen is lit by bounces alone, above all from the spot on a wall right beside a lamp behind a screen.
+class LightCache : public testing::Test {
+protected:
+    LightCache()
+    {
+        folder_.add_wall("wall", 180);
+        folder_.add_wall("metal", 180);
+    }
+
+    void add_room(int style, const char* material = "wall")
+    {
+        MapBuilder map;
+        const uint16_t wall = map.add_material(material);
+        map.add_room({ -256, -256, 0 }, { 256, 256, 192 }, wall);
+        map.add_block({ -200, -100, 0 }, { -192, 100, 160 }, wall);
+        map.add_point_light({ -248, 0, 80 }, 200, style);
+        folder_.add_map("room", map.finish());
+    }
+
+    std::unique_ptr<Session> start(const CvarList& cvars, const char* map = "room")
+    {
+        auto session = std::make_unique<Session>(folder_, cvars, picture_size);
+        session->set("pt_indirect", "cache");
+        session->load_map(map);
+        session->look({ 240, -200, 120 }, { -180, 60, 40 });
+        return session;
+    }
+
+    GameFolder folder_;
+};
+
+// Of frames without history, so that no filter and no limit touches their light; anti-aliasing moves the camera within
+// the pixel, as in converged pictures.
+Radiance mean_of_first_frames(Session& session, int frames)
+{
+    Radiance sum;
+    session.draw(2); // the cache gets its first values after a view
+    for (int i = 0; i < frames; i++) {
+        session.view.time += 100;
+        session.draw();
+        const Radiance picture = session.capture();
+        if (i == 0)
+            sum = picture;
+        else
+            for (size_t k = 0; k < sum.pixels.size(); k++)
+                sum.pixels[k] += picture.pixels[k];
+    }
+    for (glm::vec3& pixel : sum.pixels)
+        pixel /= float(frames);
+    return sum;
+}
+
+// |ratio - 1| of the means of blocks of 16 x 16 pixels, ascending.
+std::vector<float> block_errors(const Radiance& picture, const Radiance& expected)
+{
+    constexpr int block = 16;
+    std::vector<float> errors;
+    for (int y = 0; y < picture.height; y += block)
+        for (int x = 0; x < picture.width; x += block) {
+            const glm::ivec2 first { x, y }, end = first + block;
+            errors.push_back(std::abs(luminance(picture.mean(first, end)) / luminance(expected.mean(first, end)) - 1));
+        }
+    std::ranges::sort(errors);
+    return errors;
+}
+
+// Against the converged picture that is aimed by the cache and does not read it; that one is compared with one without
+// the cache in LetsPhotoModeConvergeToTheSame.
+void expect_same_light(Session& session)
+{
+    const Radiance expected = session.accumulate(4096);
+    session.set("pt_accumulate", "0");
+    const Radiance cached = mean_of_first_frames(session, 800);
+    ASSERT_GT(luminance(expected.mean()), 0);
+    EXPECT_NEAR(luminance(cached.mean()) / luminance(expected.mean()), 1, 0.02);
+    const std::vector<float> errors = block_errors(cached, expected);
+    EXPECT_LT(errors[errors.size() * 95 / 100], 0.05);
+}
+
+const CvarList unlimited { { "flt_denoiser", "temporal" }, { "flt_taa", "on" }, { "pt_seed", "0" } };
+
+TEST_F(LightCache, KeepsTheLight)
+{
+    add_room(0);
+    expect_same_light(*start(unlimited));
+}
+
+// The layer is all that is seen of it: the directions that light comes from matter.
+TEST_F(LightCache, KeepsTheLightOfMetal)
+{
+    add_room(0, "metal");
+    expect_same_light(*start(unlimited));
+}
+
+// One frame without history.
+TEST_F(LightCache, HasLessNoise)
+{
+    add_room(0);
+    const auto session = start({ { "flt_denoiser", "temporal" }, { "pt_seed", "0" } });
+    const Radiance expected = session->accumulate(4096);
+    session->set("pt_accumulate", "0");
+    const auto error = [&](const char* which) {
+        session->set("pt_indirect", which);
+        session->draw(2);
+        double sum = 0;
+        for (int i = 0; i < 32; i++) {
+            session->view.time += 100;
+            session->draw();
+            sum += error_between(session->capture(), expected);
+        }
+        return sum;
+    };
+    const double traced = error("trace"), cached = error("cache");
+    EXPECT_LT(cached, 0.3 * traced);
+}
+
+TEST_F(LightCache, FollowsLightstylesAtOnce)
+{
+    add_room(blinking_style);
+    const auto session = start({ { "flt_denoiser", "temporal" }, { "pt_seed", "0" } });
+    const auto mean_after_a_cut = [&](float scale) {
+        session->light_style(blinking_style, scale);
+        double sum = 0;
+        for (int i = 0; i < 32; i++) {
+            session->view.time += 100;
+            session->draw();
+            sum += luminance(session->capture().mean());
+        }
+        return sum / 32;
+    };
+    session->draw(2);
+    const double full = mean_after_a_cut(1);
+    ASSERT_GT(full, 0);
+    EXPECT_NEAR(mean_after_a_cut(0.25f) / full, 0.25, 0.02);
+    EXPECT_LT(mean_after_a_cut(0) / full, 1e-6);
+    EXPECT_NEAR(mean_after_a_cut(1) / full, 1, 0.05);
+}
+
+// A light that is dark when the map begins has no first value: rays look for themselves until it has one.
+TEST_F(LightCache, DoesNotMissLightsThatComeLater)
+{
+    add_room(blinking_style);
+    const auto session = start({ { "flt_denoiser", "temporal" }, { "pt_seed", "0" } });
+    session->light_style(blinking_style, 0);
+    session->draw(4);
+    session->light_style(blinking_style, 1);
+    const Radiance expected = session->accumulate(2048);
+    session->set("pt_accumulate", "0");
+    double sum = 0;
+    for (int i = 0; i < 64; i++) {
+        session->view.time += 100;
+        session->draw();
+        sum += luminance(session->capture().mean());
+    }
+    EXPECT_NEAR(sum / 64 / luminance(expected.mean()), 1, 0.05);
+}
+
+TEST_F(LightCache, PassesNoWall)
+{
+    MapBuilder map;
+    const uint16_t wall = map.add_material("wall");
+    map.add_room({ -256, -128, 0 }, { -1, 128, 128 }, wall);
+    map.add_room({ 1, -128, 0 }, { 256, 128, 128 }, wall);
+    map.add_point_light({ -100, 0, 64 }, 300);
+    folder_.add_map("two", map.finish());
+    const auto session = start({ { "flt_denoiser", "temporal" } }, "two");
+    session->look({ -200, -60, 64 }, { -20, 40, 40 });
+    session->draw(20);
+    const float lit = luminance(session->capture().mean());
+    session->look({ 240, -60, 64 }, { 20, 40, 40 });
+    session->draw(20);
+    EXPECT_LE(luminance(session->capture().mean()), 1e-3f * lit);
+}
+
+// It is aimed by the cache, and does not read it: the same mean from half as many frames, with less noise.
+TEST_F(LightCache, LetsPhotoModeConvergeToTheSame)
+{
+    add_room(0);
+    const auto session = start({ { "flt_denoiser", "asvgf" } });
+    session->set("pt_indirect", "trace");
+    const Radiance traced = session->accumulate(4096);
+    const Radiance short_traced = session->accumulate(64);
+    session->set("pt_indirect", "cache");
+    const Radiance aimed = session->accumulate(2048);
+    EXPECT_NEAR(luminance(aimed.mean()) / luminance(traced.mean()), 1, 0.01);
+    const std::vector<float> errors = block_errors(aimed, traced);
+    EXPECT_LT(errors.back(), 0.05);
+    EXPECT_LT(error_between(session->accumulate(64), aimed), 0.5 * error_between(short_traced, traced));
+}
+
+} // namespace
+} // namespace vkpt::tests
