@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <random>
+#include <utility>
 
 namespace vkpt {
 

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace vkpt {

@@ -5,6 +5,7 @@
 
 #include "ref_vkpt/vulkan/shaders.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <stdexcept>

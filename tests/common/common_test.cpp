@@ -3,9 +3,11 @@
 #include "common/parallel.hpp"
 #include "common/quantile.hpp"
 
+#include <atomic>
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 #include <stdexcept>
+#include <vector>
 
 namespace vkpt::tests {
 namespace {

@@ -196,16 +196,21 @@ std::vector<Pillar> random_pillars(std::mt19937& random)
     return pillars;
 }
 
-TEST_P(RandomBrushes, AreSolidWhereTheyStand)
+Bsp compile_room_with(const std::vector<Pillar>& pillars)
 {
-    std::mt19937 random(static_cast<unsigned>(GetParam()));
-    const std::vector<Pillar> pillars = random_pillars(random);
     const Box room { { -256, -256, 0 }, { 256, 256, 256 } };
     std::string world = walls_around({ room }, "wall");
     for (const Pillar& pillar : pillars)
         world += prism_brush(pillar.base, -8, pillar.top, "pillar");
-    const Bsp bsp = compile_dark(entity_text({ { "classname", "worldspawn" } }, world)
+    return compile_dark(entity_text({ { "classname", "worldspawn" } }, world)
         + entity_text({ { "classname", "info_player_start" }, { "origin", "0 0 240" } }));
+}
+
+TEST_P(RandomBrushes, AreSolidWhereTheyStand)
+{
+    std::mt19937 random(static_cast<unsigned>(GetParam()));
+    const std::vector<Pillar> pillars = random_pillars(random);
+    const Bsp bsp = compile_room_with(pillars);
     std::uniform_real_distribution<float> place(-255, 255), height(1, 255);
     const auto outside = [&](glm::vec3 p) {
         double least = 1e9;
@@ -236,12 +241,7 @@ TEST_P(RandomBrushes, FloorIsCoveredOnce)
 {
     std::mt19937 random(static_cast<unsigned>(GetParam()));
     const std::vector<Pillar> pillars = random_pillars(random);
-    const Box room { { -256, -256, 0 }, { 256, 256, 256 } };
-    std::string world = walls_around({ room }, "wall");
-    for (const Pillar& pillar : pillars)
-        world += prism_brush(pillar.base, -8, pillar.top, "pillar");
-    const Bsp bsp = compile_dark(entity_text({ { "classname", "worldspawn" } }, world)
-        + entity_text({ { "classname", "info_player_start" }, { "origin", "0 0 240" } }));
+    const Bsp bsp = compile_room_with(pillars);
     double floor = 0;
     for (size_t face = 0; face < bsp.faces.size(); face++) {
         const auto polygon = bsp.face_polygon(face);

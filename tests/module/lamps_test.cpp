@@ -30,6 +30,14 @@ protected:
         map_.add(rectangle({ 0, 0, 0 }, { 200, 0, 0 }, { 0, 200, 0 }), map_.add_material("floor"));
     }
     void add_lamp(uint16_t material) { map_.add(rectangle({ 0, 0, 100 }, { 0, 16, 0 }, { 16, 0, 0 }), material); }
+    // The dark picture and the lamp's take turns.
+    void add_animated_map()
+    {
+        formats::Bsp bsp = map_.finish();
+        bsp.texinfos[dark_].next = lamp_;
+        bsp.texinfos[lamp_].next = dark_;
+        folder_.add_map("lamps", bsp);
+    }
 
     struct Light {
         double on_floor; // irradiance / pi below the lamp
@@ -80,10 +88,7 @@ TEST_F(Lamps, GoWithTheirSwitch)
 TEST_F(Lamps, ShineAsTheShownPictureSays)
 {
     add_lamp(dark_);
-    formats::Bsp bsp = map_.finish();
-    bsp.texinfos[dark_].next = lamp_;
-    bsp.texinfos[lamp_].next = dark_;
-    folder_.add_map("lamps", bsp);
+    add_animated_map();
     Session session(folder_, matte);
     session.load_map("lamps");
     session.view.time = 0.1f;
@@ -134,10 +139,7 @@ TEST_F(Lamps, OnButtonsShineByFrame)
 {
     map_.begin_brush_model();
     add_lamp(dark_);
-    formats::Bsp bsp = map_.finish();
-    bsp.texinfos[dark_].next = lamp_;
-    bsp.texinfos[lamp_].next = dark_;
-    folder_.add_map("lamps", bsp);
+    add_animated_map();
     Session session(folder_, matte);
     session.load_map("lamps");
     engine::Entity button = make_entity(session.module().register_model("*1"), {});

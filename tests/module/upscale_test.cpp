@@ -35,6 +35,13 @@ protected:
         session_.reset();
         folder_.reset();
     }
+    static formats::Image take_reference()
+    {
+        session_->set("pt_accumulate", 1);
+        session_->draw(64);
+        session_->set("pt_accumulate", 0);
+        return session_->capture_display();
+    }
     void SetUp() override
     {
         for (const char* name : { "pt_accumulate", "pt_target_ms" })
@@ -64,10 +71,7 @@ double error_between(const formats::Image& a, const formats::Image& b)
 
 TEST_F(Upscale, QuarterOfThePixelsComesNearTheWholePicture)
 {
-    session_->set("pt_accumulate", 1);
-    session_->draw(64);
-    const formats::Image reference = session_->capture_display();
-    session_->set("pt_accumulate", 0);
+    const formats::Image reference = take_reference();
     session_->set("pt_render_scale", 50);
     session_->set("flt_taa", "on");
     session_->draw(40);
@@ -84,10 +88,7 @@ TEST_F(Upscale, QuarterOfThePixelsComesNearTheWholePicture)
 // What enlarging has left soft gains contrast, and what is even stays as it is.
 TEST_F(Upscale, SharpeningComesNearerTheWholePicture)
 {
-    session_->set("pt_accumulate", 1);
-    session_->draw(64);
-    const formats::Image reference = session_->capture_display();
-    session_->set("pt_accumulate", 0);
+    const formats::Image reference = take_reference();
     session_->set("pt_render_scale", 50);
     session_->set("flt_taa", "on");
     session_->draw(60);
