@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/lights/guides.hpp"
 
-#include "ref_vkpt/lights/luminance.hpp"
+#include "common/colour.hpp"
 
 #include <algorithm>
 #include <bit>
