@@ -3,8 +3,8 @@
 // pass costs. Prints a table in Markdown, for docs/denoiser.md.
 #include "client/analysis/error.hpp"
 #include "client/analysis/flip.hpp"
+#include "client/host/client_map.hpp"
 #include "client/host/errors.hpp"
-#include "client/host/scene.hpp"
 #include "common/quantile.hpp"
 #include "formats/image.hpp"
 #include "tests/module/game_folder.hpp"
@@ -152,7 +152,7 @@ public:
 private:
     const Options& options_;
     client::FileSystem files_;
-    client::Scene scene_;
+    client::ClientMap scene_;
     std::unique_ptr<Host> host_;
 };
 

@@ -3,9 +3,10 @@
 #pragma once
 
 #ifdef VKPT_HAVE_EMBREE
-#include "ref_vkpt/trace/bvh.hpp"
-#include "tests/trace/trace_rays.h"
+#include "ref_vkpt/rays/bvh.hpp"
+#include "tests/rays/trace_rays.h"
 
+#include <cstdint>
 #include <embree3/rtcore.h>
 #include <span>
 

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The least that a pass over the screen's pixels costs: nothing at all, or one element of a screen buffer or image read and
-// written; and what it costs to read a table at random places.
+// The least that a pass over the screen's pixels costs: nothing at all, or one element of a screen buffer or image read
+// and written; and what it costs to read a table at random places.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference2 : require
@@ -14,7 +14,11 @@ const uint group_size = 64u, runs = 8u; // as the module's passes: PIXEL_GROUP_S
 const uint width = 640u, reads = 16u;
 layout(local_size_x = group_size) in;
 layout(constant_id = 0) const uint mode = 0u;
-layout(push_constant, scalar) uniform PushConstants { uint64_t source, target; uint table_mask; };
+layout(push_constant, scalar) uniform PushConstants
+{
+    uint64_t source, target;
+    uint table_mask;
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Floats { vec4 v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Numbers { uint v[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Words { uint64_t v[]; };
@@ -34,8 +38,8 @@ ivec2 place_of(uint pixel)
 uvec4 read_table(uint place)
 {
     if (mode == 7u)
-        return uvec4(Numbers(source).v[place * 4u], Numbers(source).v[place * 4u + 1u], Numbers(source).v[place * 4u + 2u],
-            Numbers(source).v[place * 4u + 3u]);
+        return uvec4(Numbers(source).v[place * 4u], Numbers(source).v[place * 4u + 1u],
+            Numbers(source).v[place * 4u + 2u], Numbers(source).v[place * 4u + 3u]);
     if (mode == 8u)
         return uvec4(unpack32(Words(source).v[place * 2u]), unpack32(Words(source).v[place * 2u + 1u]));
     if (mode == 9u)
@@ -47,7 +51,8 @@ void read_at_random(uint pixel)
 {
     uint state = pixel * 2654435761u;
     uvec4 sum = uvec4(0u);
-    [[dont_unroll]] for (uint i = 0u; i < reads; i++) {
+    [[dont_unroll]] for (uint i = 0u; i < reads; i++)
+    {
         state = state * 1664525u + 1013904223u;
         sum ^= read_table((state >> 12u) & table_mask);
     }
@@ -58,7 +63,8 @@ void main()
 {
     if (mode == 0u)
         return;
-    [[dont_unroll]] for (uint run = 0u; run < runs; run++) {
+    [[dont_unroll]] for (uint run = 0u; run < runs; run++)
+    {
         uint pixel = (gl_WorkGroupID.x * runs + run) * group_size + gl_LocalInvocationIndex;
         if (mode == 1u) {
             Floats(target).v[pixel] = Floats(source).v[pixel];

@@ -3,7 +3,7 @@
 // image of four floats or half floats. And what a table costs that every lane reads elsewhere: 16 times 16 bytes a
 // pixel, out of one that the caches hold, by buffer references as the module's passes do and as a buffer of texels.
 #include "bench/ray_sets.hpp"
-#include "tests/trace/headless_compute.hpp"
+#include "tests/rays/headless_compute.hpp"
 
 #include "floor_spirv.h"
 

@@ -14,7 +14,7 @@ constexpr int cells_across = 53;
 constexpr double open_share = 0.72; // of 53 x 53 cells: 2,000 clusters
 constexpr float move_per_frame = 10, reach = 300; // units
 
-struct Scene {
+struct ListSetup {
     formats::Bsp bsp = test::make_cell_map(cells_across, test::make_random_cells(cells_across, open_share, 1));
     std::mt19937 rng { 1 };
 
@@ -42,7 +42,7 @@ struct Scene {
 // Arguments: static emitters, dynamic lights, how many of these move.
 void update_light_lists(benchmark::State& state)
 {
-    Scene scene;
+    ListSetup scene;
     std::vector<shared::Emitter> fixed, dynamic;
     for (int64_t i = 0; i < state.range(0); i++)
         fixed.push_back(scene.make_light(reach)); // static lights in reach of few clusters: the lists fit in memory

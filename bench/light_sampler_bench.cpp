@@ -2,8 +2,8 @@
 // vkpt_light_sampler_bench: what the light samplers cost, as ratio to `subset` with a subset of 8, and how that depends
 // on the number of lights. Everything takes turns frame by frame, so that a busy machine slows all of it. Prints tables
 // in Markdown, for docs/light-sampling.md.
+#include "client/host/client_map.hpp"
 #include "client/host/errors.hpp"
-#include "client/host/scene.hpp"
 #include "common/quantile.hpp"
 #include "tests/module/game_folder.hpp"
 #include "tests/module/map_builder.hpp"
@@ -108,7 +108,7 @@ public:
 private:
     const Options& options_;
     client::FileSystem files_;
-    client::Scene scene_;
+    client::ClientMap scene_;
     std::unique_ptr<client::Host> host_;
 };
 

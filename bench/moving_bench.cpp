@@ -2,8 +2,8 @@
 // What a view's moving things cost on the CPU: posing, trees, and writing what the device reads. 128 entities of 1,000
 // triangles unless a name says otherwise. Compare CPU time over all threads ("process_time") on a machine with other
 // load.
+#include "ref_vkpt/rays/bvh.hpp"
 #include "ref_vkpt/scene/moving_geometry.hpp"
-#include "ref_vkpt/trace/bvh.hpp"
 
 #include <algorithm>
 #include <benchmark/benchmark.h>

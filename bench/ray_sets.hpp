@@ -3,8 +3,8 @@
 #pragma once
 
 #include "common/quantile.hpp"
-#include "tests/trace/scenes.hpp"
-#include "tests/trace/trace_rays.h"
+#include "tests/rays/scenes.hpp"
+#include "tests/rays/trace_rays.h"
 
 #include <cstdint>
 #include <functional>

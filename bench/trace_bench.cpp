@@ -7,8 +7,8 @@
 #include "bench/module_tracer.hpp"
 #include "bench/ray_sets.hpp"
 #include "shaders/shared/scene.h"
-#include "tests/trace/gpu_tracer.hpp"
-#include "tests/trace/scenes.hpp"
+#include "tests/rays/gpu_tracer.hpp"
+#include "tests/rays/scenes.hpp"
 
 #include "shaders/shared/trace.h"
 

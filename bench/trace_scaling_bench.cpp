@@ -4,7 +4,7 @@
 // map of ever more rooms with doors. And how much faster two threads of the CPU driver are than one.
 #include "bench/embree_scene.hpp"
 #include "bench/ray_sets.hpp"
-#include "tests/trace/gpu_tracer.hpp"
+#include "tests/rays/gpu_tracer.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

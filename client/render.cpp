@@ -54,11 +54,12 @@ void write_radiance(const Extension& extension, OutputFile& output, PictureKind 
     std::vector<float> rgb(3 * size_t(size.width) * size_t(size.height));
     if (!extension.capture_radiance(rgb.data()))
         throw Failure("the module has no finished 3D view to capture");
-    size_t broken = 0;
+    size_t nonfinite = 0;
     for (const float value : rgb)
-        broken += !std::isfinite(value);
-    if (broken)
-        std::fprintf(stderr, "vkpt: %zu of %zu values are not finite: please report this scene\n", broken, rgb.size());
+        nonfinite += !std::isfinite(value);
+    if (nonfinite)
+        std::fprintf(
+            stderr, "vkpt: %zu of %zu values are not finite: please report this scene\n", nonfinite, rgb.size());
     output.write(kind == PictureKind::exr ? write_exr(size.width, size.height, rgb)
                                           : formats::write_pfm(size.width, size.height, rgb));
 }

@@ -70,7 +70,7 @@ Json make_trace_info(const std::filesystem::path& path)
     add_facts(info, reader.facts());
     add_registrations(info, reader);
     const trace::TraceReader::Most& most = reader.most();
-    info["most_at_once"]
+    info["max_at_once"]
         = { { "entities", most.entities }, { "dlights", most.dlights }, { "particles", most.particles } };
     return info;
 }
@@ -92,7 +92,7 @@ void print_trace_info(const Json& info)
         line("map", fmt::format("{}, from frame {} on", map["map"].get<std::string>(), map["frame"].dump()));
     line("registered",
         fmt::format("{} models, {} skins", info["model_registrations"].dump(), info["skin_registrations"].dump()));
-    const Json& most = info["most_at_once"];
+    const Json& most = info["max_at_once"];
     line("most at once",
         fmt::format("{} entities, {} dynamic lights, {} particles", most["entities"].dump(), most["dlights"].dump(),
             most["particles"].dump()));

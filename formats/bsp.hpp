@@ -106,16 +106,20 @@ struct BspTexinfo {
     glm::vec3 t_axis;
     float t_offset;
     uint32_t flags; // SurfaceFlags
-    int32_t value;  // light emission where SURF_LIGHT
+    int32_t value; // light emission where SURF_LIGHT
     std::string texture; // name without folder and ending, e.g. "e1u1/metal1_1"
-    int32_t next;   // next texinfo of the animation chain, -1 none
+    int32_t next; // next texinfo of the animation chain, -1 none
 };
 
 // One bit per cluster.
 class ClusterSet {
 public:
     ClusterSet() = default;
-    explicit ClusterSet(size_t cluster_count) : bits_((cluster_count + 7) / 8), count_(cluster_count) {}
+    explicit ClusterSet(size_t cluster_count)
+        : bits_((cluster_count + 7) / 8)
+        , count_(cluster_count)
+    {
+    }
     size_t size() const { return count_; }
     bool contains(int cluster) const
     {
@@ -164,21 +168,21 @@ struct Bsp {
     glm::vec2 texture_coordinates(const BspTexinfo& texinfo, glm::vec3 p) const;
     // Lightmap of a face: size in luxels (16 units each) and the lowest luxel's texel coordinates. Zero size: none.
     struct LightmapExtent {
-        glm::ivec2 size{0};
-        glm::vec2 min_st{0};
+        glm::ivec2 size { 0 };
+        glm::vec2 min_st { 0 };
     };
     LightmapExtent lightmap_extent(size_t face) const;
     size_t find_leaf(glm::vec3 p, int head_node = 0) const;
     int find_cluster(glm::vec3 p) const; // -1 in solid
-    // What `cluster` can see (decompressed; always contains itself). cluster -1: an empty set. Without visibility: the set
-    // holds, and is as long as, all clusters that leaves name, which are then not limited by cluster_count.
+    // What `cluster` can see (decompressed; always contains itself). cluster -1: an empty set. Without visibility: the
+    // set holds, and is as long as, all clusters that leaves name, which are then not limited by cluster_count.
     ClusterSet pvs(int cluster) const;
 };
 
-// Throws FormatError naming lump, offset and reason. A small map must not cost much to use: lumps that overlap, surface edges,
-// leaf faces and faces that several records share, faces of more than 64 edges and endless animations are refused, though they
-// could be read. Two things are mended instead: a face whose light samples are not in the
-// file gets light_offset -1, and a texinfo chain that never returns to its start is cut where it enters the ring.
+// Throws FormatError naming lump, offset and reason. A small map must not cost much to use: lumps that overlap, surface
+// edges, leaf faces and faces that several records share, faces of more than 64 edges and endless animations are
+// refused, though they could be read. Two things are mended instead: a face whose light samples are not in the file
+// gets light_offset -1, and a texinfo chain that never returns to its start is cut where it enters the ring.
 Bsp read_bsp(Bytes file, std::string_view name);
 // The inverse, for the map compiler and the tests. `visibility` and `lighting` are written as they stand.
 std::vector<std::byte> write_bsp(const Bsp& bsp);

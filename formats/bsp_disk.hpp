@@ -5,6 +5,7 @@
 #include "formats/bsp.hpp"
 
 #include <array>
+#include <cstdint>
 
 namespace formats::bsp_disk {
 

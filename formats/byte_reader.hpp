@@ -34,7 +34,11 @@ private:
 // A window onto a file's bytes. Little-endian, unaligned; throws FormatError instead of reading past the end.
 class ByteReader {
 public:
-    ByteReader(Bytes bytes, std::string_view file) : bytes_(bytes), file_(file) {}
+    ByteReader(Bytes bytes, std::string_view file)
+        : bytes_(bytes)
+        , file_(file)
+    {
+    }
 
     size_t size() const { return bytes_.size(); }
     size_t position() const { return position_; }
@@ -43,8 +47,7 @@ public:
 
     void seek(size_t offset);
 
-    template <class T>
-    T read()
+    template <class T> T read()
     {
         static_assert(std::is_trivially_copyable_v<T>);
         T value;
@@ -59,8 +62,7 @@ public:
     std::string read_string(size_t field_size);
 
     // `count` packed records from absolute `offset`.
-    template <class T>
-    std::vector<T> read_array(size_t offset, size_t count, std::string_view what)
+    template <class T> std::vector<T> read_array(size_t offset, size_t count, std::string_view what)
     {
         static_assert(std::is_trivially_copyable_v<T>);
         check_range(offset, count, sizeof(T), what);

@@ -15,8 +15,8 @@ struct EntityText {
     std::map<std::string, std::string, std::less<>> pairs;
 
     std::string_view get(std::string_view key, std::string_view fallback = "") const;
-    float number(std::string_view key, float fallback) const;           // malformed: fallback
-    std::optional<glm::vec3> vector(std::string_view key) const;        // "x y z"; malformed: none
+    float number(std::string_view key, float fallback) const; // malformed: fallback
+    std::optional<glm::vec3> vector(std::string_view key) const; // "x y z"; malformed: none
     std::vector<float> numbers(std::string_view key) const; // those it begins with
     std::string_view class_name() const { return get("classname"); }
 };

@@ -41,8 +41,8 @@ struct WallInfo {
 
 // Nothing larger than this is accepted: width and height each.
 inline constexpr int max_image_size = 16384;
-// How many pixels a picture may have, because a file of a few kilobytes can ask for gigabytes. Any file: 4096 x 4096, the
-// largest texture or side of a sky in packs for Quake II; decoded, with its mip levels and copies, about 300 MB.
+// How many pixels a picture may have, because a file of a few kilobytes can ask for gigabytes. Any file: 4096 x 4096,
+// the largest texture or side of a sky in packs for Quake II; decoded, with its mip levels and copies, about 300 MB.
 inline constexpr size_t max_pixels_of_any_file = size_t(1) << 24;
 // More only in a file that has a byte for each 16 of them, which captures and photographs have by far,
 inline constexpr size_t max_pixels_per_byte = 16;

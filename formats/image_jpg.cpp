@@ -12,8 +12,8 @@ namespace formats {
 
 namespace {
 
-// Every scan of a progressive picture goes over all of its pixels, and a scan of a few bytes is allowed: a small file could
-// ask for tens of thousands. Encoders write about ten.
+// Every scan of a progressive picture goes over all of its pixels, and a scan of a few bytes is allowed: a small file
+// could ask for tens of thousands. Encoders write about ten.
 constexpr int max_scans = 50;
 // The coefficients of a progressive picture are held until its last scan: six bytes a pixel.
 constexpr long max_decoder_bytes = 256L << 20;

@@ -47,7 +47,8 @@ public:
 #ifdef PNG_IGNORE_ADLER32 // libpng may be built without (Debian 13)
         png_set_option(png_, PNG_IGNORE_ADLER32, PNG_OPTION_ON);
 #endif
-        // Texts, profiles and the like are passed over: some are compressed, and their unpacked size is the file's choice.
+        // Texts, profiles and the like are passed over: some are compressed, and their unpacked size is the file's
+        // choice.
         png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_read_info(png_, info_);
         return true;

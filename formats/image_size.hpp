@@ -4,6 +4,8 @@
 
 #include "formats/image.hpp"
 
+#include <cstdint>
+
 namespace formats {
 
 inline std::string size_text(int64_t width, int64_t height)

@@ -51,8 +51,8 @@ struct CodedLight {
 // From the lowest bit on: colour 5 + 5 + 4, value 6, radius 3, style 2, phase 2, count 4. The highest bit stays clear:
 // renderers index with the number.
 inline constexpr std::array<float, 8> light_radii { 0.5f, 1, 1.5f, 2, 4, 6, 10, 16 };
-inline constexpr float least_light_value = 25, light_values_per_octave = 10;
-inline constexpr uint32_t most_in_swarm = 16;
+inline constexpr float min_light_value = 25, light_values_per_octave = 10;
+inline constexpr uint32_t max_in_swarm = 16;
 
 inline int32_t encode_light(const CodedLight& light)
 {
@@ -60,13 +60,13 @@ inline int32_t encode_light(const CodedLight& light)
         // Square roots: eyes tell dark shades apart better than bright ones.
         return uint32_t(std::lround(std::sqrt(std::clamp(share, 0.0f, 1.0f)) * float(most)));
     };
-    const float octaves = std::log2(std::max(light.value, least_light_value) / least_light_value);
+    const float octaves = std::log2(std::max(light.value, min_light_value) / min_light_value);
     const uint32_t value = uint32_t(std::clamp(std::lround(octaves * light_values_per_octave), 0l, 63l));
     uint32_t radius = 0;
     for (uint32_t i = 1; i < light_radii.size(); i++)
         if (std::abs(light_radii[i] - light.radius) < std::abs(light_radii[radius] - light.radius))
             radius = i;
-    const uint32_t count = std::clamp(light.count, 1u, most_in_swarm) - 1;
+    const uint32_t count = std::clamp(light.count, 1u, max_in_swarm) - 1;
     return int32_t(part(light.colour.x, 31) | part(light.colour.y, 31) << 5 | part(light.colour.z, 15) << 10
         | value << 14 | radius << 20 | (uint32_t(light.style) & 3) << 23 | (light.phase & 3) << 25 | count << 27);
 }
@@ -80,7 +80,7 @@ inline CodedLight decode_light(int32_t code)
     };
     CodedLight light;
     light.colour = { part(bits, 31), part(bits >> 5, 31), part(bits >> 10, 15) };
-    light.value = least_light_value * std::exp2(float(bits >> 14 & 63) / light_values_per_octave);
+    light.value = min_light_value * std::exp2(float(bits >> 14 & 63) / light_values_per_octave);
     light.radius = light_radii[bits >> 20 & 7];
     light.style = LightStyle(bits >> 23 & 3);
     light.phase = bits >> 25 & 3;

@@ -89,8 +89,8 @@ private:
             return;
         if (name.size() > longest_name || !is_printable(name))
             return complain("a picture's name that is too long or has spaces in it is left out");
-        if (++name_count_ > most_material_names)
-            throw FormatError(file_, size_t(line_), "more than " + std::to_string(most_material_names) + " names");
+        if (++name_count_ > max_material_names)
+            throw FormatError(file_, size_t(line_), "more than " + std::to_string(max_material_names) + " names");
         if (std::string plain = material_name(name); !plain.empty())
             names_.push_back(std::move(plain));
     }
@@ -105,13 +105,14 @@ private:
         if (!row)
             return complain("there is no such attribute: ", name);
         if (!is_attribute_value(*row, value))
-            return complain(row->type == AttributeType::number ? "its value is a number: " : "its value is one word: ", line);
+            return complain(
+                row->type == AttributeType::number ? "its value is a number: " : "its value is one word: ", line);
         result_.entries.back().attributes.emplace_back(name, value);
     }
 
     void complain(std::string_view reason, std::string_view text = {})
     {
-        if (result_.messages.size() >= MaterialFile::most_messages)
+        if (result_.messages.size() >= MaterialFile::max_messages)
             return;
         std::string message = file_;
         message += ", line ";
@@ -187,7 +188,8 @@ std::string material_name(std::string_view picture)
     while (name.starts_with(folder))
         name.erase(0, folder.size());
     constexpr std::string_view endings[] = { ".wal", ".tga", ".png", ".jpg", ".pcx", ".m8", ".m32" };
-    const auto ending = [&] { return std::ranges::find_if(endings, [&](std::string_view e) { return name.ends_with(e); }); };
+    const auto ending
+        = [&] { return std::ranges::find_if(endings, [&](std::string_view e) { return name.ends_with(e); }); };
     for (auto found = ending(); found != std::end(endings); found = ending())
         name.resize(name.size() - found->size());
     return name;
@@ -195,8 +197,9 @@ std::string material_name(std::string_view picture)
 
 MaterialFile read_materials(std::string_view text, std::string_view file)
 {
-    if (text.size() > most_material_bytes)
-        throw FormatError(file, most_material_bytes, "materials of more than " + std::to_string(most_material_bytes) + " bytes");
+    if (text.size() > max_material_bytes)
+        throw FormatError(
+            file, max_material_bytes, "materials of more than " + std::to_string(max_material_bytes) + " bytes");
     return Reader(text, file).read();
 }
 

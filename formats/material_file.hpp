@@ -7,7 +7,8 @@
 //         roughness_override 0.3
 //         metalness_override 1
 //
-// One or more names of pictures, with commas between them and a colon behind the last, then lines of attribute and value.
+// One or more names of pictures, with commas between them and a colon behind the last, then lines of attribute and
+// value.
 #pragma once
 
 #include "formats/byte_reader.hpp"
@@ -27,12 +28,12 @@ struct MaterialEntry {
 struct MaterialFile {
     std::vector<MaterialEntry> entries;
     std::vector<std::string> messages; // lines that were left out, by file and line; at most so many
-    static constexpr size_t most_messages = 16;
+    static constexpr size_t max_messages = 16;
 };
 
 // Bytes of a file, and names in it.
-inline constexpr size_t most_material_bytes = 4 << 20;
-inline constexpr size_t most_material_names = 100'000;
+inline constexpr size_t max_material_bytes = 4 << 20;
+inline constexpr size_t max_material_names = 100'000;
 
 // Never fails on what is in the lines: what makes no sense is left out, with a message. Throws FormatError for files
 // beyond the limits above.

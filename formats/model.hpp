@@ -17,14 +17,15 @@ struct Md2Model {
     struct Frame {
         std::string name;
         std::vector<glm::vec3> positions; // one per vertex, model space
-        std::vector<glm::vec3> normals;   // unit, from the format's table of 162 directions
-        glm::vec3 mins { 0 }, maxs { 0 }; // hold all positions, with room to spare; write_md2 finds them where they do not
+        std::vector<glm::vec3> normals; // unit, from the format's table of 162 directions
+        glm::vec3 mins { 0 },
+            maxs { 0 }; // hold all positions, with room to spare; write_md2 finds them where they do not
     };
     int skin_width = 0, skin_height = 0;
-    std::vector<std::string> skins;            // paths as stored
+    std::vector<std::string> skins; // paths as stored
     std::vector<glm::vec2> texture_coordinates; // one per vertex, 0..1
-    std::vector<uint32_t> indices;             // three per triangle, counter-clockwise seen from outside
-    std::vector<Frame> frames;                 // at least one
+    std::vector<uint32_t> indices; // three per triangle, counter-clockwise seen from outside
+    std::vector<Frame> frames; // at least one
     size_t vertex_count() const { return texture_coordinates.size(); }
     size_t triangle_count() const { return indices.size() / 3; }
 };

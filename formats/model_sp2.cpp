@@ -32,7 +32,8 @@ Sp2Sprite read_sp2(Bytes file, std::string_view name)
     if (count == 0 || count > reader.remaining() / sizeof(FrameRecord))
         reader.fail_at(8, std::to_string(count) + " frames are not in the file");
     if (count > max_frames)
-        reader.fail_at(8, std::to_string(count) + " frames, more than the engine's limit of " + std::to_string(max_frames));
+        reader.fail_at(
+            8, std::to_string(count) + " frames, more than the engine's limit of " + std::to_string(max_frames));
     Sp2Sprite sprite;
     for (uint32_t i = 0; i < count; i++) {
         Sp2Sprite::Frame frame;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A map as the module loads it: read, triangulated, its emitters, light lists, multisets and trees, the tree of its triangles;
-// then a frame's work on it: moving lights and materials.
+// A map as the module loads it: read, triangulated, its emitters, light lists, multisets and trees, the tree of its
+// triangles; then a frame's work on it: moving lights and materials.
 #include "fuzz/support/harness.hpp"
 #include "ref_vkpt/lights/light_multisets.hpp"
 #include "ref_vkpt/lights/light_trees.hpp"
-#include "ref_vkpt/lights/outlines.hpp"
+#include "ref_vkpt/lights/packed_lights.hpp"
 #include "ref_vkpt/lights/view_lights.hpp"
+#include "ref_vkpt/rays/triangle_groups.hpp"
 #include "ref_vkpt/scene/world.hpp"
-#include "ref_vkpt/trace/triangle_groups.hpp"
 
 namespace {
 
@@ -40,13 +40,14 @@ void check_lights(World& world)
         fuzz::require(index < emitters.size(), "light lists hold emitters that there are");
     const LightMultisets multisets = make_light_multisets(world.bsp, lists, emitters);
     for (const uint32_t index : multisets.entries)
-        fuzz::require((index & ((1u << shared::LIGHT_COPIES_SHIFT) - 1)) < emitters.size(), "multisets hold emitters that there are");
+        fuzz::require((index & ((1u << shared::LIGHT_COPIES_SHIFT) - 1)) < emitters.size(),
+            "multisets hold emitters that there are");
     const LightTrees trees = make_light_trees(lists.lists(), lists.static_indices(), emitters);
     fuzz::require(trees.lights.size() == lists.static_indices().size(), "a tree has all lights of its list");
-    std::vector<shared::EmitterOutline> outlines(emitters.size());
+    std::vector<shared::PackedLight> packed_lights(emitters.size());
     std::vector<float> styles(lightstyle_count, 1.0f);
     world.animated_lights.append_rows(styles, 0);
-    write_outlines(outlines.data(), outlines.size(), emitters, styles);
+    write_packed_lights(packed_lights.data(), packed_lights.size(), emitters, styles);
 }
 
 void move_lights(const World& world)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A map's entities: parsed, read as numbers and places, as point lights, and as brush models that stand somewhere.
-#include "client/host/scene.hpp"
+#include "client/host/client_map.hpp"
 #include "formats/entities.hpp"
 #include "fuzz/support/harness.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
@@ -28,7 +28,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
         map.entity_text = text;
         std::vector<std::string> messages;
         for (const shared::Emitter& emitter : extract_point_lights(map, {}, messages))
-            fuzz::require(emitter.p1.x > 0 && emitter.radiance == emitter.radiance, "point lights are spheres with a size");
+            fuzz::require(
+                emitter.p1.x > 0 && emitter.radiance == emitter.radiance, "point lights are spheres with a size");
     } catch (const formats::FormatError&) {
     }
     return 0;

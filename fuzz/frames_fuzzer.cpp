@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Frames as a server or a recorded game may ask for them: views with nonsense in every number, lights, particles, 2D, registrations in any order.
-// What the module does of it on the CPU, without a device. The input is a row of calls: a byte that says which, then its
-// numbers.
+// Frames as a server or a recorded game may ask for them: views with nonsense in every number, lights, particles, 2D,
+// registrations in any order. What the module does of it on the CPU, without a device. The input is a row of calls: a
+// byte that says which, then its numbers.
 #include "client/host/view_placement.hpp"
 #include "fuzz/support/harness.hpp"
 #include "fuzz/support/input.hpp"
@@ -178,7 +178,8 @@ private:
     void draw(fuzz::Input& input)
     {
         const auto kind = input.take<uint8_t>();
-        const Rectangle place = { input.take<int32_t>(), input.take<int32_t>(), input.take<int32_t>(), input.take<int32_t>() };
+        const Rectangle place
+            = { input.take<int32_t>(), input.take<int32_t>(), input.take<int32_t>(), input.take<int32_t>() };
         const auto scale = input.take<float>();
         const auto tint = input.take<std::array<float, 3>>();
         const Texture* picture = textures_->find(pictures[kind / 8 % pictures.size()], TextureUse::picture);
@@ -205,7 +206,8 @@ private:
 
     void draw_video(const Rectangle& place, fuzz::Input& input)
     {
-        const int columns = input.take<int8_t>(), rows = input.take<int8_t>(), bits = input.take<uint8_t>() & 1 ? 32 : 8;
+        const int columns = input.take<int8_t>(), rows = input.take<int8_t>(),
+                  bits = input.take<uint8_t>() & 1 ? 32 : 8;
         draw2d_->draw_raw(place, columns, rows, reinterpret_cast<const uint8_t*>(pixels_.data()), bits);
     }
 

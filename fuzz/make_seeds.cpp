@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// make_seeds FOLDER: the inputs that fuzzing starts from, one folder below FOLDER for each harness; all made by our own writers.
+// make_seeds FOLDER: the inputs that fuzzing starts from, one folder below FOLDER for each harness; all made by our own
+// writers.
 #include "client/trace/trace_writer.hpp"
 #include "formats/byte_writer.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
@@ -48,9 +49,11 @@ formats::Bsp compile(const std::string& text)
 std::string room_text()
 {
     const tests::Box room { { -64, -64, 0 }, { 64, 64, 96 } };
-    return tests::entity_text({ { "classname", "worldspawn" }, { "message", "seed" } }, tests::walls_around({ room }, "wall"))
+    return tests::entity_text(
+               { { "classname", "worldspawn" }, { "message", "seed" } }, tests::walls_around({ room }, "wall"))
         + tests::entity_text({ { "classname", "info_player_start" }, { "origin", "0 0 32" }, { "angle", "90" } })
-        + tests::entity_text({ { "classname", "light" }, { "origin", "0 0 64" }, { "light", "200" }, { "_color", "1 .5 0" } })
+        + tests::entity_text(
+            { { "classname", "light" }, { "origin", "0 0 64" }, { "light", "200" }, { "_color", "1 .5 0" } })
         + tests::entity_text({ { "classname", "func_door" }, { "angle", "-1" }, { "lip", "8" }, { "spawnflags", "1" } },
             tests::box_brush({ { 16, 16, 0 }, { 32, 32, 48 } }, "door"));
 }
@@ -71,15 +74,15 @@ void add_maps()
     add_text("entities", "room", compile(room_text()).entity_text);
     add_text("entities", "rooms", compile(tests::two_rooms::text()).entity_text);
     add_text("materials", "sample",
-        "# a comment\ntextures/e1u1/floor.wal,\nmodels/x/skin:\n    roughness_override 0.3\n    texture_normals overrides/floor_n.tga\n"
+        "# a comment\ntextures/e1u1/floor.wal,\nmodels/x/skin:\n    roughness_override 0.3\n    texture_normals "
+        "overrides/floor_n.tga\n"
         "    kind CHROME\n");
     for (const char* name : { "func_door", "func_door_rotating", "func_plat", "func_train", "func_rotating",
              "func_wall", "func_object", "func_explosive", "func_button", "func_water" })
         add_text("entities", name,
             tests::entity_text({ { "classname", name }, { "model", "*1" }, { "target", "t" }, { "angle", "45" },
                 { "speed", "100" }, { "lip", "4" }, { "height", "32" }, { "distance", "90" }, { "spawnflags", "65" } })
-                + tests::entity_text(
-                    { { "classname", "path_corner" }, { "targetname", "t" }, { "origin", "1 2 3" } }));
+                + tests::entity_text({ { "classname", "path_corner" }, { "targetname", "t" }, { "origin", "1 2 3" } }));
 }
 
 void add_pictures()
@@ -242,10 +245,11 @@ void add_texts()
         add_text("cvars", row.name, line);
     }
     add_text("cvars", "first_sixteen", all.substr(0, 300));
-    for (const char* name : { "e1u1/floor", "pics/inven.pcx", "/players/male/a_i.pcx", "models/a/tris.md2", "shots/../../x",
-             "unit1_", "env/sky.tga", "a\\b", "..", "" })
+    for (const char* name : { "e1u1/floor", "pics/inven.pcx", "/players/male/a_i.pcx", "models/a/tris.md2",
+             "shots/../../x", "unit1_", "env/sky.tga", "a\\b", "..", "" })
         add_text("paths", fmt::format("{:08x}", std::hash<std::string>()(name)), std::string("\xff") + name);
-    for (const char* text : { "maps/a.bsp", "maps/a.bsp@1,2,3", "maps/a.bsp@1,-2.5,3e1,4,5", "1280x720", "1x1", "a=b", "pt_bounces=2" })
+    for (const char* text :
+        { "maps/a.bsp", "maps/a.bsp@1,2,3", "maps/a.bsp@1,-2.5,3e1,4,5", "1280x720", "1x1", "a=b", "pt_bounces=2" })
         add_text("options", fmt::format("{:08x}", std::hash<std::string>()(text)), text);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A map source through the whole map compiler, with visibility and light where the first character asks for them; what it
-// makes must be a map that the module's reader takes.
+// A map source through the whole map compiler, with visibility and light where the first character asks for them; what
+// it makes must be a map that the module's reader takes.
 #include "fuzz/support/harness.hpp"
 #include "tools/map_compiler/compiler.hpp"
 

@@ -27,7 +27,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
         const client::SceneName scene = client::parse_scene_name(text);
         fuzz::require(scene.map.ends_with(".bsp"), "a scene is a map");
         if (scene.camera)
-            fuzz::require(std::isfinite(scene.camera->position.x) && std::isfinite(scene.camera->yaw), "cameras are finite");
+            fuzz::require(
+                std::isfinite(scene.camera->position.x) && std::isfinite(scene.camera->yaw), "cameras are finite");
     });
     try_to([&] {
         const client::Size picture = client::parse_size(text);

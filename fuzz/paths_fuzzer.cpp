@@ -18,8 +18,10 @@ void check_written(const std::string& name)
 {
     if (!is_plain_name(name))
         return;
-    const std::filesystem::path folder = "/home/player/.yq2/baseq2/vkpt/bench", path = (folder / name).lexically_normal();
-    fuzz::require(path.parent_path() == folder && path.filename() == name, "what is written stays in the module's folder");
+    const std::filesystem::path folder = "/home/player/.yq2/baseq2/vkpt/bench",
+                                path = (folder / name).lexically_normal();
+    fuzz::require(
+        path.parent_path() == folder && path.filename() == name, "what is written stays in the module's folder");
 }
 
 // A few of the names that a picture is searched under are there: what the input's first byte chooses.

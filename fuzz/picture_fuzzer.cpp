@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A picture of one kind: read as the module reads a file with that ending, measured, halved and searched for bright parts as a
-// wall's picture is. One program for each kind is built from this, with picture_kind.cpp.
+// A picture of one kind: read as the module reads a file with that ending, measured, halved and searched for bright
+// parts as a wall's picture is. One program for each kind is built from this, with picture_kind.cpp.
 #include "formats/image.hpp"
 #include "fuzz/support/harness.hpp"
 #include "ref_vkpt/scene/bright_parts.hpp"
@@ -17,8 +17,8 @@ constexpr int largest_measured = 256;
 
 void use_picture(const formats::Image& image)
 {
-    fuzz::require(image.width > 0 && image.height > 0
-            && image.pixels.size() == size_t(image.width) * size_t(image.height),
+    fuzz::require(
+        image.width > 0 && image.height > 0 && image.pixels.size() == size_t(image.width) * size_t(image.height),
         "a picture has as many pixels as its size says");
     if (image.width > largest_measured || image.height > largest_measured)
         return;

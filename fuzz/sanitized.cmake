@@ -4,7 +4,7 @@
 include(ExternalProject)
 
 set(sanitized_build ${CMAKE_BINARY_DIR}/sanitized)
-set(sanitized_rooms formats trace lights contract)
+set(sanitized_rooms formats rays lights contract)
 list(JOIN sanitized_rooms "|" rooms) # ExternalProject has semicolons for itself
 ExternalProject_Add(sanitized
     PREFIX ${CMAKE_BINARY_DIR}/sanitized-project
@@ -29,7 +29,7 @@ function(vkpt_add_sanitized_test name)
         "ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=0;UBSAN_OPTIONS=print_stacktrace=1")
 endfunction()
 
-foreach(program formats/test_formats trace/bvh_test trace/moving_geometry_test lights/map_lights_test contract/contract_test
+foreach(program formats/test_formats rays/bvh_test rays/moving_geometry_test lights/map_lights_test contract/contract_test
         contract/cvars_test)
     cmake_path(GET program FILENAME name)
     vkpt_add_sanitized_test(${name} ${sanitized_build}/tests/${program} --gtest_filter=-*takes_bounded_time*)

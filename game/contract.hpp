@@ -10,7 +10,7 @@
 namespace vkpt::game {
 
 inline constexpr int32_t game_api_version = 3;
-inline constexpr int most_edicts = 1024; // the protocol's limit on entity numbers
+inline constexpr int max_edicts = 1024; // the protocol's limit on entity numbers
 
 // The engine's qboolean: an int whose upper bytes may be left undefined (see ref_vkpt/engine/contract.hpp).
 using QBoolean = int32_t;
@@ -81,7 +81,7 @@ inline constexpr int stat_health = 1; // in PlayerState::stats
 
 // ---- the head of each entity, which server and game share; the game's own fields follow
 
-inline constexpr int most_entity_clusters = 16;
+inline constexpr int max_entity_clusters = 16;
 
 enum ServerFlags : int32_t {
     SVF_NOCLIENT = 1, // not sent
@@ -109,7 +109,7 @@ struct Edict {
     int32_t link_count;
     AreaLink area;
     int32_t cluster_count; // -1: `head_node` tells
-    int32_t clusters[most_entity_clusters];
+    int32_t clusters[max_entity_clusters];
     int32_t head_node;
     int32_t area_number, area_number2;
     int32_t server_flags;

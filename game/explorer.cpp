@@ -12,9 +12,9 @@ namespace {
 constexpr int nodes_per_frame = 600;
 constexpr float seen_distance = 52; // units
 constexpr uint32_t stuck_frames = 12, blocked_frames = 600; // of a tenth of a second
-constexpr float least_progress = 24; // units in stuck_frames
+constexpr float min_progress = 24; // units in stuck_frames
 constexpr int stray_frames = 8;
-constexpr uint8_t most_tries = 3; // for a place
+constexpr uint8_t max_tries = 3; // for a place
 constexpr float goal_distance = 32; // units
 constexpr uint32_t idle_frames = 10; // before looking for a way again where there was none
 
@@ -62,7 +62,7 @@ void Explorer::watch_progress(const PlayerView& player)
     trapped_frames_ = glm::distance(player.origin, trap_place_) < trapped_move ? trapped_frames_ + 1 : 0;
     if (trapped_frames_ == 0)
         trap_place_ = player.origin;
-    if (glm::distance(player.origin, progress_place_) > least_progress) {
+    if (glm::distance(player.origin, progress_place_) > min_progress) {
         progress_place_ = player.origin;
         progress_time_ = time_;
         return;
@@ -111,12 +111,12 @@ std::vector<uint32_t> Explorer::find_unseen(uint32_t start)
     // Not always the very nearest: other seeds, other tours.
     constexpr uint32_t choices = 3, apart = 16;
     uint32_t skip = seed_ == 0 ? 0 : random_.next() % choices * apart;
-    const auto is_wanted = [&](uint32_t node) { return !seen_[node] && tries_[node] < most_tries; };
+    const auto is_wanted = [&](uint32_t node) { return !seen_[node] && tries_[node] < max_tries; };
     auto path = navigation_.find_path(start, time_, [&](uint32_t node) { return is_wanted(node) && skip-- == 0; });
     if (path.empty())
         path = navigation_.find_path(start, time_, is_wanted);
     if (!path.empty()) {
-        if (++tries_[path.back()] == most_tries)
+        if (++tries_[path.back()] == max_tries)
             give_up(path.back());
         return path;
     }
@@ -137,7 +137,7 @@ void Explorer::give_up(uint32_t goal)
 {
     constexpr float near = 64; // units
     for (const uint32_t node : navigation_.find_all_near(navigation_.nodes()[goal].position, near))
-        tries_[node] = most_tries;
+        tries_[node] = max_tries;
 }
 
 std::vector<uint32_t> Explorer::find_goal(uint32_t start)

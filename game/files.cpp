@@ -72,7 +72,7 @@ std::string TextFiles::read(std::string_view name) const
     std::error_code error;
     if (!std::filesystem::exists(std::filesystem::symlink_status(base_ / folder_, error)))
         throw FileError("cannot read " + describe(name) + ": there is no folder " + (base_ / folder_).string());
-    return OutputFolder(base_, { folder_ }).read(std::string(name) + ".txt", most_bytes);
+    return OutputFolder(base_, { folder_ }).read(std::string(name) + ".txt", max_bytes);
 }
 
 bool TextFiles::exists(std::string_view name) const

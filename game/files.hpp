@@ -33,7 +33,7 @@ public:
     // For messages: "lights/NAME.txt".
     std::string describe(std::string_view name) const;
 
-    static constexpr size_t most_bytes = 1 << 20;
+    static constexpr size_t max_bytes = 1 << 20;
 
 private:
     std::filesystem::path base_;

@@ -13,7 +13,7 @@ namespace vkpt::game {
 
 namespace {
 
-constexpr size_t most_flares = 24;
+constexpr size_t max_flares = 24;
 constexpr Box flare_box { { -2, -2, -2 }, { 2, 2, 2 } };
 constexpr float throw_speed = 550, throw_lift = 120; // units a second
 constexpr float gravity = 800, bounce = 0.45f, rolling_drag = 2.2f, water_drag = 4, water_gravity = 0.12f;
@@ -34,7 +34,7 @@ void Flares::run(const Command& command)
     if (supply >= 0 && thrown_ >= supply)
         throw TextError(fmt::format("no flares are left: vkpt_flares gives {} for a level, -1 no end of them", supply));
     const Eye eye = eye_of(*command.player);
-    if (flares_.size() == most_flares) {
+    if (flares_.size() == max_flares) {
         host_.entities.remove(flares_.front().entity);
         flares_.erase(flares_.begin());
     }

@@ -161,7 +161,7 @@ void parse_light_words(std::span<const std::string> words, Light& light)
             const std::string word = rest.take("a word");
             parse_word(word, rest, light);
         } else if (numbers++ == 0) {
-            light.value = rest.take_number("the value", formats::least_light_value, 1900);
+            light.value = rest.take_number("the value", formats::min_light_value, 1900);
         } else if (numbers == 2) {
             light.radius = rest.take_number("the radius", formats::light_radii.front(), formats::light_radii.back());
         } else {
@@ -205,8 +205,8 @@ std::vector<Light> parse_light_file(std::string_view text, std::string_view name
     std::vector<Light> lights;
     read_lines(text, name, [&](const std::vector<std::string>& words) {
         lights.push_back(parse_light_line(words));
-        if (lights.size() > most_lights)
-            throw TextError(fmt::format("more than {} lights", most_lights));
+        if (lights.size() > max_lights)
+            throw TextError(fmt::format("more than {} lights", max_lights));
     });
     return lights;
 }

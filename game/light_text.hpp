@@ -4,8 +4,9 @@
 
 #include "formats/light_code.hpp"
 
-#include <glm/vec3.hpp>
+#include <cstdint>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -31,7 +32,7 @@ struct Light {
     bool operator==(const Light&) const = default;
 };
 
-inline constexpr size_t most_lights = 96;
+inline constexpr size_t max_lights = 96;
 inline constexpr std::string_view light_file_mark = "# vkpt lights";
 
 // [COLOUR] [VALUE] [RADIUS] [pulse|flicker|sputter] [spot DEGREES] [orbit RADIUS [SECONDS]]; what is not given stays as

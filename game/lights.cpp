@@ -127,7 +127,7 @@ void Lights::list(const Command& command) const
         host_.say(command.sender,
             fmt::format(
                 "{:3} at {}: {}", i + 1, place_text(placed_[i].light.origin), describe_light(placed_[i].light)));
-    host_.say(command.sender, fmt::format("{} of {} lights", placed_.size(), most_lights));
+    host_.say(command.sender, fmt::format("{} of {} lights", placed_.size(), max_lights));
 }
 
 TextFiles Lights::files() const
@@ -192,8 +192,8 @@ void Lights::remember()
 
 void Lights::replace(std::vector<Light> lights, bool with_undo)
 {
-    if (lights.size() > most_lights)
-        throw TextError(fmt::format("there are {} lights already, as many as go: light delete", most_lights));
+    if (lights.size() > max_lights)
+        throw TextError(fmt::format("there are {} lights already, as many as go: light delete", max_lights));
     if (with_undo)
         remember();
     grabbed_ = -1;

@@ -12,7 +12,7 @@ namespace vkpt::game {
 
 namespace {
 
-constexpr int most_clients = 256;
+constexpr int max_clients = 256;
 constexpr int start_frame = 20; // of a level: its things have settled, and players are there
 
 // Of a "\key\value\key\value" text.
@@ -40,8 +40,8 @@ Module::Module(const Imports& imports, const Imports& for_game)
     , walker_(host_, fake_client_)
     , flares_(host_)
     , stress_(host_)
-    , is_client_(most_clients + 1)
-    , is_local_(most_clients + 1)
+    , is_client_(max_clients + 1)
+    , is_local_(max_clients + 1)
 {
     host_.engine = imports;
 }
@@ -76,8 +76,8 @@ void Module::leave()
 void Module::init()
 {
     // Ours are numbered from the highest number that the protocol has; the game is to have as many as ever below.
-    if (host_.cvar_number("maxentities", "1024") < most_edicts)
-        host_.engine.cvar_force_set("maxentities", std::to_string(most_edicts).c_str());
+    if (host_.cvar_number("maxentities", "1024") < max_edicts)
+        host_.engine.cvar_force_set("maxentities", std::to_string(max_edicts).c_str());
     const std::string game = host_.engine.cvar("game", "", 0)->text;
     if (const auto folder = find_write_folder(read_surroundings(), game))
         host_.write_folder = *folder;

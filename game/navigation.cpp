@@ -15,7 +15,7 @@ constexpr float steepest_ground = 0.7f; // normal's z, the engine's limit
 constexpr float swim_step = 32;
 constexpr float same_place = 12; // in height
 constexpr float leap_lengths[] { 80, 128, 176 };
-constexpr size_t most_nodes = 200'000;
+constexpr size_t max_nodes = 200'000;
 const glm::vec3 up(0, 0, 1);
 
 float level_distance(glm::vec3 a, glm::vec3 b) { return std::hypot(a.x - b.x, a.y - b.y); }
@@ -113,7 +113,7 @@ uint32_t Navigation::find_or_add(const Space& space, glm::vec3 p)
 void Navigation::link(uint32_t from, glm::vec3 to, Way way, float extra_cost, bool swims)
 {
     uint32_t node = find_at(to, same_place);
-    if (node == none && nodes_.size() < most_nodes)
+    if (node == none && nodes_.size() < max_nodes)
         node = add(to, swims);
     if (node == none || node == from || find_edge(from, node))
         return;

@@ -55,7 +55,7 @@ public:
     uint32_t find_near(glm::vec3 p) const;
     std::vector<uint32_t> find_all_near(glm::vec3 p, float distance) const;
     // Tries the moves from up to so many nodes that were not tried. False: nothing is left to try.
-    bool grow(const Space& space, int most_nodes);
+    bool grow(const Space& space, int max_nodes);
     // What was seen to be possible without being known: jump pads, teleporters.
     void note_passage(uint32_t from, uint32_t to);
     void block(uint32_t from, uint32_t to, uint32_t until);

@@ -65,7 +65,7 @@ int OwnEntities::show(const Exports& game, const Imports& engine)
 {
     int end = game.edict_count;
     without_slot_ = 0;
-    const int last_slot = std::min(game.max_edicts, most_edicts) - 1;
+    const int last_slot = std::min(game.max_edicts, max_edicts) - 1;
     for (size_t i = 0; i < entries_.size(); i++) {
         Entry& entry = entries_[i];
         if (!entry.in_use)
@@ -75,7 +75,7 @@ int OwnEntities::show(const Exports& game, const Imports& engine)
             without_slot_++;
             continue;
         }
-        if (entry.is_new && new_ones_ >= most_new_per_frame)
+        if (entry.is_new && new_ones_ >= max_new_per_frame)
             continue;
         new_ones_ += entry.is_new;
         place(entry, slot, game, engine);

@@ -20,7 +20,7 @@ class OwnEntities {
 public:
     static constexpr int most = 256;
     // New ones that one message may show: a message of more would not fit what the protocol sends at once.
-    static constexpr int most_new_per_frame = 12;
+    static constexpr int max_new_per_frame = 12;
 
     // A handle, or -1: there are too many.
     int add();

@@ -4,6 +4,7 @@
 
 #include "game/navigation.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace vkpt::game {

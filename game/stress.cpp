@@ -33,14 +33,14 @@ float speed_of(const std::string& pattern)
 
 void Stress::run(const Command& command)
 {
-    const int count = int(parse_number(command.word(0), "the number of emitters", 0, most_emitters));
+    const int count = int(parse_number(command.word(0), "the number of emitters", 0, max_emitters));
     const uint32_t seed = command.word(1).empty() ? 0 : uint32_t(parse_number(command.word(1), "the seed", 0, 1e6f));
     const float speed = speed_of(command.word(2));
     clear();
     if (count > 0 && !command.player)
         throw TextError("nobody plays around whom they could be");
     Random random(seed + 1);
-    const int swarms = std::min(count, most_swarms);
+    const int swarms = std::min(count, max_swarms);
     for (int i = 0; i < swarms; i++)
         add(random, to_vec3(command.player->state.origin), uint32_t(count / swarms + (i < count % swarms)), speed);
     host_.say(command.sender, fmt::format("{} emitters in {} entities", count, swarms_.size()));
@@ -94,9 +94,9 @@ void Stress::add(Random& random, glm::vec3 start, uint32_t count, float speed)
 
 void Stress::move(Swarm& swarm)
 {
-    constexpr int most_bounces = 4;
+    constexpr int max_bounces = 4;
     float left = frame_seconds;
-    for (int i = 0; i < most_bounces && left > 0; i++) {
+    for (int i = 0; i < max_bounces && left > 0; i++) {
         const glm::vec3 to = swarm.origin + swarm.velocity * left;
         const Trace hit = host_.trace(swarm.origin, to, ball_box(swarm.radius), nullptr, mask_solid);
         if (is_true(hit.start_solid)) { // a door or a lift came: it waits

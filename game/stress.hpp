@@ -7,6 +7,7 @@
 #include "game/host.hpp"
 #include "game/random.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace vkpt::game {
@@ -23,7 +24,7 @@ public:
     // Once a server frame.
     void update();
 
-    static constexpr int most_swarms = 64, most_emitters = 1024;
+    static constexpr int max_swarms = 64, max_emitters = 1024;
 
 private:
     struct Swarm {

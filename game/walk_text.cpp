@@ -138,8 +138,8 @@ std::vector<WalkAction> parse_walk_file(std::string_view text, std::string_view 
     std::vector<WalkAction> actions;
     read_lines(text, name, [&](const std::vector<std::string>& words) {
         actions.push_back(parse_action(words));
-        if (actions.size() > most_walk_actions)
-            throw TextError(fmt::format("more than {} lines", most_walk_actions));
+        if (actions.size() > max_walk_actions)
+            throw TextError(fmt::format("more than {} lines", max_walk_actions));
     });
     return actions;
 }

@@ -40,7 +40,7 @@ struct Step {
 using WalkAction = std::variant<GoTo, Wait, Look, TimedInput, Step>;
 
 inline constexpr std::string_view walk_file_mark = "# vkpt walk";
-inline constexpr size_t most_walk_actions = 20'000;
+inline constexpr size_t max_walk_actions = 20'000;
 
 // Throws TextError with `name` and line.
 std::vector<WalkAction> parse_walk_file(std::string_view text, std::string_view name);

@@ -356,7 +356,7 @@ void Walker::record_frame()
     step.jump = own_input_->up > 0;
     step.duck = own_input_->up < 0;
     step.attack = (own_input_->buttons & BUTTON_ATTACK) != 0;
-    if (actions_.size() < most_walk_actions)
+    if (actions_.size() < max_walk_actions)
         actions_.push_back(step);
 }
 

@@ -92,8 +92,17 @@ std::string correct_number(const CvarRow& row, const std::string& text)
     return number_text(corrected);
 }
 
+// Values that had another name in earlier versions; players' configurations still hold them.
+struct RenamedChoice {
+    std::string_view cvar, old_name, name;
+};
+constexpr RenamedChoice renamed_choices[] = { { "pt_light_weight", "chapter", "brdf_centre" } };
+
 std::string correct_choice(const CvarRow& row, const std::string& text)
 {
+    for (const RenamedChoice& renamed : renamed_choices)
+        if (renamed.cvar == row.name && renamed.old_name == text)
+            return std::string(renamed.name);
     if (*row.choices == '\0' || find_choice(row.choices, text) >= 0)
         return text;
     engine::print(

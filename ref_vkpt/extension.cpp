@@ -241,8 +241,8 @@ void print_info()
     if (const Module* m = module()) {
         engine::print("table reads    {}", m->graphics.device.table_reads());
         const glm::uvec2 size = m->view().rendered_size;
-        engine::print(
-            "rendered       {} x {} pixels, {} non-finite since the start", size.x, size.y, m->frame.broken_pixels());
+        engine::print("rendered       {} x {} pixels, {} non-finite since the start", size.x, size.y,
+            m->frame.nonfinite_pixels());
     }
     engine::print("light lists    {} entries", info.light_list_entries);
     engine::print("textures       {}, {:.1f} MiB", info.textures, mib(info.texture_bytes));

@@ -109,7 +109,8 @@ struct SceneEmitter {
     float radiance[3]; // average, at this moment; triangles: of the front
     float area;
     float reach; // no light farther than this from its place; 0: no limit
-    // Of spots: with the cosine between axis and receiver the light goes from all of it at the first to none at the second.
+    // Of spots: with the cosine between axis and receiver the light goes from all of it at the first to none at the
+    // second.
     float cone_axis[3] = {};
     float cone_cosines[2] = {}; // both 0: no cone
 };

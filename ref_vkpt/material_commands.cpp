@@ -96,8 +96,9 @@ void run_material_command(Module& m)
     if (word == "save")
         return save_materials(m);
     const World* world = m.scene.world();
-    const std::optional<uint32_t> texinfo
-        = world && m.view().snapshot && m.last_camera ? find_texinfo(*world, m.last_camera->eye, m.last_camera->forward) : std::nullopt;
+    const std::optional<uint32_t> texinfo = world && m.view().snapshot && m.last_camera
+        ? find_texinfo(*world, m.last_camera->eye, m.last_camera->forward)
+        : std::nullopt;
     if (!texinfo)
         return engine::print("mat: no face of the map is under the crosshair");
     if (word == "reset")

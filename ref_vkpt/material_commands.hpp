@@ -4,6 +4,7 @@
 
 #include "ref_vkpt/scene/world.hpp"
 
+#include <cstdint>
 #include <optional>
 
 namespace vkpt {

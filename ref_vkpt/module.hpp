@@ -11,12 +11,13 @@
 #include "ref_vkpt/frame/shader_warm_up.hpp"
 #include "ref_vkpt/overlay/overlay.hpp"
 #include "ref_vkpt/preset_command.hpp"
+#include "ref_vkpt/rays/trace_choice.hpp"
 #include "ref_vkpt/scene/scene.hpp"
-#include "ref_vkpt/trace/trace_choice.hpp"
 #include "ref_vkpt/workers.hpp"
 
 #include <array>
 #include <chrono>
+#include <cstdint>
 #include <optional>
 
 namespace vkpt {

@@ -13,7 +13,7 @@ namespace vkpt {
 
 namespace {
 
-constexpr double default_frames_per_second = 60, most_frames_per_second = 1000;
+constexpr double default_frames_per_second = 60, max_frames_per_second = 1000;
 
 std::string text_of(const char* name)
 {
@@ -63,15 +63,16 @@ void PresetCommand::begin_measurement()
 {
     const std::string text(engine::argument(2));
     const double frames = text.empty() ? default_frames_per_second : std::atof(text.c_str());
-    if (!(frames >= 1 && frames <= most_frames_per_second)) {
+    if (!(frames >= 1 && frames <= max_frames_per_second)) {
         engine::print("ref_vkpt: pt_preset auto takes the frames a second that are wanted, 1 to {}, not \"{}\"",
-            most_frames_per_second, text);
+            max_frames_per_second, text);
         return;
     }
     wanted_milliseconds_ = 1000 / frames;
     measurement_.emplace(wanted_milliseconds_);
     apply_preset(*find_preset(measurement_->current()));
-    engine::print("ref_vkpt: measuring frames for {:.0f} seconds", PresetMeasurement::seconds_each * double(PresetMeasurement::measured.size()));
+    engine::print("ref_vkpt: measuring frames for {:.0f} seconds",
+        PresetMeasurement::seconds_each * double(PresetMeasurement::measured.size()));
 }
 
 void PresetCommand::end_measurement()

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The renderer as a list of verbs. engine/exports.cpp translates the engine's calls into these; nothing else calls them.
-// Handles are pointers to Model, Skin picture (Texture) and so on that live until the registration after the one that
-// stopped using them.
+// The renderer as a list of verbs. engine/exports.cpp translates the engine's calls into these; nothing else calls
+// them. Handles are pointers to Model, Skin picture (Texture) and so on that live until the registration after the one
+// that stopped using them.
 #pragma once
 
 #include "ref_vkpt/engine/contract.hpp"
 
+#include <cstdint>
 #include <string_view>
 
 namespace vkpt::renderer {

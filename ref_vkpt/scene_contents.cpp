@@ -139,8 +139,7 @@ SceneContents read_scene_contents(Module& m)
     add_triangles(triangles, m);
     const Pictures pictures = m.textures.by_slot();
     for (const shared::Material& material : snapshot.materials)
-        materials.push_back(make_material(
-            material, find_picture(pictures, material.texture), snapshot.lightstyles[0]));
+        materials.push_back(make_material(material, find_picture(pictures, material.texture), snapshot.lightstyles[0]));
     visit_emitters(snapshot, [&](const shared::Emitter& emitter, float lightstyle) {
         emitters.push_back(make_emitter(emitter, lightstyle));
     });

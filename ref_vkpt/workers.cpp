@@ -6,12 +6,12 @@
 namespace vkpt {
 
 // Beyond that, memory is what limits the work of a frame.
-constexpr unsigned most_threads = 8;
+constexpr unsigned max_threads = 8;
 
 Workers::Workers(unsigned threads)
 {
     if (threads == 0)
-        threads = std::clamp(std::thread::hardware_concurrency(), 1u, most_threads);
+        threads = std::clamp(std::thread::hardware_concurrency(), 1u, max_threads);
     for (unsigned i = 1; i < threads; i++)
         threads_.emplace_back([this, i] { run_thread(i); });
 }

@@ -14,7 +14,7 @@ common shaders/shared shaders/passes.def formats ref_vkpt/extension.hpp ref_vkpt
 ref_vkpt/engine ref_vkpt/cvars ref_vkpt/files ref_vkpt/noise ref_vkpt/preset ref_vkpt/pass_statistics ref_vkpt/workers
 ref_vkpt/vulkan
 ref_vkpt/lights
-ref_vkpt/trace
+ref_vkpt/rays
 ref_vkpt/scene
 ref_vkpt/draw2d
 ref_vkpt/frame

@@ -42,7 +42,7 @@ work=$root/build/fuzz-work
 checked=$root/build/fuzz
 fast=$root/build/fuzz-fast
 seeds=$checked/fuzz/seeds
-most_kept=160000 # bytes of fuzz/corpus for each harness
+max_kept=160000 # bytes of fuzz/corpus for each harness
 
 # Share of the time, longest input in bytes, 1: half of the time without sanitizers, which is many times as fast.
 limits_of() {
@@ -105,7 +105,7 @@ keep_corpus() {
     rm -rf "${root:?}/fuzz/corpus/$name" && mkdir -p "$root/fuzz/corpus/$name"
     while read -r size file; do
         total=$((total + size))
-        ((total <= most_kept)) || break
+        ((total <= max_kept)) || break
         cp "$file" "$root/fuzz/corpus/$name/"
     done < <(find "$merged" -type f -printf '%s %p\n' | sort -n)
 }

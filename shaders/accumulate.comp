@@ -1,11 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Puts the picture's radiance together, the last level of the spatial filter included, and averages it with the frames before while
-// nothing moves.
+// Puts the picture's radiance together, the last level of the spatial filter included, and averages it with the frames
+// before while nothing moves.
 #define VKPT_DEVIATIONS_ARE_KNOWN
 #include "lib/frame.glsl"
-#include "denoise/denoise_spread.glsl"
+#include "denoise/denoise_atrous.glsl"
 #include "lib/picture.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DarkLightBuffer { DarkLight v[]; };
@@ -19,7 +19,7 @@ ReflectedLight reflected_light(uvec2 pixel, uint index, Surface surface)
     if (frame.cvars.flt_denoiser == DENOISER_TEMPORAL)
         light = unpack_filtered(load_filtered(index));
     else
-        light = spread_light(pixel, index, load_guide(index), load_element(push.source, index, uvec4(0u)));
+        light = filter_atrous(pixel, index, load_features(index), load_element(push.source, index, uvec4(0u)));
     return ReflectedLight(light.diffuse, specular_tint(surface) * light.specular);
 }
 
@@ -50,10 +50,11 @@ void compose_pixel(uvec2 pixel, uint index)
     vec3 radiance = load_emitted(index);
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0)
-        radiance += unpack_light3(load_throughput(index)) * shown_light(reflected_light(pixel, index, primary.surface), primary.surface);
-    // One broken path must not blacken a pixel for ever.
-    if (is_broken(radiance)) {
-        count_broken_pixel();
+        radiance += unpack_light3(load_throughput(index))
+            * shown_light(reflected_light(pixel, index, primary.surface), primary.surface);
+    // One path that is not finite must not blacken a pixel for ever.
+    if (is_nonfinite(radiance)) {
+        count_nonfinite_pixel();
         radiance = vec3(0.0);
     }
     if ((frame.flags & FRAME_LAYERED) != 0u)

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Puts the layers together that pixels share out (lib/layers.glsl): the mean of what the three classes of pixels show here, each its own
-// layer, or that of the neighbours that follow it.
+// Puts the layers together that pixels share out (lib/layers.glsl): the mean of what the three classes of pixels show
+// here, each its own layer, or that of the neighbours that follow it.
 #include "lib/frame.glsl"
 #include "lib/layers.glsl"
 #include "lib/picture.glsl"

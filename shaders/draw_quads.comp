@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The 2D layer: one workgroup blends the quads of one tile over the picture, straight alpha, in drawing order. A compute
-// pass rather than triangles: each pixel is read and written once, and Mesa's CPU driver rasterises badly.
+// The 2D layer: one workgroup blends the quads of one tile over the picture, straight alpha, in drawing order. A
+// compute pass rather than triangles: each pixel is read and written once, and Mesa's CPU driver rasterises badly.
 #include "lib/frame.glsl"
 #include "lib/packing.glsl"
 #include "shared/quad.h"
@@ -45,17 +45,18 @@ void main()
     const QuadTile tile = QuadTileList(push.tiles).v[gl_WorkGroupID.x];
     const uvec2 first = tile.origin + gl_LocalInvocationID.xy;
     vec4 colors[quarters];
-    [[unroll]] for (uint i = 0u; i < quarters; i++)
+    UNROLLED_FOR (uint i = 0u; i < quarters; i++)
         colors[i] = vec4(0.0);
     if (tile.covered == 0u)
-        [[unroll]] for (uint i = 0u; i < quarters; i++)
-            colors[i] = unpack_unorm4(load_element(push.output_words, output_index(min(pixel_of_quarter(first, i), push.output_size - 1u)), 0u));
+        UNROLLED_FOR (uint i = 0u; i < quarters; i++)
+            colors[i] = unpack_unorm4(load_element(
+                push.output_words, output_index(min(pixel_of_quarter(first, i), push.output_size - 1u)), 0u));
     for (uint place = 0u; place < tile.count; place++) {
         const Quad quad = QuadList(push.quads).v[QuadIndexList(push.quad_indices).v[tile.first + place]];
-        [[unroll]] for (uint i = 0u; i < quarters; i++)
+        UNROLLED_FOR (uint i = 0u; i < quarters; i++)
             colors[i] = blend(colors[i], quad, vec2(pixel_of_quarter(first, i)) + 0.5);
     }
-    [[unroll]] for (uint i = 0u; i < quarters; i++) {
+    UNROLLED_FOR (uint i = 0u; i < quarters; i++) {
         const uvec2 pixel = pixel_of_quarter(first, i);
         if (all(lessThan(pixel, push.output_size)))
             store_element(push.output_words, output_index(pixel), pack_unorm4(colors[i]));

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Automatic exposure: the picture's log-average luminance, without its darkest and brightest tails, becomes middle grey.
+// Automatic exposure: the picture's log-average luminance, without its darkest and brightest tails, becomes middle
+// grey.
 #include "lib/frame.glsl"
 #include "lib/bsdf.glsl"
 

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Light that reaches the primary surface over pt_bounces further surfaces, added to what direct_light stored. With an MIS
-// sampler also what its rays find of the emitters that direct_light sampled; then it runs without bounces, too.
+// Light that reaches the primary surface over pt_bounces further surfaces, added to what direct_light stored. With an
+// MIS sampler also what its rays find of the emitters that direct_light sampled; then it runs without bounces, too.
 #include "lib/frame.glsl"
 #include "lib/bounce_blocks.glsl"
 #include "lib/guides.glsl"
@@ -22,13 +22,13 @@ struct BouncePath {
     vec3 throughput;
     vec3 radiance;
     float ray_length; // of the last segment
-    vec3 met;   // where the last segment ended
+    vec3 met; // where the last segment ended
     uint guide; // that it ended on, 0: none
     bool lit_by_cache; // the surface: its direct light is complete, whatever MIS makes of it elsewhere
 };
 
 // Nearer than this a surface's light varies over what the ray's end stands for: it is sampled.
-const float least_cached_distance = 32.0;
+const float min_cached_distance = 32.0;
 
 float limit_radiance(vec3 radiance)
 {
@@ -40,7 +40,7 @@ float limit_radiance(vec3 radiance)
 vec3 count_emission(BouncePath path, BsdfSample bsdf, HitSurface hit, Random pixel_random)
 {
     bool is_sky = (hit.flags & MATERIAL_SKY) != 0u;
-    if (hit.emitter == EMITTER_DIM)
+    if (hit.emitter == EMITTER_SAMPLED_APART)
         return vec3(0.0);
     if (hit.emitter < 0) {
         // Not in the lists, so that only a bounce finds it.
@@ -72,7 +72,7 @@ CachedLight find_cached_light(HitSurface hit)
 // Radiance that the path's new surface sends back of the light that arrives there directly.
 vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixel_random)
 {
-    bool known = (frame.flags & FRAME_LIGHT_CACHE) != 0u && cached.known && path.ray_length >= least_cached_distance
+    bool known = (frame.flags & FRAME_LIGHT_CACHE) != 0u && cached.known && path.ray_length >= min_cached_distance
         && reflects_like_cache(path.surface, cached);
     path.lit_by_cache = known;
     LightRandom random = light_random(pixel_random, path.vertex);
@@ -89,7 +89,8 @@ vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixe
 // Traces a ray and moves the path to what it finds. False: the path has ended.
 bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
 {
-    Ray ray = Ray(leave_surface(path.surface.position, path.surface.geometric_normal), bsdf.direction, 0.0, ray_far);
+    Ray ray
+        = Ray(offset_ray_origin(path.surface.position, path.surface.geometric_normal), bsdf.direction, 0.0, ray_far);
     RawHit raw = trace_nearest(ray, mask_bounce);
     path.guide = 0u;
     if (raw.triangle == TRACE_MISS)
@@ -113,13 +114,15 @@ bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
 struct FoundLight {
     vec3 radiance;
     vec3 direction; // where the first ray went
-    float pdf;      // the density that it was drawn with; 0: nothing was found
-    float reflected_distance;
+    float pdf; // the density that it was drawn with; 0: nothing was found
+    float specular_hit_distance;
 };
 const FoundLight nothing_found = FoundLight(vec3(0.0), vec3(0.0), 0.0, -1.0);
 
-const uint first_guide_dimension = 10u; // in the first bounce's block, behind those of the BSDF sample and of the light where it ends
-const float guided_share = 0.5; // of the first rays, where there are guides. Half: then MIS weighs the two densities as they are
+const uint first_guide_dimension
+    = 10u; // in the first bounce's block, behind those of the BSDF sample and of the light where it ends
+const float guided_share
+    = 0.5; // of the first rays, where there are guides. Half: then MIS weighs the two densities as they are
 
 // The path's first ray, as sample_bsdf draws it or towards a guide.
 BsdfSample choose_first_ray(BouncePath path, Guides guides, bool to_guide, inout GuideSample aim, Random random)
@@ -140,17 +143,20 @@ BsdfSample choose_first_ray(BouncePath path, Guides guides, bool to_guide, inout
     return result;
 }
 
-// The share of what the first ray found that is counted for it: both ways to meet a guide's cell share it by MIS, and a ray that
-// was aimed at one and met something else has found nothing.
-float share_with_other_way(Guides guides, PrimarySurface primary, BouncePath path, bool to_guide, GuideSample aim, BsdfSample first)
+// The share of what the first ray found that is counted for it: both ways to meet a guide's cell share it by MIS, and a
+// ray that was aimed at one and met something else has found nothing.
+float share_with_other_way(
+    Guides guides, PrimarySurface primary, BouncePath path, bool to_guide, GuideSample aim, BsdfSample first)
 {
     if (guides.total <= 0.0 || path.guide == 0u)
         return to_guide ? 0.0 : 1.0;
     float aimed = pdf_guide(guides, primary.surface, path.guide, path.met);
     if (!to_guide)
-        return mis_share(first.pdf, aimed);
+        return mis_weight(first.pdf, aimed);
     // By the density of the place that was met: rounding may have brought the ray to the next cell.
-    return path.guide == aim.guide && aimed > 0.0 ? mis_share(aimed, pdf_bsdf(primary.surface, first.direction)) * first.pdf / aimed : 0.0;
+    return path.guide == aim.guide && aimed > 0.0
+        ? mis_weight(aimed, pdf_bsdf(primary.surface, first.direction)) * first.pdf / aimed
+        : 0.0;
 }
 
 // Chooses a guide, and whether the first ray is aimed at it.
@@ -158,7 +164,8 @@ Guides choose_guide(PrimarySurface primary, Random pixel_random, out bool to_gui
 {
     Guides guides = no_guides;
     to_guide = false;
-#ifndef VKPT_SAMPLER_MIS // whose rays share the emitters that they meet with light sampling, by the density of BSDF rays
+#ifndef VKPT_SAMPLER_MIS // whose rays share the emitters that they meet with light sampling, by the density of BSDF
+                         // rays
     Random random = random_for_bounce(pixel_random, 2u);
     random.dimension += first_guide_dimension;
     guides = open_guides(primary.surface, primary.cluster, next_float(random));
@@ -172,10 +179,11 @@ FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary)
     Random pixel_random = random_of_pixel(pixel, index);
     bool to_guide;
     Guides guides = choose_guide(primary, pixel_random, to_guide);
-    BouncePath path = BouncePath(primary.surface, primary.cluster, 0u, vec3(1.0), vec3(0.0), -1.0, vec3(0.0), 0u, false);
+    BouncePath path
+        = BouncePath(primary.surface, primary.cluster, 0u, vec3(1.0), vec3(0.0), -1.0, vec3(0.0), 0u, false);
     FoundLight found = nothing_found;
     float share = 1.0;
-    [[dont_unroll]] for (uint bounce = 0u; bounce < bsdf_ray_count(); bounce++) {
+    ROLLED_FOR (uint bounce = 0u; bounce < bsdf_ray_count(); bounce++) {
         Random random = random_for_bounce(pixel_random, bounce + 2u);
         GuideSample aim = GuideSample(0u, vec3(0.0), 0.0);
         BsdfSample bsdf = choose_first_ray(path, guides, to_guide && bounce == 0u, aim, random);
@@ -191,7 +199,7 @@ FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary)
         if (bounce == 0u) {
             share = share_with_other_way(guides, primary, path, to_guide, aim, bsdf);
             if (bsdf.lobe == BSDF_LOBE_SPECULAR)
-                found.reflected_distance = path.ray_length;
+                found.specular_hit_distance = path.ray_length;
         }
         if (!goes_on || share == 0.0)
             break;
@@ -203,19 +211,19 @@ FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary)
 
 void add_light(uint index, Surface s, FoundLight found, float scale)
 {
-    store_reflected_distance(index, found.reflected_distance);
+    store_specular_hit_distance(index, found.specular_hit_distance);
     if (found.pdf <= 0.0)
         return;
     BsdfValue reflected = evaluate_bsdf(s, found.direction);
     vec3 radiance = found.radiance * (scale / found.pdf);
     ReflectedLight light = load_reflected_light(index);
-    store_reflected_light(
-        index, ReflectedLight(light.diffuse + reflected.diffuse * radiance, light.specular + reflected.specular * radiance));
+    store_reflected_light(index,
+        ReflectedLight(light.diffuse + reflected.diffuse * radiance, light.specular + reflected.specular * radiance));
 }
 
 // Narrower lobes reflect something else one pixel on: such surfaces send rays of their own.
-const float least_shared_roughness = 0.2;
-bool sends_own_rays(PrimarySurface p) { return p.surface.roughness < least_shared_roughness; }
+const float min_shared_roughness = 0.2;
+bool sends_own_rays(PrimarySurface p) { return p.surface.roughness < min_shared_roughness; }
 
 // Of a block's pixel; without depth where it lies outside the screen.
 PrimarySurface load_block_surface(uvec2 pixel)
@@ -231,12 +239,13 @@ bool was_seen(uvec2 pixel)
     if (!is_on_screen(pixel))
         return false;
     uint index = pixel_index(pixel), there;
-    Search search = make_search(load_guide(index), unpack_upper_halves(load_slope(index)), load_motion(index));
-    return shows_surface(search, nearest_in_last_view(search.shown.xy), there);
+    ReprojectionQuery query
+        = make_query(load_features(index), unpack_upper_halves(load_depth_gradient(index)), load_reprojected(index));
+    return shows_surface(query, nearest_in_last_view(query.shown.xy), there);
 }
 
-// Whether the block has no history: what its pixels share would stand out as specks then. Beside an edge, or of a thin thing, one of two
-// opposite pixels may have one.
+// Whether the block has no history: what its pixels share would stand out as specks then. Beside an edge, or of a thin
+// thing, one of two opposite pixels may have one.
 bool is_new(BounceBlock block)
 {
     if ((frame.flags & FRAME_HISTORY) == 0u)
@@ -250,12 +259,12 @@ bool is_new(BounceBlock block)
 // Whether the same light falls on two neighbouring pixels, and their lobes are alike.
 bool are_alike(PrimarySurface a, PrimarySurface b)
 {
-    const float least_cosine = 0.97, most_roughness_difference = 0.1, most_off_plane = 0.008; // of the depth
+    const float min_cosine = 0.97, max_roughness_difference = 0.1, max_off_plane = 0.008; // of the depth
     vec3 way = b.surface.position - a.surface.position;
     float off = max(abs(dot(way, a.surface.geometric_normal)), abs(dot(way, b.surface.geometric_normal)));
     return a.depth >= 0.0 && b.depth >= 0.0 && !sends_own_rays(a) && !sends_own_rays(b)
-        && off <= most_off_plane * min(a.depth, b.depth) && dot(a.surface.normal, b.surface.normal) >= least_cosine
-        && abs(a.surface.roughness - b.surface.roughness) <= most_roughness_difference
+        && off <= max_off_plane * min(a.depth, b.depth) && dot(a.surface.normal, b.surface.normal) >= min_cosine
+        && abs(a.surface.roughness - b.surface.roughness) <= max_roughness_difference
         && abs(a.surface.metallic - b.surface.metallic) < 0.5;
 }
 
@@ -264,14 +273,15 @@ uint find_alike(BounceBlock block)
 {
     PrimarySurface leader = load_block_surface(pixel_of_block(block, 0u));
     uint alike = are_alike(leader, leader) ? 1u : 0u;
-    [[dont_unroll]] for (uint i = 1u; i < bounce_block_pixels(); i++)
+    ROLLED_FOR (uint i = 1u; i < bounce_block_pixels(); i++)
         alike |= are_alike(leader, load_block_surface(pixel_of_block(block, i))) ? 1u << i : 0u;
     return alike;
 }
 
-// The leader's path, and those of pixels that do not share. What the leader found goes to the pixels that are like it, as if each
-// had sent the ray. Who has fewer of its kind in the block is lit more seldom, as those have fewer turns to lead, and the
-// more when it is: the mean stays. Where the last view did not show what the block does, all go their own way.
+// The leader's path, and those of pixels that do not share. What the leader found goes to the pixels that are like it,
+// as if each had sent the ray. Who has fewer of its kind in the block is lit more seldom, as those have fewer turns to
+// lead, and the more when it is: the mean stays. Where the last view did not show what the block does, all go their own
+// way.
 void light_block(uvec2 number, uint)
 {
     BounceBlock block = open_bounce_block(number);
@@ -280,7 +290,7 @@ void light_block(uvec2 number, uint)
     uint alike = shares ? find_alike(block) : 0u;
     float scale = alike != 0u ? float(pixels) / float(bitCount(alike)) : 1.0;
     FoundLight found = nothing_found;
-    [[dont_unroll]] for (uint i = 0u; i < pixels; i++) {
+    ROLLED_FOR (uint i = 0u; i < pixels; i++) {
         uvec2 pixel = pixel_of_block(block, i);
         uint index = pixel_index(pixel);
         PrimarySurface primary = load_block_surface(pixel);
@@ -294,7 +304,7 @@ void light_block(uvec2 number, uint)
             } else if ((alike >> i & 1u) != 0u && found.pdf > 0.0) {
                 add_light(index, primary.surface, found, scale);
             } else {
-                store_reflected_distance(index, -1.0);
+                store_specular_hit_distance(index, -1.0);
             }
             // Others' light, and more than its own, is no sample of the pixel that could be repeated.
             bool own_sample = alone || (leads && scale == 1.0);

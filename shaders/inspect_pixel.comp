@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the light sampler makes of one pixel's surface: for every light of its list the weight and the probability, and how often
-// it is really picked. For people who look at samplers (Extension::inspect_pixel); no part of a frame.
+// What the light sampler makes of one pixel's surface: for every light of its list the weight and the probability, and
+// how often it is really picked. For people who look at samplers (Extension::inspect_pixel); no part of a frame.
 #include "lib/frame.glsl"
 #include "lib/light_choice.glsl"
 #include "shared/probes.h"
@@ -10,7 +10,10 @@
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
 VKPT_PUSH_CONSTANTS
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer InspectedSurfaceBuffer { InspectedSurface v; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer InspectedSurfaceBuffer
+{
+    InspectedSurface v;
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer InspectedLightBuffer { InspectedLight v[]; };
 
 // The n-th of the choices that are averaged over, or counted, by `lane`.
@@ -32,7 +35,7 @@ void write_light(uint place, LightListView list, Surface s, LightOptions options
     uint emitter = light_at(list, place);
     Emitter e = load_emitter(list, emitter);
     float sum = 0.0;
-    [[dont_unroll]] for (uint n = 0u; n < push.draws; n++)
+    ROLLED_FOR (uint n = 0u; n < push.draws; n++)
         sum += light_probability(list, s, emitter, choice_random(n, place), options);
     InspectedLightBuffer lights = InspectedLightBuffer(push.lights);
     lights.v[place].emitter = emitter;
@@ -58,9 +61,9 @@ void main()
     if (!has_surface)
         return;
     LightOptions options = light_options();
-    [[dont_unroll]] for (uint place = lane; place < min(count, push.capacity); place += lanes)
+    ROLLED_FOR (uint place = lane; place < min(count, push.capacity); place += lanes)
         write_light(place, list, primary.surface, options);
-    [[dont_unroll]] for (uint n = 0u; n < choices_per_lane; n++) {
+    ROLLED_FOR (uint n = 0u; n < choices_per_lane; n++) {
         LightSample choice = sample_light(list, primary.surface, choice_random(n, lane + 0x10000u), options);
         int place = choice.emitter < 0 ? -1 : find_light(list, uint(choice.emitter));
         if (place >= 0 && uint(place) < push.capacity)

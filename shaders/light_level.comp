@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How bright it is where the player stands, for the monsters' eyes (r_lightlevel): direct light on the floor below the eye.
+// How bright it is where the player stands, for the monsters' eyes (r_lightlevel): direct light on the floor below the
+// eye.
 #define VKPT_ALWAYS_RIS
 #define VKPT_LIGHT_PASSES_OWN_BODY // the light that falls on the player is wanted, not what the player leaves of it
 #include "lib/frame.glsl"
@@ -15,7 +16,7 @@ const uint samples_per_lane = 4u;
 float sample_floor(Surface surface, int cluster, uint lane)
 {
     float sum = 0.0;
-    [[dont_unroll]] for (uint i = 0u; i < samples_per_lane; i++) {
+    ROLLED_FOR (uint i = 0u; i < samples_per_lane; i++) {
         LightRandom random = light_random(make_random(uvec2(lane, i), frame.frame_index, frame.seed), 0u);
         sum += luminance(sample_direct_light(surface, cluster, random, false).diffuse);
     }

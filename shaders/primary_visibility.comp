@@ -13,7 +13,7 @@ const uint max_specular_segments = 12u;
 // Sprites, beams and particles on the way do not count: of those at an opacity of 0.05, the 84th is hardly seen.
 const uint max_unlit_segments = 128u;
 // What is behind particles that let less than this through is not looked for.
-const float least_throughput = 0.015;
+const float min_throughput = 0.015;
 const uint mask_camera = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_VIEW_WEAPON | MASK_SKY;
 const uint mask_reflected = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
 // Metals smoother than this are mirrors.
@@ -25,7 +25,8 @@ float fresnel_dielectric(float cosine, float ratio)
     float g2 = ratio * ratio - 1.0 + cosine * cosine;
     if (g2 <= 0.0)
         return 1.0;
-    float g = sqrt(g2), a = (g - cosine) / (g + cosine), b = (cosine * (g + cosine) - 1.0) / (cosine * (g - cosine) + 1.0);
+    float g = sqrt(g2), a = (g - cosine) / (g + cosine),
+          b = (cosine * (g + cosine) - 1.0) / (cosine * (g - cosine) + 1.0);
     return 0.5 * a * a * (1.0 + b * b);
 }
 
@@ -39,12 +40,13 @@ vec3 water_normal(vec3 position, vec3 normal)
 {
     if (abs(normal.z) < 0.7)
         return normal;
-    vec2 slope = wave_slope(WATER_WAVE_A, WATER_SLOPE_A, position.xy) + wave_slope(WATER_WAVE_B, WATER_SLOPE_B, position.xy)
-        + wave_slope(WATER_WAVE_C, WATER_SLOPE_C, position.xy);
+    vec2 slope = wave_slope(WATER_WAVE_A, WATER_SLOPE_A, position.xy)
+        + wave_slope(WATER_WAVE_B, WATER_SLOPE_B, position.xy) + wave_slope(WATER_WAVE_C, WATER_SLOPE_C, position.xy);
     return normalize(normal - vec3(slope, 0.0) * sign(normal.z));
 }
 
-// Whether to follow the layer that is `share` of the whole rather than the one behind it; `weight`: what it then counts for.
+// Whether to follow the layer that is `share` of the whole rather than the one behind it; `weight`: what it then counts
+// for.
 bool choose_layer(inout Layers layers, float share, inout Random random, out float weight)
 {
     weight = 1.0;
@@ -70,7 +72,7 @@ struct Path {
     uint unlit_segments; // that ended on what is unlit
     HitSurface hit;
     vec3 mirror; // normal of the last mirror, 0: none
-    vec3 moved;  // from where the surface's point was in the last view
+    vec3 moved; // from where the surface's point was in the last view
     Layers layers;
 };
 
@@ -79,7 +81,7 @@ void reflect_path(inout Path path, Surface s, vec3 normal)
     path.ray.direction = reflect(path.ray.direction, normal);
     if (dot(path.ray.direction, s.geometric_normal) < 1e-3)
         path.ray.direction = normalize(path.ray.direction + s.geometric_normal * 0.02);
-    path.ray.origin = leave_surface(s.position, s.geometric_normal);
+    path.ray.origin = offset_ray_origin(s.position, s.geometric_normal);
     path.mask = mask_reflected;
     path.mirror = normal;
 }
@@ -87,7 +89,7 @@ void reflect_path(inout Path path, Surface s, vec3 normal)
 void pass_through(inout Path path, Surface s, vec3 direction)
 {
     path.ray.direction = direction;
-    path.ray.origin = leave_surface(s.position, -s.geometric_normal);
+    path.ray.origin = offset_ray_origin(s.position, -s.geometric_normal);
 }
 
 void meet_water(inout Path path, Surface s, inout Random random)
@@ -120,7 +122,8 @@ vec3 movement(RawHit raw, vec3 position)
     PreviousPositionBuffer corners = PreviousPositionBuffer(frame.scene.previous_positions);
     uint first = (raw.triangle - frame.scene.first_moving) * 3u;
     vec2 b = raw.barycentrics;
-    return position - (corners.v[first] * (1.0 - b.x - b.y) + corners.v[first + 1u] * b.x + corners.v[first + 2u] * b.y);
+    return position
+        - (corners.v[first] * (1.0 - b.x - b.y) + corners.v[first + 1u] * b.x + corners.v[first + 2u] * b.y);
 }
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
@@ -129,10 +132,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Exp
 // sun nor blinding in the dark, but look as they do where exposure_of_unlit is right.
 float unlit_scale(uint flags)
 {
-    const float exposure_of_unlit = 0.72, most_scale = 50.0;
+    const float exposure_of_unlit = 0.72, max_scale = 50.0;
     ExposureBuffer exposure = ExposureBuffer(frame.exposure);
     bool adapts = (flags & MATERIAL_PARTICLE) != 0u && exposure.v.valid != 0u;
-    return adapts ? clamp(exposure_of_unlit / exposure.v.exposure, 1.0 / most_scale, most_scale) : 1.0;
+    return adapts ? clamp(exposure_of_unlit / exposure.v.exposure, 1.0 / max_scale, max_scale) : 1.0;
 }
 
 // Follows the path over one segment. False: it has ended.
@@ -175,7 +178,7 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
         path.emitted += path.throughput * s.albedo * (hit.opacity * unlit_scale(hit.flags));
         path.throughput *= 1.0 - hit.opacity;
         path.unlit_segments++;
-        if (quick_max3(path.throughput) > least_throughput && path.unlit_segments < max_unlit_segments) {
+        if (quick_max3(path.throughput) > min_throughput && path.unlit_segments < max_unlit_segments) {
             pass_through(path, s, path.ray.direction);
             return true;
         }
@@ -205,18 +208,21 @@ void store_reprojection(uint index, Path path, vec3 direction, vec2 offset)
     Camera camera = frame.camera;
     vec3 seen = direction * distance;
     float depth = dot(seen, camera.forward);
-    ScreenPoint before = project(frame.previous_camera, camera.eye + seen - mirrored(path, path.moved), frame.previous_size);
-    store_motion(index, vec3(place_in_last_view(before, offset), before.depth));
+    ScreenPoint before
+        = project(frame.previous_camera, camera.eye + seen - mirrored(path, path.moved), frame.previous_size);
+    store_reprojected(index, vec3(place_in_last_view(before, offset), before.depth));
     Surface s = path.hit.surface;
-    store_guide(index,
-        path.reached_surface ? pack_guide(mirrored(path, s.normal), material_key(s.roughness, s.metallic), depth) : uvec2(0u));
+    store_features(index,
+        path.reached_surface ? pack_features(mirrored(path, s.normal), material_key(s.roughness, s.metallic), depth)
+                             : uvec2(0u));
     if (!path.reached_surface) {
-        store_slope(index, 0u); // strata of such pixels ask for it, too
+        store_depth_gradient(index, 0u); // strata of such pixels ask for it, too
         return;
     }
     vec3 plane = mirrored(path, s.geometric_normal);
-    vec2 slope = vec2(dot(plane, camera.right), -dot(plane, camera.up)) * 2.0 / vec2(frame.size) * depth / dot(plane, seen);
-    store_slope(index, pack_upper_halves(clamp(slope, -8.0, 8.0)));
+    vec2 slope
+        = vec2(dot(plane, camera.right), -dot(plane, camera.up)) * 2.0 / vec2(frame.size) * depth / dot(plane, seen);
+    store_depth_gradient(index, pack_upper_halves(clamp(slope, -8.0, 8.0)));
 }
 
 void see_pixel(uvec2 pixel, uint index)
@@ -239,7 +245,7 @@ void see_pixel(uvec2 pixel, uint index)
     path.layers = (frame.flags & FRAME_LAYERED) != 0u ? share_layers(pixel) : unshared_layers;
     float cone_spread = 2.0 * length(frame.camera.right) / float(frame.size.x);
 
-    [[dont_unroll]] for (uint segment = 0u; segment < max_specular_segments + path.unlit_segments; segment++)
+    ROLLED_FOR (uint segment = 0u; segment < max_specular_segments + path.unlit_segments; segment++)
         if (!follow_path(path, cone_spread, random))
             break;
     store_traced_rays(index, 0u);

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Traces a list of rays, one per pixel, and writes what each met: for tests, benches, and the choice of a trace backend.
+// Traces a list of rays, one per pixel, and writes what each met: for tests, benches, and the choice of a trace
+// backend.
 #include "lib/frame.glsl"
 #include "lib/trace.glsl"
 #include "shared/probes.h"

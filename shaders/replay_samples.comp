@@ -1,14 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A-SVGF: one pixel of every stratum is to repeat, with this view's lights, the sample that the last view took of the same surface:
-// it takes over the very surface and the random numbers. What then differs is the light (Schied, Peters and Dachsbacher 2018,
-// section 4; they project last view's samples forwards, here this view's pixels look backwards).
+// A-SVGF: one pixel of every stratum is to repeat, with this view's lights, the sample that the last view took of the
+// same surface: it takes over the very surface and the random numbers. What then differs is the light (Schied, Peters
+// and Dachsbacher 2018, section 4; they project last view's samples forwards, here this view's pixels look backwards).
 #include "lib/frame.glsl"
 #include "denoise/denoise.glsl"
 
 // Pixels that the old sample may lie off: sideways, and so along the surface at grazing angles.
-const float most_pixels_off = 1.5;
+const float max_pixels_off = 1.5;
 
 // Whether the last view's pixel `there` shows the same surface.
 bool shows_same(uint there, PrimarySurface primary)
@@ -17,23 +17,23 @@ bool shows_same(uint there, PrimarySurface primary)
     float pixel_width = primary.depth * 2.0 * length(frame.camera.right) / float(frame.size.x);
     float cosine = max(dot(primary.surface.geometric_normal, primary.surface.view), 0.05);
     vec3 off = old.xyz - primary.surface.position;
-    float most_off = most_pixels_off * pixel_width / cosine;
+    float max_off = max_pixels_off * pixel_width / cosine;
     vec3 old_normal = unpack_direction(load_previous_normals(there).x);
-    return old.w >= 0.0 && dot(off, off) <= most_off * most_off && dot(old_normal, primary.surface.normal) > 0.9;
+    return old.w >= 0.0 && dot(off, off) <= max_off * max_off && dot(old_normal, primary.surface.normal) > 0.9;
 }
 
 const uint no_pixel = 0xffffffffu;
 
-// The last view's pixel whose sample of the same surface can be repeated, or no_pixel: where the surface was, or where pixels share rays,
-// one of the block.
+// The last view's pixel whose sample of the same surface can be repeated, or no_pixel: where the surface was, or where
+// pixels share rays, one of the block.
 uint find_sample(uint index, PrimarySurface primary)
 {
-    ivec2 place = nearest_in_last_view(load_motion(index).xy);
+    ivec2 place = nearest_in_last_view(load_reprojected(index).xy);
     if (!is_in_last_view(place))
         return no_pixel;
     BounceBlock block = bounce_block_of(uvec2(place));
     uint found = no_pixel;
-    [[dont_unroll]] for (uint i = bounce_block_pixels(); i-- > 0u;) { // its own pixel comes last
+    ROLLED_FOR (uint i = bounce_block_pixels(); i-- > 0u;) { // its own pixel comes last
         uvec2 pixel = min(pixel_of_block(block, i), frame.previous_size - 1u);
         uint there = pixel.y * frame.previous_size.x + pixel.x;
         uvec2 seed = load_previous_random_seed(there);

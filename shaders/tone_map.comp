@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From radiance to what the screen shows, at the window's size: under water it sways, bright things shine over, exposure and tone
-// curve, the engine's blend, gamma, and 8 bits by blue noise. Debug views take the picture's place.
+// From radiance to what the screen shows, at the window's size: under water it sways, bright things shine over,
+// exposure and tone curve, the engine's blend, gamma, and 8 bits by blue noise. Debug views take the picture's place.
 #include "lib/frame.glsl"
 #include "bloom/bloom.glsl"
 #include "lib/debug_views.glsl"
@@ -12,8 +12,8 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
-// A shoulder and a toe around a straight middle, rational in x: a (x (x + toe)) / (x (x shoulder + slope) + lift), scaled so
-// that `white` maps to 1.
+// A shoulder and a toe around a straight middle, rational in x: a (x (x + toe)) / (x (x shoulder + slope) + lift),
+// scaled so that `white` maps to 1.
 vec3 filmic_curve(vec3 x)
 {
     const float toe = 0.025, shoulder = 0.96, slope = 0.60, lift = 0.12, white = 11.0;
@@ -23,7 +23,8 @@ vec3 filmic_curve(vec3 x)
 
 vec3 encode_srgb(vec3 linear)
 {
-    return mix(1.055 * pow(quick_max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055, linear * 12.92, lessThan(linear, vec3(0.0031308)));
+    return mix(1.055 * pow(quick_max(linear, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055, linear * 12.92,
+        lessThan(linear, vec3(0.0031308)));
 }
 
 // The picture's radiance at a place from (0, 0) to (1, 1): as it is where pixels match, else between four of them.
@@ -48,13 +49,14 @@ vec3 sample_sharpened(vec2 place)
     float exposure = ExposureBuffer(frame.exposure).v.exposure;
     vec3 shades[5];
     const vec2 ways[5] = vec2[](vec2(0.0), vec2(-1.0, 0.0), vec2(1.0, 0.0), vec2(0.0, -1.0), vec2(0.0, 1.0));
-    [[unroll]] for (int i = 0; i < 5; i++)
+    UNROLLED_FOR (int i = 0; i < 5; i++)
         shades[i] = to_shades(sample_radiance(place + ways[i] / vec2(frame.output_size)) * exposure);
-    return from_shades(sharpen(shades[0], shades[1], shades[2], shades[3], shades[4], frame.cvars.flt_sharpen)) / exposure;
+    return from_shades(sharpen(shades[0], shades[1], shades[2], shades[3], shades[4], frame.cvars.flt_sharpen))
+        / exposure;
 }
 
-// Where the eye sees `place` from under water: displaced along each axis by a wave that runs along the other, and drawn in by as
-// much as the waves are high, so that nothing beyond the edge is asked for.
+// Where the eye sees `place` from under water: displaced along each axis by a wave that runs along the other, and drawn
+// in by as much as the waves are high, so that nothing beyond the edge is asked for.
 vec2 sway(vec2 place)
 {
     float height = 0.008 * frame.cvars.pt_water_warp;
@@ -75,7 +77,8 @@ vec3 shown_colour(uvec2 pixel)
         place = sway(place);
     vec3 radiance = frame.cvars.flt_sharpen > 0.0 ? sample_sharpened(place) : sample_radiance(place);
     if ((frame.flags & FRAME_BLOOM) != 0u)
-        radiance = mix(radiance, sample_bloom_level(frame.screen.bloom.address, frame.bloom_size, place), frame.cvars.pt_bloom);
+        radiance = mix(
+            radiance, sample_bloom_level(frame.screen.bloom.address, frame.bloom_size, place), frame.cvars.pt_bloom);
     vec3 exposed = radiance * (ExposureBuffer(frame.exposure).v.exposure * frame.overbright);
     vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve(exposed) : quick_clamp(exposed, 0.0, 1.0);
     vec3 colour = mix(quick_min(encode_srgb(display) * frame.intensity, vec3(1.0)), frame.blend.rgb, frame.blend.a);
@@ -84,7 +87,8 @@ vec3 shown_colour(uvec2 pixel)
     if (abs(gamma - 1.0) > 1e-3)
         colour = pow(colour, vec3(gamma));
     float dither = blue_dimension(BlueNoiseBuffer(frame.blue_noise), pixel, frame.frame_index,
-        blue_period_key(frame.frame_index, 0u), 0u) - 0.5;
+                       blue_period_key(frame.frame_index, 0u), 0u)
+        - 0.5;
     return colour + dither / 255.0;
 }
 
@@ -97,7 +101,8 @@ void show_pixel(uvec2 pixel, uint index)
             return;
     }
     uvec2 place = frame.output_origin + pixel;
-    store_element(frame.output_words, place.y * frame.output_across + place.x, pack_unorm4(vec4(shown_colour(pixel), 1.0)));
+    store_element(
+        frame.output_words, place.y * frame.output_across + place.x, pack_unorm4(vec4(shown_colour(pixel), 1.0)));
 }
 
 VKPT_RUN_OVER(frame.output_size, show_pixel)

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Takes samples of the light that arrives at some of the light cache's cells: a random point of the face in the cell, one light,
-// one shadow ray.
+// Takes samples of the light that arrives at some of the light cache's cells: a random point of the face in the cell,
+// one light, one shadow ray.
 #define VKPT_ALWAYS_SUBSET_PPS
 #include "lib/frame.glsl"
 #include "lib/light_cache.glsl"
@@ -13,14 +13,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Cac
 CacheFacePlane load_cache_plane(uint face)
 {
     uint64_t address = frame.scene.cache.planes + uint64_t(face * 64u);
-    uvec4 a = load_element(address, 0u, uvec4(0u)), b = load_element(address, 1u, uvec4(0u)), c = load_element(address, 2u, uvec4(0u)),
-          d = load_element(address, 3u, uvec4(0u));
-    return CacheFacePlane(
-        uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), int(c.w), uintBitsToFloat(d.xyz), d.w);
+    uvec4 a = load_element(address, 0u, uvec4(0u)), b = load_element(address, 1u, uvec4(0u)),
+          c = load_element(address, 2u, uvec4(0u)), d = load_element(address, 3u, uvec4(0u));
+    return CacheFacePlane(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), int(c.w),
+        uintBitsToFloat(d.xyz), d.w);
 }
 
-// Of the sequence of a cell: multiples of powers of the root of x^6 = x + 1 (Roberts 2018), turned by a hash of cell and dimension. The
-// points of a cell are spread evenly, those of neighbours are independent.
+// Of the sequence of a cell: multiples of powers of the root of x^6 = x + 1 (Roberts 2018), turned by a hash of cell
+// and dimension. The points of a cell are spread evenly, those of neighbours are independent.
 float cell_number(uint cell, uint sample_number, uint dimension)
 {
     const uint steps[5] = uint[5](0xe19b01aau, 0xc6d1d6c8u, 0xaf36d01eu, 0x9a69443eu, 0x881403b9u); // of 2^32
@@ -33,7 +33,7 @@ bool is_in_face(CacheFacePlane plane, vec2 place)
 {
     CacheCornerBuffer corners = CacheCornerBuffer(frame.scene.cache.corners + uint64_t(plane.first_corner * 8u));
     vec2 before = corners.v[plane.corner_count - 1u];
-    [[dont_unroll]] for (uint i = 0u; i < plane.corner_count; i++) {
+    ROLLED_FOR (uint i = 0u; i < plane.corner_count; i++) {
         vec2 corner = corners.v[i], edge = corner - before, way = place - before;
         if (edge.x * way.y - edge.y * way.x < 0.0)
             return false;
@@ -46,7 +46,7 @@ bool is_in_face(CacheFacePlane plane, vec2 place)
 vec2 place_in_cell(CacheFacePlane plane, vec2 cell, vec2 middle, vec2 xi)
 {
     const uint tries = 4u;
-    [[dont_unroll]] for (uint i = 0u; i < tries; i++) {
+    ROLLED_FOR (uint i = 0u; i < tries; i++) {
         vec2 place = cell + fract(xi + float(i) * vec2(0.7548776662, 0.5698402910));
         if (is_in_face(plane, place))
             return place;
@@ -81,13 +81,15 @@ void add_sample(uint value, SampledLight found, vec4 xi)
     uint last = min(before.count + 1u, CACHE_COUNT_MASK) | min(uint(power * 255.0 + xi.w), 255u) << CACHE_POWER_SHIFT
         | before.guide << CACHE_GUIDE_SHIFT;
     store_element(frame.scene.cache.values, value,
-        uvec4(pack_light(mix(before.light, found.light, share)), min(d.x, 1023u) | min(d.y, 1023u) << 10u | min(d.z, 1023u) << 20u, last));
+        uvec4(pack_light(mix(before.light, found.light, share)),
+            min(d.x, 1023u) | min(d.y, 1023u) << 10u | min(d.z, 1023u) << 20u, last));
 }
 
-// Whether the point lies inside of something closed that stands on the face: straight up from there its inner side is met.
+// Whether the point lies inside of something closed that stands on the face: straight up from there its inner side is
+// met.
 bool is_covered(Surface s)
 {
-    RawHit hit = trace_nearest(Ray(leave_surface(s.position, s.normal), s.normal, 0.0, ray_far), mask_shadow);
+    RawHit hit = trace_nearest(Ray(offset_ray_origin(s.position, s.normal), s.normal, 0.0, ray_far), mask_shadow);
     return hit.triangle != TRACE_MISS && hit.front == 0u;
 }
 
@@ -108,23 +110,26 @@ void sample_cell(CacheCell cell, CacheFace face, CacheFacePlane plane, uint samp
     uvec2 cells = cache_face_cells(face);
     uint layers = cache_face_layers(face), number = (cell.first_value - face.first_value) / layers;
     vec2 xi = vec2(cell_number(cell.first_value, sample_number, 0u), cell_number(cell.first_value, sample_number, 1u));
-    Surface s = surface_at(plane, place_in_cell(plane, vec2(number % cells.x, number / cells.x), unpackUnorm2x16(cell.centre), xi));
+    Surface s = surface_at(
+        plane, place_in_cell(plane, vec2(number % cells.x, number / cells.x), unpackUnorm2x16(cell.centre), xi));
     int cluster = plane.cluster >= 0
         ? plane.cluster
-        : find_cluster(BspTreeBuffer(frame.scene.bsp_tree), leave_surface(s.position, s.geometric_normal));
+        : find_cluster(BspTreeBuffer(frame.scene.bsp_tree), offset_ray_origin(s.position, s.geometric_normal));
     uvec2 key = uvec2(cell.first_value & 0xffffu, cell.first_value >> 16u);
     LightRandom random = light_random(make_random(key, sample_number, frame.seed), 0u);
     random.light = cell_number(cell.first_value, sample_number, 2u);
-    random.point = vec2(cell_number(cell.first_value, sample_number, 3u), cell_number(cell.first_value, sample_number, 4u));
+    random.point
+        = vec2(cell_number(cell.first_value, sample_number, 3u), cell_number(cell.first_value, sample_number, 4u));
     ChosenLight chosen;
     vec3 light = sample_list(static_lights(open_light_list(light_tables(), cluster)), s, random, false, chosen).diffuse;
     // The cell's mean is over what can be seen of it.
     if (light == vec3(0.0) && is_covered(s))
         return;
     SampledLight found = SampledLight(light, chosen.direction, schlick_power(dot(s.normal, chosen.direction)));
-    vec4 rounding = vec4(hash_pcg4(uvec4(cell.first_value, sample_number, frame.seed, 1u)) >> 8u) * 5.9604644775390625e-8;
+    vec4 rounding
+        = vec4(hash_pcg4(uvec4(cell.first_value, sample_number, frame.seed, 1u)) >> 8u) * 5.9604644775390625e-8;
     // A style that is dark now tells nothing of its layer.
-    [[dont_unroll]] for (uint layer = 0u; layer < layers; layer++) {
+    ROLLED_FOR (uint layer = 0u; layer < layers; layer++) {
         uint style = cache_layer_style(face, layer);
         float scale = lightstyle_scale(style);
         if (scale > 0.0) {
@@ -148,7 +153,7 @@ void update_cell(uvec2, uint number)
     CacheCell cell = CacheCell(words.x, words.y, words.z, words.w);
     CacheFace face = load_cache_face(cell.face);
     CacheFacePlane plane = load_cache_plane(cell.face);
-    [[dont_unroll]] for (uint i = 0u; i < cache.samples; i++)
+    ROLLED_FOR (uint i = 0u; i < cache.samples; i++)
         sample_cell(cell, face, plane, first_sample + i);
 }
 

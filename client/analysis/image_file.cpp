@@ -43,7 +43,8 @@ void check_size(const fs::path& path, size_t file_bytes, int64_t width, int64_t 
                 "it says it has {} x {} pixels; 1 to {} each are read", width, height, formats::max_image_size));
     const size_t pixels = size_t(width) * size_t(height);
     if (pixels > formats::max_pixels_of_any_file && pixels / formats::max_pixels_per_byte > file_bytes)
-        fail(path, fmt::format("it says it has {} x {} pixels, which its {} bytes cannot hold", width, height, file_bytes));
+        fail(path,
+            fmt::format("it says it has {} x {} pixels, which its {} bytes cannot hold", width, height, file_bytes));
 }
 
 std::vector<std::byte> read_bytes(const fs::path& path)
@@ -176,9 +177,9 @@ LinearImage read_image(const fs::path& path)
         : ending == ".exr"
         ? read_exr(path)
         : throw Failure(fmt::format("cannot read {}: the ending says the format: .png, .pfm or .exr", path.string()));
-    const auto broken = std::ranges::count_if(image.rgb, [](float value) { return !std::isfinite(value); });
-    if (broken)
-        fail(path, fmt::format("{} of {} values are not finite", broken, image.rgb.size()));
+    const auto nonfinite = std::ranges::count_if(image.rgb, [](float value) { return !std::isfinite(value); });
+    if (nonfinite)
+        fail(path, fmt::format("{} of {} values are not finite", nonfinite, image.rgb.size()));
     return image;
 }
 

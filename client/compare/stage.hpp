@@ -7,6 +7,7 @@
 #include "client/host/frame_source.hpp"
 #include "client/options.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>

@@ -92,10 +92,12 @@ void run_export(const ExportOptions& options)
 void add_export_command(CLI::App& program)
 {
     const auto options = std::make_shared<ExportOptions>();
-    CLI::App* command = program.add_subcommand(
-        "export", "Write a scene for other renderers: triangles, materials, emitters, sky, camera as OBJ, MTL, JSON, PNG, EXR");
+    CLI::App* command = program.add_subcommand("export",
+        "Write a scene for other renderers: triangles, materials, emitters, sky, camera as OBJ, MTL, JSON, PNG, EXR");
     add_scene_options(*command, options->scene);
-    command->add_option("-o,--output", options->output, "Folder for scene.obj, scene.mtl, scene.json, sky.exr and textures/")
+    command
+        ->add_option(
+            "-o,--output", options->output, "Folder for scene.obj, scene.mtl, scene.json, sky.exr and textures/")
         ->required()
         ->type_name("DIR");
     add_module_options(*command, options->module);

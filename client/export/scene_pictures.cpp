@@ -53,8 +53,8 @@ public:
         const glm::dvec2 place = uv * glm::dvec2(width_, height_) - 0.5;
         const glm::dvec2 floor = glm::floor(place), f = place - floor;
         const int x = int(floor.x), y = int(floor.y);
-        return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x), glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x),
-            f.y);
+        return glm::mix(
+            glm::mix(texel(x, y), texel(x + 1, y), f.x), glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x), f.y);
     }
 
 private:
@@ -71,7 +71,8 @@ std::string flat_name(const std::string& picture)
 {
     std::string name = picture;
     std::ranges::replace_if(
-        name, [](char c) { return !(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.'); }, '_');
+        name, [](char c) { return !(std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.'); },
+        '_');
     return name;
 }
 
@@ -138,8 +139,8 @@ analysis::LinearImage ScenePictures::sky(const SceneSky& sky, int width)
     for (int y = 0; y < result.height; y++)
         for (int x = 0; x < result.width; x++) {
             const double around = (0.5 - (x + 0.5) / result.width) * 2 * pi, down = (y + 0.5) / result.height * pi;
-            const CubePlace place = meet_cube(
-                { std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down) });
+            const CubePlace place
+                = meet_cube({ std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down) });
             const glm::dvec3 colour = sides[place.side].at(place.uv);
             for (int channel = 0; channel < 3; channel++)
                 *out++ = float(colour[channel]);

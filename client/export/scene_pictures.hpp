@@ -31,8 +31,8 @@ public:
     // What could not be read.
     const std::vector<std::string>& notes() const { return notes_; }
 
-    // Linear colours of the sky's cube before rotation and scale, equirectangular: the middle shows +x, a quarter to the
-    // left +y, the top +z. Empty: there are no pictures of the sky.
+    // Linear colours of the sky's cube before rotation and scale, equirectangular: the middle shows +x, a quarter to
+    // the left +y, the top +z. Empty: there are no pictures of the sky.
     analysis::LinearImage sky(const SceneSky& sky, int width);
 
 private:

@@ -127,7 +127,8 @@ auto key_of(const SceneMaterial& m)
 {
     const auto numbers = [](const float(&v)[3]) { return std::tuple(v[0], v[1], v[2]); };
     return std::tuple(std::string_view(m.picture), numbers(m.tint), numbers(m.base_colour), m.opacity,
-        numbers(m.emission_tint), numbers(m.emission), m.roughness, m.metallic, m.uv_scroll[0], m.uv_scroll[1], m.flags);
+        numbers(m.emission_tint), numbers(m.emission), m.roughness, m.metallic, m.uv_scroll[0], m.uv_scroll[1],
+        m.flags);
 }
 
 Json make_camera(const SceneCamera& camera, ImageSize size)
@@ -187,7 +188,8 @@ std::string make_obj(const SceneContents& scene, const std::string& materials_fi
             fmt::format_to(std::back_inserter(text), "usemtl material_{}\n", material);
         }
         const size_t first = 3 * size_t(i) + 1; // indices count from 1
-        fmt::format_to(std::back_inserter(text), "f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", first, first + 1, first + 2);
+        fmt::format_to(
+            std::back_inserter(text), "f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", first, first + 1, first + 2);
     }
     return text;
 }

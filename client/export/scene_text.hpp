@@ -26,8 +26,8 @@ std::string make_obj(const SceneContents& scene, const std::string& materials_fi
 // With a picture: Kd and map_Kd, Ke and map_Ke are to be multiplied; without: Kd the average colour, Ke the average
 // radiance. d; Pr, Pm: roughness and metalness (the PBR extension of the format).
 std::string make_mtl(const SceneContents& scene, const ScenePictures& pictures);
-// Camera, sky, triangles' emitters and ray masks, every emitter with its radiance and power, materials, liquids, and the
-// sums. `sky_file`: the picture beside it, empty: none.
+// Camera, sky, triangles' emitters and ray masks, every emitter with its radiance and power, materials, liquids, and
+// the sums. `sky_file`: the picture beside it, empty: none.
 std::string make_scene_json(
     const SceneContents& scene, const std::string& name, int frame, ImageSize size, const std::string& sky_file);
 

@@ -7,7 +7,8 @@
 
 namespace vkpt::client {
 
-// What is wrong with a PAK or ZIP (PK3) as a whole; empty: nothing. The sizes of single files are checked when these are read.
+// What is wrong with a PAK or ZIP (PK3) as a whole; empty: nothing. The sizes of single files are checked when these
+// are read.
 std::string find_archive_fault(const std::filesystem::path& archive);
 
 } // namespace vkpt::client

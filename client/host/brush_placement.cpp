@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the game does with brush entities when a level starts, as far as it shows: who is visible and where it stands.
-#include "client/host/scene.hpp"
+#include "client/host/client_map.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -299,7 +299,8 @@ std::optional<std::vector<std::byte>> FileSystem::read_mounted(
     const PHYSFS_sint64 size = PHYSFS_fileLength(file.get());
     std::error_code no_file;
     const uintmax_t archive_bytes = place && !fs::is_directory(place, no_file) ? fs::file_size(place, no_file) : 0;
-    if (archive_bytes && !no_file && size > PHYSFS_sint64(std::max(max_unpacked_bytes, archive_bytes * max_unpacked_ratio)))
+    if (archive_bytes && !no_file
+        && size > PHYSFS_sint64(std::max(max_unpacked_bytes, archive_bytes * max_unpacked_ratio)))
         return refuse(fmt::format("its directory claims {} bytes, but the archive has {}", size, archive_bytes));
     constexpr size_t piece_bytes = size_t(1) << 20;
     std::vector<std::byte> bytes;

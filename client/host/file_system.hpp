@@ -18,8 +18,8 @@ namespace vkpt::client {
 class FileSystem {
 public:
     // base: the folder that holds "baseq2", empty: the first of the usual places that does. game: a folder beside
-    // baseq2, empty: none. One FileSystem at a time. Throws Failure where no such folder is. A damaged archive is left out,
-    // and `warn` gets a line that names it.
+    // baseq2, empty: none. One FileSystem at a time. Throws Failure where no such folder is. A damaged archive is left
+    // out, and `warn` gets a line that names it.
     using Warn = std::function<void(const std::string& line)>;
     FileSystem(const std::filesystem::path& base, const std::string& game, Warn warn = warn_on_stderr);
     ~FileSystem();
@@ -33,7 +33,8 @@ public:
     bool exists(std::string_view game_path) const;
     // As the folder or archive tells it, without reading; nothing: no such file.
     std::optional<uint64_t> size(std::string_view game_path) const;
-    // Nothing, and a line for `warn`: a file of an archive that is damaged, or unpacks to much more than the archive holds.
+    // Nothing, and a line for `warn`: a file of an archive that is damaged, or unpacks to much more than the archive
+    // holds.
     std::optional<std::vector<std::byte>> read(std::string_view game_path) const;
     // Files in `folder` with this ending, sorted.
     std::vector<std::string> list(std::string_view folder, std::string_view ending) const;

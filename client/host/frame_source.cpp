@@ -37,7 +37,7 @@ private:
         host.draw_frame(scene_.view(host.width(), host.height(), float(seconds(frame))));
     }
 
-    Scene scene_;
+    ClientMap scene_;
     const Camera own_camera_;
 };
 

@@ -3,8 +3,8 @@
 // often and in any order as wanted; so a command need not know which of both it works on.
 #pragma once
 
+#include "client/host/client_map.hpp"
 #include "client/host/host.hpp"
-#include "client/host/scene.hpp"
 
 #include <memory>
 #include <optional>

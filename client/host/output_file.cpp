@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int most_links = 40; // as the kernel
+constexpr int max_links = 40; // as the kernel
 
 // Links in /proc (/dev/stdout leads there) are open files and no names.
 bool is_in_proc(const fs::path& path) { return path.string().starts_with("/proc/"); }
@@ -30,7 +30,8 @@ bool is_in_proc(const fs::path& path) { return path.string().starts_with("/proc/
 // to anywhere; Linux's fs.protected_symlinks is the same rule.
 bool is_planted(const fs::path& link)
 {
-    struct stat found { }, around { };
+    struct stat found {
+    }, around {};
     const fs::path parent = link.parent_path();
     if (lstat(link.c_str(), &found) != 0 || stat(parent.empty() ? "." : parent.c_str(), &around) != 0)
         return true;
@@ -91,7 +92,7 @@ fs::path OutputFile::follow_links() const
     fs::path path = path_;
     std::error_code ignored;
     for (int links = 0; fs::is_symlink(path, ignored) && !is_in_proc(path); links++) {
-        if (links == most_links)
+        if (links == max_links)
             fail(ELOOP);
         if (is_planted(path))
             fail(EACCES);

@@ -13,8 +13,8 @@ namespace vkpt::client {
 class OutputFile {
 public:
     // Creates a hidden neighbour of `path`, so that a place where nothing can be written is found before the work is
-    // done. A symbolic link is followed: the file that it leads to is replaced, with its permissions. What is no regular
-    // file (a device, a pipe) is opened itself. Throws Failure.
+    // done. A symbolic link is followed: the file that it leads to is replaced, with its permissions. What is no
+    // regular file (a device, a pipe) is opened itself. Throws Failure.
     explicit OutputFile(const std::filesystem::path& path);
     // Removes the neighbour if commit() was not reached.
     ~OutputFile();

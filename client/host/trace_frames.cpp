@@ -22,7 +22,6 @@ constexpr size_t max_handles = 1 << 16;
 
 uint64_t join(int32_t low, int32_t high) { return uint64_t(uint32_t(low)) | uint64_t(uint32_t(high)) << 32; }
 
-
 struct Fingerprint {
     uint64_t bytes, hash;
 };

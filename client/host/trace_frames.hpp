@@ -6,6 +6,8 @@
 #include "client/host/view_placement.hpp"
 #include "client/trace/trace_reader.hpp"
 
+#include <cstdint>
+
 namespace vkpt::client {
 
 class TraceFrames final : public FrameSource {

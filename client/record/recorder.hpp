@@ -5,6 +5,7 @@
 #include "client/trace/trace_writer.hpp"
 #include "ref_vkpt/scene/picture_files.hpp"
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>

@@ -6,6 +6,7 @@
 #include "client/trace/codec.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <vector>
 

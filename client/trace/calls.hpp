@@ -94,9 +94,8 @@ struct Call {
 struct RecordedSetting {
     const char *name, *initial;
 };
-inline constexpr std::array<RecordedSetting, 5> recorded_settings {
-    { { "hand", "0" }, { "r_gunfov", "80" }, { "vid_gamma", "1.2" }, { "gl3_intensity_2D", "1.5" }, { "skin", "male/grunt" } }
-};
+inline constexpr std::array<RecordedSetting, 5> recorded_settings { { { "hand", "0" }, { "r_gunfov", "80" },
+    { "vid_gamma", "1.2" }, { "gl3_intensity_2D", "1.5" }, { "skin", "male/grunt" } } };
 
 inline constexpr size_t max_area_bytes = 32; // 256 areas, a bit each
 

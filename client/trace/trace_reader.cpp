@@ -221,9 +221,9 @@ void TraceReader::index_frame(const Frame& frame)
     seconds_.push_back((seconds_.empty() ? 0 : seconds_.back()) + (passed > 0 ? passed : 0)); // no NaN
     times_.push_back(time);
     for (const View& view : frame.views) {
-        most_.entities = std::max(most_.entities, view.entities.size());
-        most_.dlights = std::max(most_.dlights, view.dlights.size());
-        most_.particles = std::max(most_.particles, view.particles.size());
+        max_.entities = std::max(max_.entities, view.entities.size());
+        max_.dlights = std::max(max_.dlights, view.dlights.size());
+        max_.particles = std::max(max_.particles, view.particles.size());
     }
 }
 

@@ -5,6 +5,7 @@
 #include "client/trace/calls.hpp"
 #include "client/trace/file_format.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -45,7 +46,7 @@ public:
     struct Most {
         size_t entities = 0, dlights = 0, particles = 0;
     };
-    const Most& most() const { return most_; }
+    const Most& most() const { return max_; }
     // How it was recorded, and the files that were loaded.
     const std::vector<Call>& facts() const { return facts_; }
     const TraceTotals& totals() const { return totals_; }
@@ -76,7 +77,7 @@ private:
     std::vector<Chunk> chunks_;
     std::vector<float> times_;
     std::vector<double> seconds_;
-    Most most_;
+    Most max_;
     std::vector<LastingCall> lasting_calls_;
     std::vector<Call> facts_;
     TraceTotals totals_;

@@ -6,6 +6,7 @@
 #include "client/trace/file_format.hpp"
 #include "client/trace/view_codec.hpp"
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>

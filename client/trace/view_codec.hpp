@@ -8,6 +8,7 @@
 #include "client/trace/codec.hpp"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace vkpt::trace {

@@ -2,7 +2,7 @@
 // A camera that flies through walls. Quake space: x east, y north, z up; degrees, positive pitch looks down.
 #pragma once
 
-#include "client/host/scene.hpp"
+#include "client/host/client_map.hpp"
 
 namespace vkpt::client::view {
 

@@ -24,15 +24,15 @@ float plate_height(size_t lines) { return float(lines) * (ImGui::GetTextLineHeig
 
 constexpr float any_width = 1e6f;
 
-// Lines on a dark plate. `right`: the corner is the upper right one. What is wider than `most_width` is cut.
-void draw_plate(ImVec2 corner, std::initializer_list<Line> lines, bool right = false, float most_width = any_width)
+// Lines on a dark plate. `right`: the corner is the upper right one. What is wider than `max_width` is cut.
+void draw_plate(ImVec2 corner, std::initializer_list<Line> lines, bool right = false, float max_width = any_width)
 {
     ImDrawList* list = ImGui::GetBackgroundDrawList(); // behind the help
     const float step = ImGui::GetTextLineHeight() + 2;
     float width = 0;
     for (const Line& line : lines)
         width = std::max(width, ImGui::CalcTextSize(line.text.c_str()).x);
-    width = std::min(width, most_width);
+    width = std::min(width, max_width);
     corner = { std::floor(right ? corner.x - width - 2 * padding : corner.x), std::floor(corner.y) };
     const ImVec2 end { corner.x + width + 2 * padding, corner.y + plate_height(lines.size()) };
     list->AddRectFilled(corner, end, colour_plate);

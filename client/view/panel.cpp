@@ -89,8 +89,8 @@ void draw_console(const State& state)
 
 float dock_height(const State& state, glm::vec2 window)
 {
-    constexpr float height = 262, least_window = 700, least_width = 1180;
-    return state.shows_panel && window.y >= least_window && window.x >= least_width ? height : 0;
+    constexpr float height = 262, min_window = 700, min_width = 1180;
+    return state.shows_panel && window.y >= min_window && window.x >= min_width ? height : 0;
 }
 
 void draw_dock(State& state, glm::vec2 window)

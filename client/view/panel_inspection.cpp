@@ -11,7 +11,7 @@ namespace vkpt::client::view {
 
 namespace {
 
-constexpr size_t most_rows = 200;
+constexpr size_t max_rows = 200;
 
 const char* name_of_type(uint32_t type)
 {
@@ -22,7 +22,7 @@ const char* name_of_type(uint32_t type)
         return "sphere";
     case shared::EMITTER_SKY:
         return "sky";
-    case shared::EMITTER_VEIL:
+    case shared::EMITTER_TRANSPARENT:
         return "veil";
     case shared::EMITTER_SUN:
         return "sun";
@@ -100,11 +100,11 @@ void draw_lights(const Inspection& inspection, ImU32 colour)
         ImGui::TableSetupColumn(column);
     ImGui::TableHeadersRow();
     const double most = inspection.lights.empty() ? 0 : inspection.lights.front().probability;
-    for (size_t i = 0; i < std::min(inspection.lights.size(), most_rows); i++)
+    for (size_t i = 0; i < std::min(inspection.lights.size(), max_rows); i++)
         draw_light(inspection.lights[i], inspection.surface.choices, most, colour);
     ImGui::EndTable();
-    if (inspection.lights.size() > most_rows)
-        ImGui::TextDisabled("and %zu less probable ones", inspection.lights.size() - most_rows);
+    if (inspection.lights.size() > max_rows)
+        ImGui::TextDisabled("and %zu less probable ones", inspection.lights.size() - max_rows);
 }
 
 } // namespace

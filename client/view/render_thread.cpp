@@ -13,7 +13,7 @@ namespace vkpt::client::view {
 
 namespace {
 
-constexpr size_t most_inspected_lights = 4096;
+constexpr size_t max_inspected_lights = 4096;
 
 std::vector<std::string> copy_names(const char* const* names)
 {
@@ -149,7 +149,7 @@ private:
     {
         Inspection result;
         result.pixel = pixel;
-        result.lights.resize(most_inspected_lights);
+        result.lights.resize(max_inspected_lights);
         if (!extension_.inspect_pixel(
                 uint32_t(pixel.x), uint32_t(pixel.y), &result.surface, result.lights.data(), result.lights.size()))
             return std::nullopt;

@@ -9,6 +9,7 @@
 #include "formats/image.hpp"
 
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <glm/vec2.hpp>

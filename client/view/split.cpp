@@ -9,7 +9,7 @@ namespace vkpt::client::view {
 namespace {
 
 constexpr float grip = 6; // pixels to either side of the divider
-constexpr float least_share = 0.02f;
+constexpr float min_share = 0.02f;
 constexpr formats::Rgba8 line_colour { 255, 255, 255, 255 };
 
 } // namespace
@@ -44,7 +44,7 @@ std::optional<glm::ivec2> find_pixel(const Area& shown, glm::ivec2 picture, glm:
     return glm::ivec2(std::clamp(pixel.x, 0, picture.x - 1), std::clamp(pixel.y, 0, picture.y - 1));
 }
 
-void Split::set_place(float place) { place_ = std::clamp(place, least_share, 1 - least_share); }
+void Split::set_place(float place) { place_ = std::clamp(place, min_share, 1 - min_share); }
 
 int Split::columns_of_a(int width) const
 {

@@ -22,7 +22,7 @@ constexpr double idle_seconds = 0.25; // between redraws while nothing happens
 constexpr float degrees_per_pixel = 0.2f;
 constexpr float click_distance = 4; // pixels; farther is a drag
 constexpr float stillness_seconds = 0.25f; // before the reference starts
-constexpr int most_frames_at_once = 30; // of a map's time, however slow the device
+constexpr int max_frames_at_once = 30; // of a map's time, however slow the device
 constexpr size_t kept_lines = 50;
 
 float seconds_since(Clock::time_point time) { return std::chrono::duration<float>(Clock::now() - time).count(); }
@@ -258,7 +258,7 @@ void Viewer::pass_time()
     if (!state_.is_endless() && state_.frame >= state_.last_frame())
         state_.plays = false; // the trace has ended
     else // every frame of a trace, for that is what filters are made for
-        show_frame(state_, state_.frame + (state_.is_endless() ? std::clamp(passed, 1, most_frames_at_once) : 1));
+        show_frame(state_, state_.frame + (state_.is_endless() ? std::clamp(passed, 1, max_frames_at_once) : 1));
 }
 
 void Viewer::request_frame()

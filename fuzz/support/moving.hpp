@@ -3,6 +3,8 @@
 
 #include "ref_vkpt/scene/moving_geometry.hpp"
 
+#include <cstdint>
+
 namespace vkpt::fuzz {
 
 // As a frame does it: triangles, masks, tree and the poses before, into arrays that are exactly as long as promised.

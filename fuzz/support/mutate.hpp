@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Changes to inputs that keep what only a writer gets right (directories, counts, checksums, compression), so that the rest of a
-// reader is reached. Each takes an input of its kind and gives another, at most `limit` bytes long; what is not of its kind, and
-// one input in ten, is changed byte by byte.
+// Changes to inputs that keep what only a writer gets right (directories, counts, checksums, compression), so that the
+// rest of a reader is reached. Each takes an input of its kind and gives another, at most `limit` bytes long; what is
+// not of its kind, and one input in ten, is changed byte by byte.
 #pragma once
 
 #include <cstddef>

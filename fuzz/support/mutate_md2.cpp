@@ -57,8 +57,8 @@ File join_parts(Header header, const std::vector<Table>& parts)
 void resize_frames(Header& header, Table& table, Random& random)
 {
     const size_t old_size = table.record_size;
-    const size_t size = pick(random, 2) == 0 ? old_size + sizeof(Vertex)
-                                             : std::max(old_size - sizeof(Vertex), sizeof(FrameHeader));
+    const size_t size
+        = pick(random, 2) == 0 ? old_size + sizeof(Vertex) : std::max(old_size - sizeof(Vertex), sizeof(FrameHeader));
     File bytes;
     for (size_t at = 0; at + old_size <= table.bytes.size(); at += old_size) {
         File frame = cut(table.bytes, at, old_size);

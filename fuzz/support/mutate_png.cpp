@@ -11,7 +11,7 @@ namespace vkpt::fuzz {
 namespace {
 
 constexpr std::array<uint8_t, 8> signature { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
-constexpr size_t most_raw = 1 << 16, most_chunks = 64;
+constexpr size_t max_raw = 1 << 16, max_chunks = 64;
 
 struct Chunk {
     std::array<char, 4> kind;
@@ -23,7 +23,7 @@ uint32_t swap_ends(uint32_t n) { return n >> 24 | (n >> 8 & 0xff00) | (n << 8 & 
 std::vector<Chunk> take_chunks(const File& file)
 {
     std::vector<Chunk> chunks;
-    for (size_t at = signature.size(); at + 12 <= file.size() && chunks.size() < most_chunks;) {
+    for (size_t at = signature.size(); at + 12 <= file.size() && chunks.size() < max_chunks;) {
         const uint32_t size = swap_ends(get<uint32_t>(file, at));
         chunks.push_back({ get<std::array<char, 4>>(file, at + 4), cut(file, at + 8, size) });
         at += 12 + chunks.back().bytes.size();
@@ -53,7 +53,7 @@ void mutate_chunk(std::vector<Chunk>& chunks, size_t limit, Random& random)
         std::swap(chunk, chunks[pick(random, chunks.size())]);
         break;
     case 1:
-        if (chunks.size() < most_chunks)
+        if (chunks.size() < max_chunks)
             chunks.insert(chunks.begin() + ptrdiff_t(pick(random, chunks.size() + 1)), Chunk(chunk));
         break;
     case 2: {
@@ -63,7 +63,7 @@ void mutate_chunk(std::vector<Chunk>& chunks, size_t limit, Random& random)
     }
     default:
         if (is_packed && pick(random, 4) != 0)
-            chunk.bytes = pack(mutate_bytes(unpack(chunk.bytes, most_raw), most_raw, random));
+            chunk.bytes = pack(mutate_bytes(unpack(chunk.bytes, max_raw), max_raw, random));
         else if (pick(random, 2) == 0)
             mutate_field(chunk.bytes, 0, chunk.bytes.size(), random);
         else

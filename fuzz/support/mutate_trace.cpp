@@ -11,7 +11,7 @@ namespace {
 
 using namespace vkpt::trace;
 
-constexpr size_t most_raw = 1 << 16, most_chunks = 64;
+constexpr size_t max_raw = 1 << 16, max_chunks = 64;
 
 struct TraceChunk {
     ChunkHeader header;
@@ -21,10 +21,10 @@ struct TraceChunk {
 std::vector<TraceChunk> take_chunks(const File& file)
 {
     std::vector<TraceChunk> chunks;
-    for (size_t at = sizeof(FileHeader); at + sizeof(ChunkHeader) <= file.size() && chunks.size() < most_chunks;) {
+    for (size_t at = sizeof(FileHeader); at + sizeof(ChunkHeader) <= file.size() && chunks.size() < max_chunks;) {
         const auto header = get<ChunkHeader>(file, at);
         const File packed = cut(file, at + sizeof header, header.packed_bytes);
-        chunks.push_back({ header, unpack(packed, most_raw) });
+        chunks.push_back({ header, unpack(packed, max_raw) });
         at += sizeof header + packed.size();
     }
     return chunks;
@@ -52,7 +52,7 @@ File join_chunks(FileHeader start, const std::vector<TraceChunk>& chunks)
 void mutate_raw(File& raw, Random& random)
 {
     if (raw.empty() || pick(random, 2) == 0) {
-        raw = mutate_bytes(std::move(raw), most_raw, random);
+        raw = mutate_bytes(std::move(raw), max_raw, random);
         return;
     }
     const size_t from = pick(random, raw.size()), count = 1 + pick(random, std::min<size_t>(raw.size() - from, 64));
@@ -60,7 +60,7 @@ void mutate_raw(File& raw, Random& random)
     switch (pick(random, 3)) {
     case 0: {
         const File piece(first, first + ptrdiff_t(count));
-        if (raw.size() + count <= most_raw)
+        if (raw.size() + count <= max_raw)
             raw.insert(raw.begin() + ptrdiff_t(pick(random, raw.size() + 1)), piece.begin(), piece.end());
         break;
     }
@@ -81,7 +81,7 @@ void mutate_chunk(std::vector<TraceChunk>& chunks, Random& random)
         std::swap(chunk, chunks[pick(random, chunks.size())]);
         break;
     case 1:
-        if (chunks.size() < most_chunks)
+        if (chunks.size() < max_chunks)
             chunks.insert(chunks.begin() + ptrdiff_t(pick(random, chunks.size() + 1)), TraceChunk(chunk));
         break;
     case 2:

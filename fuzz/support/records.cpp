@@ -16,8 +16,9 @@ namespace {
 constexpr uint32_t hostile_numbers[] { 0, 1, 2, 3, 0x7f, 0x80, 0xff, 0x100, 0x7fff, 0x8000, 0xffff, 0x10000, 0x00ffffff,
     0x01000000, 0x40000000, 0x7ffffffe, 0x7fffffff, 0x80000000, 0x80000001, 0xfffffffe, 0xffffffff };
 
-const float hostile_reals[] { 0, -0.0f, 1, -1, 0.5f, 1e-30f, 1e-45f, 0.01f, 16, 255, 4096, -4096, 65536, 16777216, 1e6f, -1e6f, 2147483648.0f,
-    1e10f, 1e15f, 1e20f, 1e38f, -1e38f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN() };
+const float hostile_reals[] { 0, -0.0f, 1, -1, 0.5f, 1e-30f, 1e-45f, 0.01f, 16, 255, 4096, -4096, 65536, 16777216, 1e6f,
+    -1e6f, 2147483648.0f, 1e10f, 1e15f, 1e20f, 1e38f, -1e38f, std::numeric_limits<float>::infinity(),
+    std::numeric_limits<float>::quiet_NaN() };
 
 uint32_t make_number(uint32_t old, Random& random)
 {

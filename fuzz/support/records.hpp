@@ -5,6 +5,7 @@
 #include "fuzz/support/mutate.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 

@@ -35,11 +35,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t most_memory = size_t(512) << 20; // bytes held at once, above what was held before the input
+constexpr size_t max_memory = size_t(512) << 20; // bytes held at once, above what was held before the input
 #ifdef VKPT_COUNTS_MEMORY
-constexpr double most_seconds = 25; // of CPU: sanitizers take up to five times as long
+constexpr double max_seconds = 25; // of CPU: sanitizers take up to five times as long
 #else
-constexpr double most_seconds = 5; // of CPU
+constexpr double max_seconds = 5; // of CPU
 #endif
 constexpr long seconds_until_end = 60; // of CPU: it will not come to an end by itself
 
@@ -59,10 +59,10 @@ std::atomic<size_t> held { 0 }, held_before { 0 };
 void count_allocation(const volatile void*, size_t size)
 {
     held += size;
-    if (held > held_before + most_memory) {
+    if (held > held_before + max_memory) {
         tell_input();
         __sanitizer_print_stack_trace();
-        std::fprintf(stderr, "more than %zu bytes at once\n", most_memory);
+        std::fprintf(stderr, "more than %zu bytes at once\n", max_memory);
         _exit(1);
     }
 }
@@ -106,7 +106,7 @@ size_t memory_is_over()
     return 0; // count_allocation has ended the program
 #else
     const size_t peak = read_peak();
-    return peak > held_before + most_memory ? peak - held_before : 0;
+    return peak > held_before + max_memory ? peak - held_before : 0;
 #endif
 }
 
@@ -178,12 +178,12 @@ bool run(const fs::path& path)
     LLVMFuzzerTestOneInput(input.data(), input.size());
     set_alarm(0);
     const double seconds = cpu_seconds() - start;
-    if (seconds > most_seconds)
-        std::fprintf(stderr, "%s: %.1f s of CPU time, more than %.0f\n", path.c_str(), seconds, most_seconds);
+    if (seconds > max_seconds)
+        std::fprintf(stderr, "%s: %.1f s of CPU time, more than %.0f\n", path.c_str(), seconds, max_seconds);
     const size_t memory = memory_is_over();
     if (memory > 0)
-        std::fprintf(stderr, "%s: %zu bytes of memory, more than %zu\n", path.c_str(), memory, most_memory);
-    return seconds <= most_seconds && memory == 0;
+        std::fprintf(stderr, "%s: %zu bytes of memory, more than %zu\n", path.c_str(), memory, max_memory);
+    return seconds <= max_seconds && memory == 0;
 }
 
 } // namespace

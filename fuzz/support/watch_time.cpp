@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Ends a fuzzing program whose input takes too much CPU time. libFuzzer's own limit goes by the clock on the wall, which a busy
-// machine exceeds with any input. Linked with --wrap=LLVMFuzzerTestOneInput.
+// Ends a fuzzing program whose input takes too much CPU time. libFuzzer's own limit goes by the clock on the wall,
+// which a busy machine exceeds with any input. Linked with --wrap=LLVMFuzzerTestOneInput.
 #include <atomic>
 #include <csignal>
 #include <cstddef>
@@ -11,7 +11,8 @@
 
 namespace {
 
-// Between once and twice this is the limit: sanitizers take two to five times as long as a release build, which has 5 s.
+// Between once and twice this is the limit: sanitizers take two to five times as long as a release build, which has 5
+// s.
 constexpr long tick_seconds = 10;
 
 std::atomic<uint64_t> runs { 0 }, runs_at_tick { UINT64_MAX };

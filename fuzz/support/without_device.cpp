@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The parts of the module that talk to Vulkan, as far as scene update and 2D need them, without any: pictures and buffers are
-// kept or dropped on the CPU. Everything above (textures.cpp, scene.cpp, draw2d.cpp ...) is the module's own.
+// The parts of the module that talk to Vulkan, as far as scene update and 2D need them, without any: pictures and
+// buffers are kept or dropped on the CPU. Everything above (textures.cpp, scene.cpp, draw2d.cpp ...) is the module's
+// own.
 #include "ref_vkpt/draw2d/draw2d.hpp"
 #include "ref_vkpt/vulkan/uploader.hpp"
 
@@ -28,8 +29,8 @@ MemoryAllocator::MemoryAllocator(const Device& device)
 }
 MemoryAllocator::~MemoryAllocator() = default;
 
-Allocation MemoryAllocator::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags,
-    VkMemoryPropertyFlags, bool, MemoryKind)
+Allocation MemoryAllocator::allocate(
+    const VkMemoryRequirements& requirements, VkMemoryPropertyFlags, VkMemoryPropertyFlags, bool, MemoryKind)
 {
     Allocation piece;
     piece.allocator_ = this;
@@ -110,11 +111,12 @@ void Uploader::flush() { }
 
 // ---- 2D: quads are collected and forgotten
 
-Draw2d::Draw2d(const Gpu& gpu, Bindings& bindings, Pipelines&, TextureStore& textures, uint32_t frames_in_flight)
+Draw2d::Draw2d(
+    const Gpu& gpu, Bindings& bindings, Pipelines& pipelines, TextureStore& textures, uint32_t frames_in_flight)
     : gpu_(gpu)
     , bindings_(bindings)
     , textures_(textures)
-    , pipeline_(VK_NULL_HANDLE)
+    , pipelines_(pipelines)
     , frames_(frames_in_flight)
 {
 }

@@ -7,6 +7,7 @@
 #include "ref_vkpt/vulkan/pipelines.hpp"
 #include "shaders/shared/quad.h"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 

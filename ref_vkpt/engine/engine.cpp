@@ -101,12 +101,12 @@ FileData::~FileData()
 
 // As much as the pixels of the largest picture, 8192 x 8192; the engine takes whatever memory an archive's directory
 // asks for.
-constexpr int most_file_bytes = 256 << 20;
+constexpr int max_file_bytes = 256 << 20;
 
 std::optional<FileData> load_file(const std::string& path)
 {
-    if (const int told = imports.load_file(path.c_str(), nullptr); told > most_file_bytes) {
-        print("vkpt: {} is not read: it has {} bytes, the limit is {}", path, told, most_file_bytes);
+    if (const int told = imports.load_file(path.c_str(), nullptr); told > max_file_bytes) {
+        print("vkpt: {} is not read: it has {} bytes, the limit is {}", path, told, max_file_bytes);
         return std::nullopt;
     }
     void* buffer = nullptr;

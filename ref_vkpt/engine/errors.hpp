@@ -7,7 +7,8 @@
 namespace vkpt {
 
 // This level cannot go on, the game can: the engine returns to its console with the text.
-// The device's memory may run out for a level, too. Say what, where, why and what to do. formats::FormatError and std::bad_alloc are treated the same way.
+// The device's memory may run out for a level, too. Say what, where, why and what to do. formats::FormatError and
+// std::bad_alloc are treated the same way.
 class LevelError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

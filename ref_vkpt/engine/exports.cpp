@@ -73,7 +73,7 @@ template <class Call> auto guard(const char* entry, Call call)
 // The same for what every frame calls, level or not: if that fails over and over, dropping levels does not help.
 template <class Call> void guard_frame(const char* entry, Call call)
 {
-    constexpr int most_failures = 10;
+    constexpr int max_failures = 10;
     static int failures = 0;
     Failure failure = Failure::none;
     try {
@@ -83,7 +83,7 @@ template <class Call> void guard_frame(const char* entry, Call call)
     }
     failures = failure == Failure::none ? 0 : failures + 1;
     if (failure != Failure::none)
-        leave(failures < most_failures ? failure : Failure::fatal);
+        leave(failures < max_failures ? failure : Failure::fatal);
 }
 
 // The same where the engine expects to be told by the result: one console line, and `result_on_failure`.
@@ -320,8 +320,8 @@ int detect_api()
     const std::string_view text = version && version->text ? version->text : "";
     const int api = find_api(text);
     if (api == 0)
-        engine::print(
-            VKPT_MODULE_NAME ": the engine's version \"{}\" is not one of Yamagi Quake II 8.00 to 8.70; if the variable "
+        engine::print(VKPT_MODULE_NAME
+            ": the engine's version \"{}\" is not one of Yamagi Quake II 8.00 to 8.70; if the variable "
             "\"version\" was set by hand, leave it alone",
             text);
     return api;
@@ -363,7 +363,8 @@ void run_command(void (*function)()) { guard("a console command", function); }
 } // namespace vkpt
 
 #ifdef __clang__
-#pragma clang diagnostic ignored "-Wreturn-type-c-linkage" // C has no such class; C callers see the struct it stands for
+#pragma clang diagnostic ignored                                                                                       \
+    "-Wreturn-type-c-linkage" // C has no such class; C callers see the struct it stands for
 #endif
 extern "C" [[gnu::visibility("default")]] vkpt::ReturnedTable GetRefAPI(vkpt::engine::Imports imports)
 {

@@ -46,7 +46,7 @@ void make_folders(const std::filesystem::path& folder)
 // "": nobody else can have put anything into it.
 std::string find_fault(const std::string& folder)
 {
-    struct stat status {};
+    struct stat status { };
     if (lstat(folder.c_str(), &status) != 0)
         return std::error_code(errno, std::generic_category()).message();
     if (S_ISLNK(status.st_mode))

@@ -30,7 +30,10 @@ std::string describe_errno()
 // A file descriptor, closed at the end of life.
 class Descriptor {
 public:
-    explicit Descriptor(int value) : value_(value) { }
+    explicit Descriptor(int value)
+        : value_(value)
+    {
+    }
     Descriptor& operator=(Descriptor&& other) noexcept
     {
         std::swap(value_, other.value_);
@@ -151,7 +154,7 @@ void OutputFolder::check_replaceable(const std::string& name, std::string_view m
             fail(name, describe_errno());
         return;
     }
-    struct stat status {};
+    struct stat status { };
     if (fstat(file.value(), &status) != 0 || !S_ISREG(status.st_mode) || mark.empty()
         || !begins_with(file.value(), mark))
         fail(name, "something that the module did not write is there: move it away, or choose another name");
@@ -162,8 +165,8 @@ void OutputFolder::write(const std::string& name, std::span<const std::byte> byt
     check_replaceable(name, mark);
     const std::string partial = "." + name + ".part";
     unlinkat(descriptor_, partial.c_str(), 0); // of a run that was killed
-    Descriptor file(openat(
-        descriptor_, partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, file_mode));
+    Descriptor file(
+        openat(descriptor_, partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, file_mode));
     if (!file)
         fail(name, describe_errno());
     const bool written = write_all(file.value(), bytes) && file.close();
@@ -176,11 +179,10 @@ void OutputFolder::write(const std::string& name, std::span<const std::byte> byt
 
 std::string OutputFolder::read(const std::string& name, size_t most) const
 {
-    const auto refuse = [&](const std::string& reason) {
-        throw FileError("cannot read " + (path_ / name).string() + ": " + reason);
-    };
+    const auto refuse
+        = [&](const std::string& reason) { throw FileError("cannot read " + (path_ / name).string() + ": " + reason); };
     const Descriptor file(openat(descriptor_, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-    struct stat status {};
+    struct stat status { };
     if (!file || fstat(file.value(), &status) != 0)
         refuse(describe_errno());
     if (!S_ISREG(status.st_mode))
@@ -218,7 +220,7 @@ uint64_t OutputFolder::bytes() const
 
 uint64_t OutputFolder::free_bytes() const
 {
-    struct statvfs system {};
+    struct statvfs system { };
     return fstatvfs(descriptor_, &system) == 0 ? uint64_t(system.f_bavail) * system.f_frsize : 0;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// pt_capture_dir and pt_capture_every: shown frames as PNG files in vkpt/captures/ of the engine's writable game folder.
+// pt_capture_dir and pt_capture_every: shown frames as PNG files in vkpt/captures/ of the engine's writable game
+// folder.
 #pragma once
 
 #include "formats/image.hpp"

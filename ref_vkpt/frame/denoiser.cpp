@@ -17,7 +17,7 @@ constexpr uint32_t gradient_levels = 3;
 PassStep make_spread_step(const shared::FrameUniforms& uniforms, const shared::ScreenBuffer& source,
     const shared::ScreenBuffer& target, glm::ivec2 way)
 {
-    return make_step(shared::SpreadPush { source, target, way }, pixel_work(uniforms.size));
+    return make_step(shared::AtrousPush { source, target, way }, pixel_work(uniforms.size));
 }
 
 } // namespace

@@ -28,7 +28,7 @@ static_assert(shared::LIGHT_LEVEL_LANES == shared::PIXEL_GROUP_SIZE);
 constexpr VkAccessFlags shader_access = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
 
 // Along a ray's footprint in a picture. CPU drivers have no texture units.
-int most_picture_taps(bool is_cpu) { return std::clamp(cvars::values().r_anisotropic, 1, is_cpu ? 4 : 16); }
+int max_picture_taps(bool is_cpu) { return std::clamp(cvars::values().r_anisotropic, 1, is_cpu ? 4 : 16); }
 
 } // namespace
 
@@ -87,12 +87,12 @@ void Frame::read_statistics()
     shared::FrameStatistics statistics;
     std::memcpy(&statistics, mapped, sizeof(statistics));
     std::memset(mapped, 0, sizeof(statistics));
-    if (statistics.broken_pixels > 0 && broken_pixels_ == 0)
+    if (statistics.nonfinite_pixels > 0 && nonfinite_pixels_ == 0)
         engine::print(
             "ref_vkpt: the light of {} pixels is not finite, they are shown black; pt_info counts them. Please "
             "report the map, the position and the settings",
-            statistics.broken_pixels);
-    broken_pixels_ += statistics.broken_pixels;
+            statistics.nonfinite_pixels);
+    nonfinite_pixels_ += statistics.nonfinite_pixels;
 }
 
 RenderScale::Limits Frame::scale_limits()
@@ -154,7 +154,7 @@ shared::FrameUniforms Frame::make_uniforms(View& view, const Viewpoint& from, gl
     constexpr float menu_default = 2;
     uniforms.intensity = std::clamp(cvars.vk_intensity, 1.0f, 10.0f) / menu_default;
     uniforms.cvars = cvars::shader_values();
-    uniforms.picture_taps = float(most_picture_taps(graphics_.device.is_cpu));
+    uniforms.picture_taps = float(max_picture_taps(graphics_.device.is_cpu));
     uniforms.flags = (from.underwater ? shared::FRAME_UNDERWATER : 0)
         | (cvars.r_fullbright != 0 ? shared::FRAME_FULLBRIGHT : 0)
         | (cvars.r_lightmap != 0 ? shared::FRAME_LIGHT_ALONE : 0)

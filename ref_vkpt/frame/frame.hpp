@@ -7,6 +7,7 @@
 #include "ref_vkpt/frame/scene_upload.hpp"
 #include "ref_vkpt/frame/view.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace vkpt {
@@ -43,7 +44,7 @@ public:
     // The view's accumulated radiance. The device must be idle. False: there is none.
     bool read_radiance(const View& view, float* rgb);
     // Pixels since the start whose light was not a number, or infinite, in the frames that have finished.
-    uint64_t broken_pixels() const { return broken_pixels_; }
+    uint64_t nonfinite_pixels() const { return nonfinite_pixels_; }
 
     // For questions between frames (scene_queries.cpp), in commands of their own.
     // Begins, and returns the uniforms of the scene as seen from there.
@@ -82,7 +83,7 @@ private:
     VkDeviceSize uniform_stride_;
     uint32_t views_this_frame_ = 0;
     RenderScale render_scale_;
-    uint64_t broken_pixels_ = 0;
+    uint64_t nonfinite_pixels_ = 0;
     float light_level_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "ref_vkpt/vulkan/swapchain.hpp"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 

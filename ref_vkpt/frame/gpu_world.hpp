@@ -8,6 +8,8 @@
 #include "ref_vkpt/vulkan/uploader.hpp"
 #include "shaders/shared/frame.h"
 
+#include <cstdint>
+
 namespace vkpt {
 
 // Of the map's static lights. Large maps take a while; from any thread.

@@ -99,8 +99,8 @@ bool Graphics::follow_window()
             present_words_ = Buffer();
             const VkExtent2D extent = swapchain_->extent();
             const VkDeviceSize pixel = swapchain_->format().words * sizeof(uint32_t);
-            present_words_ = Buffer(gpu, pixel * extent.width * extent.height, BufferHome::device,
-                MemoryKind::images, "present words");
+            present_words_ = Buffer(
+                gpu, pixel * extent.width * extent.height, BufferHome::device, MemoryKind::images, "present words");
             swapchain_outdated_ = !is_usable;
         }
     }

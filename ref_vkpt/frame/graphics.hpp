@@ -9,6 +9,7 @@
 #include "ref_vkpt/vulkan/swapchain.hpp"
 #include "ref_vkpt/vulkan/uploader.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 

@@ -14,7 +14,7 @@ namespace vkpt {
 namespace {
 
 // Samples of each cell that the map begins with, but not more in all.
-constexpr uint32_t first_samples = 16, most_first_samples = 1u << 20;
+constexpr uint32_t first_samples = 16, max_first_samples = 1u << 20;
 // Cells that a frame takes a sample of.
 constexpr uint32_t cells_per_frame = 2048;
 static_assert(cells_per_frame <= shared::CACHE_MOST_UPDATED);
@@ -92,7 +92,7 @@ void LightCacheKeeper::fill(Graphics& graphics, Frame& frame, View& view, GpuWor
 {
     const uint32_t count = gpu_world.light_cache.cell_count;
     const uint32_t samples = std::clamp(
-        most_first_samples / count, shared::CACHE_LEAST_SAMPLES, std::max(first_samples, shared::CACHE_LEAST_SAMPLES));
+        max_first_samples / count, shared::CACHE_LEAST_SAMPLES, std::max(first_samples, shared::CACHE_LEAST_SAMPLES));
     graphics.finish();
     const uint32_t frames = view.accumulated_frames;
     for (uint32_t first = 0; first < count; first += shared::CACHE_MOST_UPDATED)

@@ -6,6 +6,8 @@
 #include "ref_vkpt/scene/world.hpp"
 #include "ref_vkpt/vulkan/uploader.hpp"
 
+#include <cstdint>
+
 namespace vkpt {
 
 struct View;

@@ -8,6 +8,7 @@
 #include "ref_vkpt/frame/pass_shaders.hpp"
 
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <vector>

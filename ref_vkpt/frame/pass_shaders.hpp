@@ -3,7 +3,7 @@
 #pragma once
 
 #include "ref_vkpt/frame/pass_rows.hpp"
-#include "ref_vkpt/trace/backend.hpp"
+#include "ref_vkpt/rays/backend.hpp"
 
 #include <string>
 #include <vector>

@@ -17,9 +17,9 @@ std::vector<PassStep> level_steps(PassId pass, const shared::FrameUniforms& unif
         return gradient_filter_steps(uniforms);
     case PassId::denoise_filter:
         return filter_steps(uniforms);
-    case PassId::denoise_spread_first:
+    case PassId::denoise_atrous_first:
         return spread_first_steps(uniforms);
-    case PassId::denoise_spread:
+    case PassId::denoise_atrous:
         return spread_steps(uniforms);
     case PassId::accumulate:
         return accumulate_steps(uniforms);

@@ -6,6 +6,7 @@
 #include "ref_vkpt/frame/gpu_world.hpp"
 #include "ref_vkpt/vulkan/shaders.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <future>
 

@@ -6,6 +6,7 @@
 #include "ref_vkpt/extension.hpp"
 #include "ref_vkpt/frame/frame.hpp"
 
+#include <cstdint>
 #include <span>
 
 namespace vkpt {

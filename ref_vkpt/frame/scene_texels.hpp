@@ -9,6 +9,7 @@
 #include "shaders/shared/texels.h"
 
 #include <array>
+#include <cstdint>
 
 namespace vkpt {
 

@@ -2,7 +2,7 @@
 #include "ref_vkpt/frame/scene_upload.hpp"
 
 #include "ref_vkpt/pass_statistics.hpp"
-#include "ref_vkpt/trace/wide_tree.hpp"
+#include "ref_vkpt/rays/wide_tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ SceneUpload::Kept::Kept(const Gpu& gpu, const Bindings& bindings)
     , emitters(gpu, MemoryKind::lights, "emitters")
     , tree_nodes(gpu, MemoryKind::acceleration, "BVH nodes")
     , tree_triangles(gpu, MemoryKind::acceleration, "BVH triangles")
-    , outlines(gpu)
+    , packed_lights(gpu)
     , materials(gpu, MemoryKind::geometry, "materials")
     , light_lists(gpu, MemoryKind::lights, "light list headers")
     , dynamic_light_indices(gpu, MemoryKind::lights, "dynamic light indices")
@@ -93,7 +93,7 @@ MovingTarget SceneUpload::reserve_moving(const Job& job)
     job.out.first_moving = UINT32_MAX;
     MovingTarget target;
     target.triangles = triangles.as<shared::Triangle>();
-    if (job.use.knows_motion && moving.triangle_count() > 0) {
+    if (job.use.finds_reprojected && moving.triangle_count() > 0) {
         using Corners = std::array<glm::vec3, 3>;
         const Upload previous = uploads_.reserve(moving.triangle_count() * sizeof(Corners));
         target.previous_positions = previous.as<Corners>();
@@ -109,7 +109,7 @@ void SceneUpload::fill_emitters(const Job& job)
     const SceneSnapshot& scene = job.scene;
     const uint32_t slot = graphics_.slot();
     const LightLists* lights = scene.world ? scene.light_lists : nullptr;
-    const bool repeats = lights && lights->has_changed() && job.use.knows_motion;
+    const bool repeats = lights && lights->has_changed() && job.use.finds_reprojected;
     const LightLists::Repeated repeated = repeats ? lights->repeat() : LightLists::Repeated();
     // Lights that have gone stay in the repeated lists: dark.
     const size_t count = std::max(
@@ -125,8 +125,8 @@ void SceneUpload::fill_emitters(const Job& job)
     }
     job.out.emitters = emitters.address;
     job.out.lightstyles = uploads_.push(scene.lightstyles);
-    job.out.emitter_outlines
-        = job.kept.outlines.write(slot, fixed, job.version, scene.emitters, count, scene.lightstyles);
+    job.out.packed_lights
+        = job.kept.packed_lights.write(slot, fixed, job.version, scene.emitters, count, scene.lightstyles);
 }
 
 void SceneUpload::bind_texels(const Job& job)
@@ -140,7 +140,7 @@ void SceneUpload::bind_texels(const Job& job)
     tables[shared::TEXELS_TRIANGLES] = &job.kept.triangles.buffer(slot);
     tables[shared::TEXELS_MATERIALS] = &job.kept.materials.buffer(slot);
     tables[shared::TEXELS_EMITTERS] = &job.kept.emitters.buffer(slot);
-    tables[shared::TEXELS_OUTLINES] = &job.kept.outlines.buffer(slot);
+    tables[shared::TEXELS_PACKED_LIGHTS] = &job.kept.packed_lights.buffer(slot);
     if (job.gpu_world)
         tables[shared::TEXELS_STATIC_LIGHTS] = &job.gpu_world->light_indices;
     job.kept.texels.bind(slot, tables);

@@ -5,13 +5,14 @@
 
 #include "ref_vkpt/frame/gpu_world.hpp"
 #include "ref_vkpt/frame/graphics.hpp"
-#include "ref_vkpt/frame/outline_upload.hpp"
+#include "ref_vkpt/frame/packed_light_upload.hpp"
 #include "ref_vkpt/frame/scene_texels.hpp"
 #include "ref_vkpt/frame/uploads.hpp"
+#include "ref_vkpt/rays/acceleration_structures.hpp"
+#include "ref_vkpt/rays/backend.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
-#include "ref_vkpt/trace/acceleration_structures.hpp"
-#include "ref_vkpt/trace/backend.hpp"
 
+#include <cstdint>
 #include <deque>
 
 namespace vkpt {
@@ -27,7 +28,7 @@ public:
         uint32_t view_number = 0; // in the frame
         TraceBackend backend = TraceBackend::software;
         VkDeviceAddress trace_stack = 0;
-        bool knows_motion = false; // primary_visibility asks where moving things were in the last view
+        bool finds_reprojected = false; // primary_visibility asks where moving things were in the last view
     };
     // `gpu_world` belongs to scene.world. Returns descriptor set 2.
     VkDescriptorSet fill(shared::SceneView& out, const SceneSnapshot& scene, const GpuWorld* gpu_world, const Use& use);
@@ -44,7 +45,7 @@ private:
         Kept(const Gpu& gpu, const Bindings& bindings);
         SceneTexels texels;
         PrefixedUpload triangles, emitters, tree_nodes, tree_triangles;
-        OutlineUpload outlines;
+        PackedLightUpload packed_lights;
         KeptUpload materials, light_lists, dynamic_light_indices;
     };
     // One call of fill().

@@ -19,7 +19,7 @@ namespace vkpt {
 
 namespace {
 
-constexpr size_t most_threads = 8; // each holds a device with its own memory
+constexpr size_t max_threads = 8; // each holds a device with its own memory
 
 // A device beside the frame's own, that is asked to do nothing by each shader.
 class IdleDevice {
@@ -90,7 +90,7 @@ ShaderWarmUp::ShaderWarmUp(const Device& device, Pipelines& pipelines, std::vect
         compiled_file_ = directory + "/compiled.txt";
         read_compiled();
     }
-    for (size_t i = 0; i < std::min({ size_t(core_count()), most_threads, shaders_.size() }); i++)
+    for (size_t i = 0; i < std::min({ size_t(core_count()), max_threads, shaders_.size() }); i++)
         threads_.emplace_back([this] { run_thread(); });
 }
 

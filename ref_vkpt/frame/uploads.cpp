@@ -58,11 +58,11 @@ VkDeviceAddress FrameUploads::push(std::span<const std::byte> bytes)
 
 bool make_room(Buffer& buffer, const Gpu& gpu, VkDeviceSize bytes, MemoryKind kind, const char* name)
 {
-    constexpr VkDeviceSize least_spare = 16384;
+    constexpr VkDeviceSize min_spare = 16384;
     if (buffer && bytes <= buffer.size())
         return false;
     buffer = Buffer(); // first, so that both need not fit
-    buffer = Buffer(gpu, bytes + bytes / 4 + least_spare, BufferHome::upload, kind, name);
+    buffer = Buffer(gpu, bytes + bytes / 4 + min_spare, BufferHome::upload, kind, name);
     return true;
 }
 

@@ -10,6 +10,7 @@
 #include "ref_vkpt/scene/snapshot.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 

@@ -8,6 +8,7 @@
 #include "shaders/shared/frame.h"
 
 #include <array>
+#include <cstdint>
 
 namespace vkpt {
 

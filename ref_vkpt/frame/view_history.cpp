@@ -9,7 +9,7 @@ namespace {
 
 // A player who runs, falls or is thrown stays below this between two views (Quake units); beyond it is a teleport or a
 // cut.
-constexpr float most_eye_movement = 128;
+constexpr float max_eye_movement = 128;
 // Seconds. Time that goes back is another demo, or another life.
 constexpr float longest_pause = 1;
 
@@ -22,7 +22,7 @@ bool ViewHistory::continues_into(const Key& now) const
     const bool same_pixels = now.resolved_size == last_.resolved_size;
     return valid_ && (same_pixels || !now.antialiases) && now.output_size == last_.output_size
         && now.world == last_.world && now.denoiser == last_.denoiser && now.antialiases == last_.antialiases
-        && passed >= 0 && passed < longest_pause && glm::distance(now.camera.eye, last_.camera.eye) < most_eye_movement;
+        && passed >= 0 && passed < longest_pause && glm::distance(now.camera.eye, last_.camera.eye) < max_eye_movement;
 }
 
 void ViewHistory::keep(const Key& now)

@@ -6,14 +6,15 @@
 #include "ref_vkpt/lights/emitters.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
 
 namespace vkpt {
 
-// Calls `visit` with the texinfos of an animation, starting with `first`, which may be the only one. read_bsp cut chains
-// that never come back, and refuses long ones.
+// Calls `visit` with the texinfos of an animation, starting with `first`, which may be the only one. read_bsp cut
+// chains that never come back, and refuses long ones.
 template <class Visit> void for_each_frame(const formats::Bsp& bsp, uint32_t first, Visit visit)
 {
     uint32_t frame = first;

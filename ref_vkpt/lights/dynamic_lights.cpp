@@ -97,7 +97,7 @@ private:
 constexpr float farthest_move2 = DynamicLights::farthest_move * DynamicLights::farthest_move;
 // Of all kinds in one frame; their number grows with the square of the lights of one kind. Sorting so many takes some
 // 20 ms.
-constexpr size_t most_pairs = 1 << 18;
+constexpr size_t max_pairs = 1 << 18;
 
 float move2(const Emitter& emitter, const Emitter& last)
 {
@@ -155,7 +155,7 @@ std::vector<uint32_t> DynamicLights::arrange(std::vector<Emitter>& emitters)
     for (const auto& [kind, candidates] : kinds) {
         const std::vector<uint32_t> free = candidates.free_slots();
         pairs += candidates.emitters.size() * free.size();
-        const auto claim = pairs <= most_pairs ? claim_nearest : claim_in_order;
+        const auto claim = pairs <= max_pairs ? claim_nearest : claim_in_order;
         claim(candidates.emitters, free, emitters, last_, slots);
     }
     std::vector<bool> used(last_.size(), false);

@@ -37,7 +37,7 @@ Emission classify(const BspTexinfo& texinfo)
 }
 
 // Rays that bounce see through it or through its holes.
-bool is_veil(const BspTexinfo& texinfo)
+bool is_transparent(const BspTexinfo& texinfo)
 {
     return (texinfo.flags & (formats::SURF_TRANS33 | formats::SURF_TRANS66 | formats::SURF_ALPHATEST)) != 0;
 }
@@ -46,7 +46,7 @@ uint32_t emitter_type(const BspTexinfo& texinfo)
 {
     if (classify(texinfo) == Emission::sky)
         return shared::EMITTER_SKY;
-    return is_veil(texinfo) ? shared::EMITTER_VEIL : shared::EMITTER_TRIANGLE;
+    return is_transparent(texinfo) ? shared::EMITTER_TRANSPARENT : shared::EMITTER_TRIANGLE;
 }
 
 float max_component(glm::vec3 colour) { return std::max({ colour.x, colour.y, colour.z }); }

@@ -7,6 +7,7 @@
 #include "shaders/shared/scene.h"
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -67,8 +68,8 @@ struct StaticEmitters {
 // A face's outline where it is drawn, used for geometry and emitters alike: Bsp::face_polygon, but for liquids that
 // stand `liquid_lift` in front of their plane. The surface of a liquid is two faces in one plane that look away from
 // each other; apart, a ray meets the one whose front it sees, and no chance of rounding decides which. Less than the
-// distance from which rays leave a surface (leave_surface in shaders/lib/surfaces.glsl): what passes one of the two has
-// passed both.
+// distance from which rays leave a surface (offset_ray_origin in shaders/lib/surfaces.glsl): what passes one of the two
+// has passed both.
 inline constexpr float liquid_lift = 1.0f / 128;
 std::vector<glm::vec3> face_outline(const formats::Bsp& bsp, size_t face);
 
@@ -106,8 +107,8 @@ glm::vec3 face_radiance(
     const formats::Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales);
 
 // The shining triangles of one face as emitters, in the order of triangles_of_face; empty: the face emits nothing.
-std::vector<shared::Emitter> emitters_of_face(const formats::Bsp& bsp, size_t face, const AverageColour& colour,
-    const EmissionScales& scales, WorkLimit& work);
+std::vector<shared::Emitter> emitters_of_face(
+    const formats::Bsp& bsp, size_t face, const AverageColour& colour, const EmissionScales& scales, WorkLimit& work);
 
 // The engine's dynamic light: it adds colour * (intensity - distance), in lightmap units, to what is nearer than
 // `intensity`. The sphere's inverse-square light, faded to nothing there, equals that at half the distance. Negative

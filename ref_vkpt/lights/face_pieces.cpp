@@ -17,13 +17,13 @@ namespace {
 
 using Outline = std::vector<glm::vec3>;
 
-constexpr int64_t greatest_tile_count = 64; // of a face; with more of them a lamp is a dot
+constexpr int64_t max_tile_count = 64; // of a face; with more of them a lamp is a dot
 // Per megabyte of the map: corners looked at, the time of which grows with the square of a face's pieces.
-constexpr uint64_t most_steps = 200'000'000;
+constexpr uint64_t max_steps = 200'000'000;
 constexpr uint64_t steps_of_cut = 24; // what cutting takes for a corner, in such steps
 constexpr float farthest_tile = 1 << 20; // from the origin; beyond, a float no longer tells where in a tile it is
 constexpr float cut_tolerance = 0.02f; // texels: corners so near to a cut lie on it
-constexpr float least_area = 0.01f; // units^2; smaller pieces are none
+constexpr float min_area = 0.01f; // units^2; smaller pieces are none
 
 // Where a texture coordinate (0: u, 1: v) has a value.
 struct Cut {
@@ -52,7 +52,7 @@ std::array<Outline, 2> split(const Outline& outline, const Cut& cut)
         }
     }
     for (Outline& side : sides)
-        if (side.size() < 3 || measure_area(side) < least_area)
+        if (side.size() < 3 || measure_area(side) < min_area)
             side.clear();
     return sides;
 }
@@ -99,7 +99,7 @@ std::optional<std::vector<Box>> find_boxes(const formats::Bsp& bsp, const format
                   end_y = int64_t(end.y);
     if (end_x <= first_x || end_y <= first_y)
         return std::vector<Box>();
-    if ((end_x - first_x) * (end_y - first_y) > greatest_tile_count)
+    if ((end_x - first_x) * (end_y - first_y) > max_tile_count)
         return std::nullopt;
     std::vector<Box> boxes;
     for (int64_t y = first_y; y < end_y; y++)
@@ -174,11 +174,11 @@ float measure_area(const std::vector<glm::vec3>& outline)
 
 WorkLimit limit_of_pieces(const formats::Bsp& bsp)
 {
-    return { bsp, most_steps, "steps to cut the lamps out of its faces' pictures" };
+    return { bsp, max_steps, "steps to cut the lamps out of its faces' pictures" };
 }
 
-std::vector<FacePiece> cut_face(const formats::Bsp& bsp, size_t face, const std::vector<BrightPart>& parts,
-    glm::ivec2 size, WorkLimit& work)
+std::vector<FacePiece> cut_face(
+    const formats::Bsp& bsp, size_t face, const std::vector<BrightPart>& parts, glm::ivec2 size, WorkLimit& work)
 {
     const formats::BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
     // What moves over the face, or changes, shines as a whole.

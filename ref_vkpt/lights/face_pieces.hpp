@@ -28,8 +28,8 @@ struct FacePiece {
 // Cuts face_outline(bsp, face) along the parts' edges, the picture being `size` texels wide and high in texinfo space
 // and tiled. Empty where the face shows no bright part, or so many that it may as well shine as a whole. `work` is what
 // all faces of the map may take together: see limit_of_pieces.
-std::vector<FacePiece> cut_face(const formats::Bsp& bsp, size_t face, const std::vector<BrightPart>& parts,
-    glm::ivec2 size, WorkLimit& work);
+std::vector<FacePiece> cut_face(
+    const formats::Bsp& bsp, size_t face, const std::vector<BrightPart>& parts, glm::ivec2 size, WorkLimit& work);
 WorkLimit limit_of_pieces(const formats::Bsp& bsp);
 
 float triangle_area(glm::vec3 a, glm::vec3 b, glm::vec3 c);

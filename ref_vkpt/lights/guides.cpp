@@ -18,8 +18,8 @@ namespace {
 
 // A cell stands out where it sends so many times of what the faces that the cluster sees send on average.
 constexpr float standing_out = 3;
-constexpr size_t most_blocks = 8192; // that may be guides, in a map
-constexpr size_t most_tests = 1u << 24; // of clusters against blocks, or clusters
+constexpr size_t max_blocks = 8192; // that may be guides, in a map
+constexpr size_t max_tests = 1u << 24; // of clusters against blocks, or clusters
 // Guides' weights are 16-bit floats; what they are relative to does not matter.
 constexpr float power_scale = 1.0f / 65536;
 
@@ -105,7 +105,7 @@ private:
                     { face, place * shared::CACHE_GUIDE_SIDE, lit.cluster, 0, 0, 0, glm::vec3(0), {}, 0 });
             add_cell(blocks_[entry->second], i, lit);
         }
-        const size_t kept = std::min({ blocks_.size(), most_blocks, most_tests / std::max<size_t>(sums_.size(), 1) });
+        const size_t kept = std::min({ blocks_.size(), max_blocks, max_tests / std::max<size_t>(sums_.size(), 1) });
         std::ranges::nth_element(blocks_, blocks_.begin() + std::ptrdiff_t(kept), std::greater(), &Block::moment);
         blocks_.resize(kept);
     }
@@ -125,7 +125,7 @@ private:
     void find_means()
     {
         const size_t clusters = sums_.size();
-        const bool few = clusters * clusters <= most_tests;
+        const bool few = clusters * clusters <= max_tests;
         glm::vec2 all(0);
         for (const glm::vec2& sum : sums_)
             all += sum;

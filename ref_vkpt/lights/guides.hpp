@@ -5,6 +5,7 @@
 
 #include "ref_vkpt/lights/light_cache.hpp"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 

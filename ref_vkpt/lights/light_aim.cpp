@@ -27,7 +27,8 @@ TargetPlaces find_target_places(std::span<const EntityText> entities)
 {
     TargetPlaces places;
     for (const EntityText& entity : entities)
-        if (const std::optional<glm::vec3> origin = entity.vector("origin"); origin && !entity.get("targetname").empty())
+        if (const std::optional<glm::vec3> origin = entity.vector("origin");
+            origin && !entity.get("targetname").empty())
             places.try_emplace(std::string(entity.get("targetname")), *origin);
     return places;
 }

@@ -23,9 +23,8 @@ using TargetPlaces = std::map<std::string, glm::vec3, std::less<>>;
 TargetPlaces find_target_places(std::span<const formats::EntityText> entities);
 
 // The direction in which a light entity at `origin` shines: at its "target", at "_spotpoint", along "_spotvector" or
-// the yaw and pitch of "_spotangle" or "_mangle", or for a light_spot along "angle" (-1: up, -2: down). Nothing: it is not
-// aimed, and shines all round.
-std::optional<glm::vec3> find_aim(
-    const formats::EntityText& light, glm::vec3 origin, const TargetPlaces& targets);
+// the yaw and pitch of "_spotangle" or "_mangle", or for a light_spot along "angle" (-1: up, -2: down). Nothing: it is
+// not aimed, and shines all round.
+std::optional<glm::vec3> find_aim(const formats::EntityText& light, glm::vec3 origin, const TargetPlaces& targets);
 
 } // namespace vkpt

@@ -16,9 +16,9 @@ namespace {
 using shared::CACHE_LAYERS;
 using Styles = std::set<uint32_t>;
 
-constexpr float least_area = 0.1f; // of a face with cells
+constexpr float min_area = 0.1f; // of a face with cells
 constexpr float coarsest_cell = 1 << 17; // larger than any map
-constexpr uint32_t most_cells_across = (1u << shared::CACHE_SIZE_BITS) - 1;
+constexpr uint32_t max_cells_across = (1u << shared::CACHE_SIZE_BITS) - 1;
 
 // A face in its own plane: the first corner of its bounds, two axes along them, and the outline in units from there.
 struct FlatFace {
@@ -53,7 +53,7 @@ FlatFace flatten_face(const std::vector<glm::vec3>& outline, glm::vec3 normal)
         corner -= mins;
     flat.origin = outline[0] + flat.across * mins.x + flat.down * mins.y;
     // Also false where a number is none.
-    if (measure_area(outline) >= least_area)
+    if (measure_area(outline) >= min_area)
         flat.size = maxs - mins;
     return flat;
 }
@@ -63,18 +63,18 @@ glm::uvec2 count_cells(const FlatFace& face, float cell_size)
     return glm::max(glm::uvec2(glm::ceil(face.size / cell_size - 1e-3f)), glm::uvec2(1));
 }
 
-// Cells of all faces, or something greater than `most_cache_cells`.
+// Cells of all faces, or something greater than `max_cache_cells`.
 size_t count_all_cells(std::span<const FlatFace> faces, float cell_size)
 {
     size_t count = 0;
     for (const FlatFace& face : faces) {
         if (face.size == glm::vec2(0))
             continue;
-        if (std::max(face.size.x, face.size.y) > cell_size * float(most_cells_across))
-            return most_cache_cells + 1;
+        if (std::max(face.size.x, face.size.y) > cell_size * float(max_cells_across))
+            return max_cache_cells + 1;
         const glm::uvec2 cells = count_cells(face, cell_size);
         count += size_t(cells.x) * cells.y;
-        if (count > most_cache_cells)
+        if (count > max_cache_cells)
             break;
     }
     return count;
@@ -217,8 +217,8 @@ private:
     {
         const auto first = result_.corners.begin() + plane.first_corner;
         const std::vector<glm::vec2> outline(first, first + plane.corner_count);
-        const uint32_t across = face.size & most_cells_across,
-                       down = face.size >> shared::CACHE_SIZE_BITS & most_cells_across,
+        const uint32_t across = face.size & max_cells_across,
+                       down = face.size >> shared::CACHE_SIZE_BITS & max_cells_across,
                        layers = face.size >> (2 * shared::CACHE_SIZE_BITS);
         const uint32_t number = uint32_t(result_.faces.size());
         for (uint32_t y = 0; y < down; y++)
@@ -241,9 +241,9 @@ LightCacheLayout lay_out_light_cache(
 {
     std::vector<FlatFace> faces = flatten_faces(bsp);
     float cell_size = finest_cache_cell;
-    while (count_all_cells(faces, cell_size) > most_cache_cells && cell_size < coarsest_cell)
+    while (count_all_cells(faces, cell_size) > max_cache_cells && cell_size < coarsest_cell)
         cell_size *= 2;
-    if (count_all_cells(faces, cell_size) > most_cache_cells)
+    if (count_all_cells(faces, cell_size) > max_cache_cells)
         faces.assign(faces.size(), {}); // not even with one cell each
     const std::vector<FaceLights> lights = find_face_lights(bsp, lists, emitters);
     Layout layout(cell_size);

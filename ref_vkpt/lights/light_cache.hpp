@@ -3,9 +3,10 @@
 // its longest edge.
 #pragma once
 
-#include "ref_vkpt/lights/light_lists.hpp"
 #include "shaders/shared/light_cache.h"
+#include "ref_vkpt/lights/light_lists.hpp"
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>
@@ -22,7 +23,7 @@ struct LightCacheLayout {
 };
 
 inline constexpr float finest_cache_cell = 16; // units, as the classic lightmaps' texels
-inline constexpr size_t most_cache_cells = 1u << 16; // cells grow until a map needs no more
+inline constexpr size_t max_cache_cells = 1u << 16; // cells grow until a map needs no more
 
 // Faces of the world that bounce rays can end on and that a leaf names. Those that see lights of more than CACHE_LAYERS
 // lightstyles have no cells, nor have those whose outline has no area. `emitters`: those that the lists were built

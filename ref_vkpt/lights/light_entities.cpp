@@ -17,8 +17,8 @@ std::vector<EntityText> read_entities(const formats::Bsp& bsp, std::vector<std::
     try {
         return formats::parse_entities(bsp.entity_text, bsp.name);
     } catch (const formats::FormatError& error) {
-        messages.push_back(fmt::format(
-            "{}: no light entities: the entity text cannot be read: {}", bsp.name, error.what()));
+        messages.push_back(
+            fmt::format("{}: no light entities: the entity text cannot be read: {}", bsp.name, error.what()));
         return {};
     }
 }

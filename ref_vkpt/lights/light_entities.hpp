@@ -5,6 +5,7 @@
 #include "formats/bsp.hpp"
 #include "formats/entities.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

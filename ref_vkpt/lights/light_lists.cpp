@@ -28,7 +28,7 @@ using shared::Emitter;
 constexpr float lifts[] = { 0.125f, 1, 4 };
 constexpr float bounds_tolerance = 2; // leaf bounds are rounded to integers, units
 // Per megabyte of the map, of which large ones need a tenth.
-constexpr uint64_t most_entries = 2'000'000, most_steps = 200'000'000;
+constexpr uint64_t max_entries = 2'000'000, max_steps = 200'000'000;
 constexpr size_t bytes_per_step = 16; // when sets are merged
 
 template <class Visit> void for_each_cluster(const ClusterSet& set, Visit visit)
@@ -193,8 +193,8 @@ void LightLists::Fixed::build_cluster_bounds()
 
 std::vector<shared::LightList> LightLists::Fixed::build_static_lists(std::span<const shared::Emitter> emitters)
 {
-    WorkLimit entries(*bsp, most_entries, "entries in its light lists"),
-        work(*bsp, most_steps, "steps to find what its lights can reach");
+    WorkLimit entries(*bsp, max_entries, "entries in its light lists"),
+        work(*bsp, max_steps, "steps to find what its lights can reach");
     sky_receivers = ClusterSet(cluster_count);
     std::vector<std::vector<uint32_t>> members(cluster_count);
     ClusterSet receivers;
@@ -295,7 +295,7 @@ void LightLists::update(std::span<const Emitter> dynamic_emitters)
     previous_dynamic_count_ = placed_.size();
     changed_ = placed_.size() != dynamic_emitters.size();
     placed_.resize(dynamic_emitters.size());
-    size_t room = most_dynamic_entries;
+    size_t room = max_dynamic_entries;
     unlisted_dynamic_count_ = 0;
     for (size_t i = 0; i < dynamic_emitters.size(); i++) {
         Placed& placed = placed_[i];

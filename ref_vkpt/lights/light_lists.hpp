@@ -6,6 +6,7 @@
 #include "formats/bsp.hpp"
 #include "shaders/shared/scene.h"
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -24,8 +25,8 @@ public:
     void build(const formats::Bsp& bsp, std::span<const shared::Emitter> static_emitters);
     // Each frame: dynamic emitters get indices static_count + i. Emitters with a reach list only where it extends to,
     // dark ones (radiance 0) nowhere. Where in the map an emitter can be seen is looked up again only if it has moved;
-    // nothing is done where all stand still. Once there would be more than `most_dynamic_entries` in all clusters' lists,
-    // the further emitters list in none.
+    // nothing is done where all stand still. Once there would be more than `max_dynamic_entries` in all clusters'
+    // lists, the further emitters list in none.
     void update(std::span<const shared::Emitter> dynamic_emitters);
 
     // Index = cluster; one more entry at the end, for points outside every cluster: it holds all emitters.
@@ -59,8 +60,9 @@ public:
     size_t unlisted_static_count() const { return fixed_->unlisted_static_count; }
     // Dynamic emitters that found no more room in the last update.
     size_t unlisted_dynamic_count() const { return unlisted_dynamic_count_; }
-    // The busiest of a hundred maps need some 50,000. What moves may be thousands of lights in thousands of clusters, every frame.
-    static constexpr size_t most_dynamic_entries = 1 << 21;
+    // The busiest of a hundred maps need some 50,000. What moves may be thousands of lights in thousands of clusters,
+    // every frame.
+    static constexpr size_t max_dynamic_entries = 1 << 21;
     // The tree that shaders descend to find a point's cluster. Node 0 is the root.
     const std::vector<shared::BspTreeNode>& tree() const { return fixed_->tree; }
 

@@ -19,15 +19,15 @@ namespace {
 using shared::Emitter;
 
 // Per cluster. Fewer in maps whose lists are long, so that there are about so many predictions (a quarter of a second).
-constexpr size_t most_points = 48, fewest_points = 6, most_predictions = 16'000'000;
+constexpr size_t max_points = 48, min_points = 6, max_predictions = 16'000'000;
 constexpr size_t points_per_point_in_air = 6;
 // Of what arrives: large lights reach above the horizon though their centre does not.
-constexpr float least_cosine = 0.02f;
+constexpr float min_cosine = 0.02f;
 constexpr float cosine_in_air = 0.5f; // things there look anywhere
 constexpr float nearest_share = 0.02f; // of the square of what a light may have at its nearest place
 constexpr size_t copies_per_light = 2; // beyond one each, on average over a list
-constexpr size_t most_copies = 1024; // in one multiset beyond one each: longer ones leave the caches
-constexpr int greatest_exponent = 10;
+constexpr size_t max_copies = 1024; // in one multiset beyond one each: longer ones leave the caches
+constexpr int max_exponent = 10;
 
 struct Receiver {
     glm::vec3 position, normal; // normal 0: in the air
@@ -42,11 +42,11 @@ float predict_irradiance(const LightSource& source, const Receiver& receiver)
         = source.normal == glm::vec3(0) ? 1 : std::max(glm::dot(to_receiver, source.normal) * inverse, 0.0f);
     const float arriving = receiver.normal == glm::vec3(0)
         ? cosine_in_air
-        : std::max(-glm::dot(to_receiver, receiver.normal) * inverse, least_cosine);
+        : std::max(-glm::dot(to_receiver, receiver.normal) * inverse, min_cosine);
     return source.power * sent * arriving / std::max(distance2, source.area);
 }
 
-float predict_greatest_irradiance(const LightSource& source, const Bounds& bounds)
+float predict_max_irradiance(const LightSource& source, const Bounds& bounds)
 {
     const glm::vec3 to_receiver = glm::clamp(source.centre, bounds.mins, bounds.maxs) - source.centre;
     return source.power / std::max(glm::dot(to_receiver, to_receiver), 2 * source.area);
@@ -143,7 +143,7 @@ std::vector<float> measure_sizes(
             squares[i] += light[i] / sum * (light[i] / sum) / float(receivers.size());
     }
     for (size_t i = 0; i < sources.size(); i++) {
-        const float most = predict_greatest_irradiance(sources[i], bounds);
+        const float most = predict_max_irradiance(sources[i], bounds);
         const float share = most > 0 ? most / (most + mean_sum) : 0;
         squares[i] = std::sqrt(squares[i] + nearest_share * share * share);
     }
@@ -153,7 +153,7 @@ std::vector<float> measure_sizes(
 // The power of two next to `copies`, at least 1.
 uint32_t round_to_exponent(float copies)
 {
-    return copies > 1 ? uint32_t(std::clamp(int(std::lround(std::log2(copies))), 0, greatest_exponent)) : 0;
+    return copies > 1 ? uint32_t(std::clamp(int(std::lround(std::log2(copies))), 0, max_exponent)) : 0;
 }
 
 } // namespace
@@ -171,7 +171,7 @@ LightMultisets make_light_multisets(
     const size_t cluster_count = lists.lists().size() - 1;
     const std::vector<std::vector<uint32_t>> leaves = collect_leaves(bsp, cluster_count);
     const size_t points
-        = std::clamp(most_predictions / std::max<size_t>(lists.static_indices().size(), 1), fewest_points, most_points);
+        = std::clamp(max_predictions / std::max<size_t>(lists.static_indices().size(), 1), min_points, max_points);
     std::mt19937 rng;
     for (size_t cluster = 0; cluster < cluster_count; cluster++) {
         const shared::LightList& list = lists.lists()[cluster];
@@ -188,7 +188,7 @@ LightMultisets make_light_multisets(
         for (const float size : sizes)
             total += size;
         const size_t first = result.entries.size();
-        const float copies = float(std::min(copies_per_light * indices.size(), most_copies));
+        const float copies = float(std::min(copies_per_light * indices.size(), max_copies));
         for (size_t i = 0; i < indices.size(); i++) {
             const uint32_t exponent = total > 0 ? round_to_exponent(sizes[i] / total * copies) : 0;
             result.entries.insert(

@@ -7,6 +7,7 @@
 
 #include "shaders/shared/scene.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 

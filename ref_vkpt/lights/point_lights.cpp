@@ -25,12 +25,12 @@ using formats::Bsp;
 using formats::EntityText;
 
 constexpr float default_light_value = 300;
-constexpr float least_radius = 0.5f;
+constexpr float min_radius = 0.5f;
 constexpr int farthest_rescue = 16; // how far a light inside a wall may be moved to come out of it, units
 constexpr float default_cone = 10; // degrees between axis and edge
 // The classic cone's edge is sharp. Here it fades over so much of the cone's angle, half of it outside.
 constexpr float edge_share = 0.1f;
-constexpr uint64_t most_steps = 100'000'000; // nodes visited for all lights, per megabyte of the map
+constexpr uint64_t max_steps = 100'000'000; // nodes visited for all lights, per megabyte of the map
 
 // The nearest free place around a light whose origin lies in a wall.
 std::optional<glm::vec3> find_free_place(const Bsp& bsp, glm::vec3 origin, uint64_t& steps)
@@ -42,7 +42,7 @@ std::optional<glm::vec3> find_free_place(const Bsp& bsp, glm::vec3 origin, uint6
             for (int y = -1; y <= 1; y++)
                 for (int x = -1; x <= 1; x++) {
                     const glm::vec3 place = origin + float(step) * glm::vec3(x, y, z);
-                    if (!touches_solid(bsp, place, least_radius, steps))
+                    if (!touches_solid(bsp, place, min_radius, steps))
                         return place;
                 }
     return std::nullopt;
@@ -53,9 +53,9 @@ std::optional<glm::vec3> find_free_place(const Bsp& bsp, glm::vec3 origin, uint6
 float fit_radius(const Bsp& bsp, glm::vec3 centre, float wanted, uint64_t& steps)
 {
     float radius = wanted;
-    while (radius > least_radius && touches_solid(bsp, centre, radius, steps))
+    while (radius > min_radius && touches_solid(bsp, centre, radius, steps))
         radius *= 0.5f;
-    return std::max(radius, least_radius);
+    return std::max(radius, min_radius);
 }
 
 float read_value(const EntityText& entity)
@@ -100,7 +100,7 @@ std::vector<shared::Emitter> extract_point_lights(
     const TargetPlaces targets = find_target_places(entities);
     std::vector<shared::Emitter> lights;
     size_t number = 0;
-    WorkLimit work(bsp, most_steps, "steps to find its point lights' places");
+    WorkLimit work(bsp, max_steps, "steps to find its point lights' places");
     for (const EntityText& entity : entities) {
         if (!is_light(entity))
             continue;

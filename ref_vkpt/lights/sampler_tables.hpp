@@ -6,6 +6,7 @@
 #include "shaders/shared/light_sampler.h"
 #include "shaders/shared/scene.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -17,7 +17,7 @@ namespace {
 
 using formats::EntityText;
 
-constexpr int most_suns = 9;
+constexpr int max_suns = 9;
 constexpr float smallest_diameter = 0.02f, largest_diameter = 60; // degrees
 
 std::string prefix_of(int number) { return number == 1 ? "_sun" : fmt::format("_sun{}", number); }
@@ -68,7 +68,7 @@ EntityText merge_worlds(std::span<const EntityText> entities)
 
 void append_sun(std::vector<Sun>& suns, const Sun& sun)
 {
-    if (sun.light > 0 && std::isfinite(sun.light) && suns.size() < size_t(most_suns))
+    if (sun.light > 0 && std::isfinite(sun.light) && suns.size() < size_t(max_suns))
         suns.push_back(sun);
 }
 
@@ -79,7 +79,7 @@ std::vector<Sun> find_suns(std::span<const EntityText> entities)
     std::vector<Sun> suns;
     const EntityText world = merge_worlds(entities);
     const TargetPlaces targets = find_target_places(entities);
-    for (int number = 1; number <= most_suns; number++) {
+    for (int number = 1; number <= max_suns; number++) {
         const std::string prefix = prefix_of(number);
         Sun sun;
         sun.light = world.number(prefix + "_light", 0);
@@ -96,8 +96,8 @@ std::vector<Sun> find_suns(std::span<const EntityText> entities)
             continue;
         Sun sun;
         sun.light = entity.number("light", 0);
-        sun.to_sun = -find_aim(entity, entity.vector("origin").value_or(glm::vec3(0)), targets)
-                          .value_or(glm::vec3(0, 0, -1));
+        sun.to_sun
+            = -find_aim(entity, entity.vector("origin").value_or(glm::vec3(0)), targets).value_or(glm::vec3(0, 0, -1));
         sun.colour = read_light_colour(entity);
         sun.half_angle = half_angle_of(entity.number("_penumbra", 0));
         sun.lightstyle = read_lightstyle(entity, "style");

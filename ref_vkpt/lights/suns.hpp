@@ -5,6 +5,7 @@
 #include "formats/entities.hpp"
 #include "shaders/shared/scene.h"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>

@@ -13,8 +13,8 @@ namespace {
 
 using Triangles = std::vector<std::array<uint32_t, 3>>;
 
-constexpr float least_doubled_area = 1e-3f; // units^2; flatter triangles are no triangles
-constexpr size_t greatest_searched_outline = 40; // the search is cubic
+constexpr float min_doubled_area = 1e-3f; // units^2; flatter triangles are no triangles
+constexpr size_t max_searched_outline = 40; // the search is cubic
 
 // The smallest height of a triangle.
 float measure_height(const std::vector<glm::vec3>& p, size_t a, size_t b, size_t c)
@@ -92,7 +92,7 @@ Triangles triangulate(const std::vector<glm::vec3>& outline, glm::vec3 normal)
     if (outline.size() < 3)
         return {};
     Triangles triangles;
-    if (outline.size() > 4 && outline.size() <= greatest_searched_outline)
+    if (outline.size() > 4 && outline.size() <= max_searched_outline)
         OutlineCut(outline).collect(0, outline.size() - 1, triangles);
     else
         triangles = cut_fan(outline.size());
@@ -101,7 +101,7 @@ Triangles triangulate(const std::vector<glm::vec3>& outline, glm::vec3 normal)
     for (std::array<uint32_t, 3> t : triangles) {
         const glm::vec3 doubled_area = glm::cross(outline[t[1]] - outline[t[0]], outline[t[2]] - outline[t[0]]);
         const float towards_front = glm::dot(doubled_area, normal);
-        if (!(std::abs(towards_front) > least_doubled_area))
+        if (!(std::abs(towards_front) > min_doubled_area))
             continue;
         if (towards_front < 0)
             std::swap(t[1], t[2]);

@@ -138,8 +138,7 @@ bool KeyFilter::passes(const std::byte* event)
     }
     if (type != wheel || !is_open_)
         return true;
-    const float turned
-        = is_sdl3 ? read<float>(event, layout.wheel_y) : float(read<int32_t>(event, layout.wheel_y));
+    const float turned = is_sdl3 ? read<float>(event, layout.wheel_y) : float(read<int32_t>(event, layout.wheel_y));
     if (turned != 0) {
         const std::scoped_lock lock(mutex_);
         pressed_.push_back(turned > 0 ? MenuKey::up : MenuKey::down);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Keys for pt_menu: the refresh API has none, so that they are taken from SDL before the engine sees them, while the menu is open.
+// Keys for pt_menu: the refresh API has none, so that they are taken from SDL before the engine sees them, while the
+// menu is open.
 #pragma once
 
 #include <atomic>
@@ -19,8 +20,8 @@ public:
     KeyFilter(const KeyFilter&) = delete;
     KeyFilter& operator=(const KeyFilter&) = delete;
 
-    // Between the engine's start of SDL and its end. Nothing happens where there is no SDL. SDL forgets the events that wait at
-    // that moment, hence once, at the start, and not with every opening of the menu.
+    // Between the engine's start of SDL and its end. Nothing happens where there is no SDL. SDL forgets the events that
+    // wait at that moment, hence once, at the start, and not with every opening of the menu.
     void install();
     // From now on the menu's keys are kept from the engine, or not.
     void set_open(bool open) { is_open_ = open; }

@@ -84,8 +84,7 @@ void step_choice(const Row& row, int direction)
     const auto now = std::ranges::find(choices, value_of(row));
     const auto count = std::ptrdiff_t(choices.size());
     // From what is none of them, to the first.
-    const std::ptrdiff_t next
-        = now == choices.end() ? 0 : (now - choices.begin() + direction + count) % count;
+    const std::ptrdiff_t next = now == choices.end() ? 0 : (now - choices.begin() + direction + count) % count;
     if (row.cvar)
         engine::set_cvar(row.cvar, choices[size_t(next)]);
     else

@@ -21,13 +21,13 @@ std::string describe(std::string_view name, double milliseconds)
 
 void FrameRate::count(Clock::time_point now)
 {
-    constexpr double least_seconds = 0.5;
+    constexpr double min_seconds = 0.5;
     if (since_ == Clock::time_point())
         since_ = now;
     else
         frames_++;
     const double seconds = std::chrono::duration<double>(now - since_).count();
-    if (seconds < least_seconds)
+    if (seconds < min_seconds)
         return;
     rate_ = frames_ / seconds;
     since_ = now;

@@ -11,17 +11,17 @@ namespace vkpt {
 
 namespace {
 
-constexpr int greatest_side = 32; // cells
-constexpr float least_brightness = 0.3f;
-constexpr size_t greatest_count = 4;
-constexpr float greatest_area = 0.5f;
-constexpr float least_share = 0.6f;
+constexpr int max_side = 32; // cells
+constexpr float min_brightness = 0.3f;
+constexpr size_t max_count = 4;
+constexpr float max_area = 0.5f;
+constexpr float min_share = 0.6f;
 
 // The picture in a few cells, each the sum of the light of its texels.
 struct Cells {
     explicit Cells(const formats::Image& image)
-        : width(std::min(image.width, greatest_side))
-        , height(std::min(image.height, greatest_side))
+        : width(std::min(image.width, max_side))
+        , height(std::min(image.height, max_side))
         , light(size_t(width) * size_t(height))
     {
         std::vector<int> column(size_t(image.width)); // no division a texel
@@ -86,7 +86,7 @@ std::vector<CellBox> find_boxes(const Cells& cells)
         brightest = std::max(brightest, luminance(cell));
     std::vector<bool> bright(cells.light.size());
     for (size_t i = 0; i < bright.size(); i++)
-        bright[i] = brightest > 0 && luminance(cells.light[i]) >= least_brightness * brightest;
+        bright[i] = brightest > 0 && luminance(cells.light[i]) >= min_brightness * brightest;
     std::vector<CellBox> boxes;
     for (int y = 0; y < cells.height; y++)
         for (int x = 0; x < cells.width; x++) {
@@ -115,7 +115,7 @@ std::vector<BrightPart> find_bright_parts(const formats::Image& image)
         return {};
     Cells cells(image);
     const std::vector<CellBox> boxes = find_boxes(cells);
-    if (boxes.size() > greatest_count)
+    if (boxes.size() > max_count)
         return {};
     glm::vec3 all(0), held(0);
     for (const glm::vec3& cell : cells.light)
@@ -133,7 +133,7 @@ std::vector<BrightPart> find_bright_parts(const formats::Image& image)
         parts.push_back(
             { glm::vec2(box.x0, box.y0) / size, glm::vec2(box.x1, box.y1) / size, sum / float(box.area()) });
     }
-    if (float(area) > greatest_area * size.x * size.y || luminance(held) < least_share * luminance(all))
+    if (float(area) > max_area * size.x * size.y || luminance(held) < min_share * luminance(all))
         return {};
     return parts;
 }

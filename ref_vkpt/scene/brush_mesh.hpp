@@ -2,10 +2,11 @@
 // A brush model (door, lift, train) made ready to be posed every frame: triangles in the order of its tree's leaves.
 #pragma once
 
+#include "ref_vkpt/rays/moving_bvh.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
-#include "ref_vkpt/trace/moving_bvh.hpp"
 #include "shaders/shared/scene.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -157,7 +157,7 @@ void SnapshotBuilder::add_brush(const Entity& entity, const Model::Brush& brush)
         emitter.p1 = pose.transform.point(emitter.p1);
         emitter.p2 = pose.transform.point(emitter.p2);
         if (translucent)
-            emitter.type = shared::EMITTER_VEIL;
+            emitter.type = shared::EMITTER_TRANSPARENT;
         if (world.animated_lights.has(emitter.lightstyle)) { // by the entity's frame, not by time
             const AnimatedLight& light = world.animated_lights.at(emitter.lightstyle);
             emitter.radiance *= light.share(entity.frame);
@@ -235,7 +235,7 @@ void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const M
 // them.
 bool SnapshotBuilder::add_placed_lights(const Entity& entity, formats::LightModel model, const Transform& transform)
 {
-    constexpr float shown_radiance = 12, least_shown_radius = 1.5f;
+    constexpr float shown_radiance = 12, min_shown_radius = 1.5f;
     const size_t first = snapshot_.emitters.size();
     const formats::CodedLight light = formats::decode_light(entity.skin_number);
     if (snapshot_.world)
@@ -245,7 +245,7 @@ bool SnapshotBuilder::add_placed_lights(const Entity& entity, formats::LightMode
         material.tint = light.colour * shown_radiance;
         material.flags = shared::MATERIAL_FULLBRIGHT;
         for (size_t i = first; i < snapshot_.emitters.size(); i++) {
-            const float radius = std::max(snapshot_.emitters[i].p1.x, least_shown_radius);
+            const float radius = std::max(snapshot_.emitters[i].p1.x, min_shown_radius);
             append_octahedron({ snapshot_.emitters[i].p0 }, radius, add_material(material), snapshot_.moving.loose());
         }
         snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
@@ -292,7 +292,7 @@ void SnapshotBuilder::add_shell(const Entity& entity, const Model::Mesh& mesh, M
 void SnapshotBuilder::add_glow(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, float area, const shared::Material& material)
 {
     shared::Emitter emitter {};
-    emitter.type = shared::EMITTER_VEIL;
+    emitter.type = shared::EMITTER_TRANSPARENT;
     emitter.p0 = p0;
     emitter.p1 = p1;
     emitter.p2 = p2;

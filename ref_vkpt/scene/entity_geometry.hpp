@@ -8,6 +8,7 @@
 #include "ref_vkpt/lights/octahedral.hpp"
 #include "shaders/shared/scene.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace vkpt {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Quake II's pictures say nothing of gloss: what a surface is made of is told by files of materials, or guessed from its
-// picture's name.
+// Quake II's pictures say nothing of gloss: what a surface is made of is told by files of materials, or guessed from
+// its picture's name.
 #pragma once
 
 #include <string_view>

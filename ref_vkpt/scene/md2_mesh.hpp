@@ -4,10 +4,11 @@
 #pragma once
 
 #include "formats/model.hpp"
+#include "ref_vkpt/rays/moving_bvh.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
-#include "ref_vkpt/trace/moving_bvh.hpp"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 namespace vkpt {

@@ -18,7 +18,7 @@ bool is_same_kind(const MovingThing& a, const MovingThing& b)
 size_t find_thing(const MovingThing& thing, const std::vector<MovingThing>& before, const std::vector<bool>& taken)
 {
     size_t found = before.size();
-    float least = most_movement;
+    float least = max_movement;
     for (size_t i = 0; i < before.size(); i++) {
         if (taken[i] || !is_same_kind(thing, before[i]))
             continue;

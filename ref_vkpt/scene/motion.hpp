@@ -8,7 +8,7 @@
 namespace vkpt {
 
 // Farther than this (Quake units) nothing moves between two views; it is then taken for another thing.
-inline constexpr float most_movement = 96;
+inline constexpr float max_movement = 96;
 
 // Gives now.moving the poses of the view before. What was not there has not moved.
 void find_previous_poses(SceneSnapshot& now, const SceneSnapshot& before);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/moving_geometry.hpp"
 
-#include "ref_vkpt/trace/bvh.hpp"
+#include "ref_vkpt/rays/bvh.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,8 @@ namespace {
 
 using shared::Triangle;
 
-constexpr uint32_t most_ids = 1u << 24;
-static_assert(shared::BVH_ID_MASK == most_ids - 1);
+constexpr uint32_t max_ids = 1u << 24;
+static_assert(shared::BVH_ID_MASK == max_ids - 1);
 
 // A triangle of the tree, see bvh.cpp.
 struct Record {
@@ -159,7 +159,7 @@ bool MovingGeometry::add(const BrushMesh& mesh, const BrushPose& pose)
 bool MovingGeometry::add_item(Item&& item, const Box& bounds)
 {
     const MeshTree& tree = item.tree();
-    if (tree.slot_count() == 0 || first_id_ + uint64_t(mesh_triangles_) + tree.slot_count() > most_ids)
+    if (tree.slot_count() == 0 || first_id_ + uint64_t(mesh_triangles_) + tree.slot_count() > max_ids)
         return false;
     item.first_slot = mesh_triangles_;
     item.first_node = mesh_nodes_;
@@ -197,8 +197,8 @@ void MovingGeometry::keep_previous_loose(size_t first, size_t count, const Movin
 
 uint32_t MovingGeometry::loose_count() const
 {
-    const uint32_t ids_used = std::min(first_id_ + mesh_triangles_, most_ids);
-    return uint32_t(std::min<size_t>(loose_.size(), most_ids - ids_used));
+    const uint32_t ids_used = std::min(first_id_ + mesh_triangles_, max_ids);
+    return uint32_t(std::min<size_t>(loose_.size(), max_ids - ids_used));
 }
 
 bool MovingGeometry::has_two_levels() const
@@ -209,8 +209,8 @@ bool MovingGeometry::has_two_levels() const
 size_t MovingGeometry::node_count() const
 {
     if (!has_two_levels())
-        return most_nodes(triangle_count());
-    return upper_node_count(mesh_count()) + mesh_nodes_ + (loose_count() > 0 ? most_nodes(loose_count()) : 0);
+        return max_nodes(triangle_count());
+    return tlas_node_count(mesh_count()) + mesh_nodes_ + (loose_count() > 0 ? max_nodes(loose_count()) : 0);
 }
 
 // ---- the work
@@ -237,7 +237,7 @@ void MovingWriter::write(const MovingGeometry& geometry, const MovingTarget& tar
             write_item(job, i - loose_jobs, scratch_[thread]);
     });
     if (target.nodes)
-        write_upper_tree(meshes_, job.margin, target.place.first_node, target.nodes);
+        write_tlas(meshes_, job.margin, target.place.first_node, target.nodes);
 }
 
 void MovingWriter::write_item(const Job& job, size_t index, Scratch& scratch)
@@ -252,7 +252,7 @@ void MovingWriter::write_item(const Job& job, size_t index, Scratch& scratch)
 
     const MovingTarget& target = job.target;
     if (target.nodes && tree.node_count > 0) {
-        const uint32_t first_node = upper_node_count(geometry.mesh_count()) + item.first_node;
+        const uint32_t first_node = tlas_node_count(geometry.mesh_count()) + item.first_node;
         const TreePlace place = job.place(first_node, item.first_slot);
         const std::span<const uint32_t> corners = item.md2 ? item.md2->corners() : std::span(item.brush->corners);
         const Box box = refit(tree, corners, scratch.points.data(), job.margin, place,
@@ -313,9 +313,9 @@ void MovingWriter::write_loose(const Job& job)
     for (uint32_t i = 0; i < count; i++)
         for (const glm::vec3 p : geometry.loose_[i].positions)
             boxes[i].add(p);
-    BinaryTree binary = build_by_morton(boxes, shared::BVH_MAX_LEAF_TRIANGLES);
+    BinaryTree binary = build_lbvh(boxes, shared::BVH_MAX_LEAF_TRIANGLES);
     const WideTree wide = make_wide(binary, boxes, shared::BVH_MAX_LEAF_TRIANGLES, mesh_stack_budget);
-    const uint32_t first_node = upper_node_count(geometry.mesh_count()) + geometry.mesh_nodes_;
+    const uint32_t first_node = tlas_node_count(geometry.mesh_count()) + geometry.mesh_nodes_;
     const TreePlace place = job.place(first_node, first_slot);
     write_mesh(wide, job.margin, place, target.nodes + size_t(first_node) * bvh_node_words);
     for (uint32_t slot = 0; slot < count; slot++) {

@@ -9,6 +9,7 @@
 #include "ref_vkpt/workers.hpp"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 
 namespace vkpt {
@@ -90,7 +91,7 @@ private:
     uint32_t mesh_count() const { return uint32_t(items_.size()) + (loose_count() > 0 ? 1 : 0); }
     uint32_t loose_count() const;
     // As a quick tree may have a leaf for each triangle.
-    static size_t most_nodes(size_t triangles) { return triangles > 0 ? triangles : 1; }
+    static size_t max_nodes(size_t triangles) { return triangles > 0 ? triangles : 1; }
 
     uint32_t first_id_;
     std::vector<Item> items_;

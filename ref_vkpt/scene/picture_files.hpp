@@ -4,6 +4,7 @@
 
 #include "formats/image.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <optional>

@@ -21,7 +21,7 @@ using namespace engine;
 constexpr float eye_height = 22, crouched_eye_height = -2, box_bottom = 24;
 // The body stands so far behind the eye, so that the weapon before the eye is not inside of its arms.
 constexpr float units_behind_eye = 15;
-constexpr float least_speed = 20; // units/s: slower ones stand
+constexpr float min_speed = 20; // units/s: slower ones stand
 constexpr float ticks_per_second = 10;
 
 // Frames of every player model.
@@ -68,7 +68,8 @@ bool touches_floor(const World& world, glm::vec3 place, float radius)
     return touches_solid(world.bsp, place, radius, steps);
 }
 
-// From the floor below the eye: 46 units down where the player stands, and for a moment 28 on a step; 22 where they crouch.
+// From the floor below the eye: 46 units down where the player stands, and for a moment 28 on a step; 22 where they
+// crouch.
 bool is_crouched(const World& world, glm::vec3 eye)
 {
     constexpr float below = crouched_eye_height + box_bottom, give = 4;
@@ -82,8 +83,9 @@ bool is_in_the_air(const World& world, glm::vec3 eye)
 
 bool is_plain_name(std::string_view name)
 {
-    return !name.empty()
-        && std::ranges::all_of(name, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; });
+    return !name.empty() && std::ranges::all_of(name, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    });
 }
 
 } // namespace
@@ -100,7 +102,7 @@ void PlayerBody::animate(const RefDef& refdef, const World& world, const Entity&
     const float speed = goes_on ? glm::distance(glm::vec2(eye), glm::vec2(tick_eye_)) / seconds : 0;
     is_crouched_ = is_crouched(world, eye);
     Sequence sequence = is_crouched_ ? crouching : standing;
-    if (speed > least_speed)
+    if (speed > min_speed)
         sequence = is_crouched_ ? crawling : running;
     step_++;
     int step = step_;

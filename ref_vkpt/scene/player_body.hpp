@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The player's own body, which the engine's client leaves out of what it sends: seen in mirrors, shadows and bounced light.
+// The player's own body, which the engine's client leaves out of what it sends: seen in mirrors, shadows and bounced
+// light.
 #pragma once
 
 #include "ref_vkpt/engine/contract.hpp"
@@ -22,8 +23,8 @@ struct RegisteredBody {
 
 class PlayerBody {
 public:
-    // The body and the weapon in its hands, as entities with RF_VIEWERMODEL. Empty where the view shows no weapon: then it is
-    // a spectator's, a dead player's or an intermission's. `skin`: "male/grunt", as the engine's cvar has it.
+    // The body and the weapon in its hands, as entities with RF_VIEWERMODEL. Empty where the view shows no weapon: then
+    // it is a spectator's, a dead player's or an intermission's. `skin`: "male/grunt", as the engine's cvar has it.
     std::vector<engine::Entity> stand(
         const engine::RefDef& refdef, const World& world, const std::string& skin, const RegisteredBody& registered);
 

@@ -41,19 +41,19 @@ void list_lights(SceneSnapshot& snapshot, const World& world, ViewLights& lights
     if (unlisted > 0 && !std::exchange(lights.said_unlisted, true))
         engine::print(
             "vkpt: {}: its moving lights make more than {} entries in the light lists; {} of them light nothing now",
-            world.bsp.name, LightLists::most_dynamic_entries, unlisted);
+            world.bsp.name, LightLists::max_dynamic_entries, unlisted);
 }
 
 // maps/NAME.lights: what players and authors add to a map's lights, as entity text.
 std::string load_more_entities(std::string_view map)
 {
-    constexpr size_t most_bytes = 1 << 20;
+    constexpr size_t max_bytes = 1 << 20;
     const std::string path = "maps/" + std::string(map) + ".lights";
     const std::optional<engine::FileData> file = engine::load_file(path);
     if (!file)
         return {};
-    if (file->bytes().size() > most_bytes) {
-        engine::print("vkpt: {} is left out: it has more than {} bytes", path, most_bytes);
+    if (file->bytes().size() > max_bytes) {
+        engine::print("vkpt: {} is left out: it has more than {} bytes", path, max_bytes);
         return {};
     }
     const std::string text(reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size());

@@ -6,11 +6,12 @@
 #include "formats/model.hpp"
 #include "ref_vkpt/engine/contract.hpp"
 #include "ref_vkpt/lights/view_lights.hpp"
-#include "ref_vkpt/scene/player_body.hpp"
 #include "ref_vkpt/scene/material_library.hpp"
+#include "ref_vkpt/scene/player_body.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
 #include "ref_vkpt/scene/textures.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>

@@ -12,8 +12,8 @@ namespace vkpt {
 
 namespace {
 
-constexpr float least_luminance = 0.6f; // of a texel of the sun
-constexpr float least_contrast = 4; // of its texels with the picture's average
+constexpr float min_luminance = 0.6f; // of a texel of the sun
+constexpr float min_contrast = 4; // of its texels with the picture's average
 constexpr float share_of_brightest = 0.7f; // texels as bright as this belong to it
 constexpr float largest_side = 0.15f; // of the picture's: some 13 degrees
 
@@ -28,8 +28,8 @@ std::optional<PaintedSun> find_painted_sun(const formats::Image& image)
         brightest = std::max(brightest, light);
         sum += double(light);
     }
-    if (image.pixels.empty() || brightest < least_luminance
-        || double(brightest) < double(least_contrast) * sum / double(image.pixels.size()))
+    if (image.pixels.empty() || brightest < min_luminance
+        || double(brightest) < double(min_contrast) * sum / double(image.pixels.size()))
         return std::nullopt;
     glm::ivec2 mins(image.width, image.height), maxs(-1);
     glm::dvec2 place(0);

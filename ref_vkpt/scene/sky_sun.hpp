@@ -18,7 +18,8 @@ struct PaintedSun {
 // The one small spot that is far brighter than the rest of the picture. Nothing where there is none, or several.
 std::optional<PaintedSun> find_painted_sun(const formats::Image& image);
 
-// Unit, in the sky's space, of a place on side 0 to 5: +x, -x, +y, -y, +z, -z. The inverse of sky_face (shaders/lib/sky.glsl).
+// Unit, in the sky's space, of a place on side 0 to 5: +x, -x, +y, -y, +z, -z. The inverse of sky_face
+// (shaders/lib/sky.glsl).
 glm::vec3 direction_on_sky(size_t side, glm::vec2 place);
 
 } // namespace vkpt

@@ -7,6 +7,7 @@
 #include "shaders/shared/frame.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace vkpt {

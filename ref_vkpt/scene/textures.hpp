@@ -9,6 +9,7 @@
 #include "ref_vkpt/vulkan/uploader.hpp"
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>

@@ -20,7 +20,7 @@ namespace {
 using namespace formats;
 
 constexpr int several_clusters = -2;
-constexpr uint64_t most_triangles = 300'000; // per megabyte of the map; faces of many corners make 220,000
+constexpr uint64_t max_triangles = 300'000; // per megabyte of the map; faces of many corners make 220,000
 
 // The PVS cluster of each face that lies in one alone; else several_clusters.
 std::vector<int> find_face_clusters(const Bsp& bsp)
@@ -105,9 +105,9 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
         if (glows && part.part < 0)
             triangle.lightstyle = lightstyle_none;
         else if (first_emitter >= 0)
-            triangle.emitter = part.part == FacePiece::dark ? shared::EMITTER_DIM : first_emitter++;
+            triangle.emitter = part.part == FacePiece::dark ? shared::EMITTER_SAMPLED_APART : first_emitter++;
         else if (glows)
-            triangle.emitter = shared::EMITTER_DIM; // a light entity sends its light
+            triangle.emitter = shared::EMITTER_SAMPLED_APART; // a light entity sends its light
         triangle.cluster = context.is_world ? std::max(context.face_clusters[face], -1) : -1;
         triangle.cache_face = context.is_world ? uint32_t(face) + 1 : 0;
         geometry.triangles.push_back(triangle);
@@ -268,7 +268,7 @@ std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, 
     world.lit_sky_luminance = world.suns.empty() ? find_lit_sky_luminance(world.bsp, emitters) : 0;
 
     const std::vector<int> face_clusters = find_face_clusters(world.bsp);
-    WorkLimit pieces = limit_of_pieces(world.bsp), triangles(world.bsp, most_triangles, "triangles");
+    WorkLimit pieces = limit_of_pieces(world.bsp), triangles(world.bsp, max_triangles, "triangles");
     world.models.push_back(make_world_geometry(
         { world.bsp, world.pictures, face_clusters, pieces, triangles, true }, std::move(emitters)));
     world.brush_meshes.emplace_back();

@@ -9,10 +9,11 @@
 #include "ref_vkpt/lights/light_cache.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "ref_vkpt/lights/suns.hpp"
+#include "ref_vkpt/rays/bvh.hpp"
 #include "ref_vkpt/scene/brush_mesh.hpp"
-#include "ref_vkpt/trace/bvh.hpp"
 #include "shaders/shared/scene.h"
 
+#include <cstdint>
 #include <functional>
 #include <future>
 #include <memory>
@@ -23,7 +24,7 @@ namespace vkpt {
 
 // Rows of the lightstyle table: the engine's 256, then these.
 inline constexpr uint32_t lightstyle_dlight = 256; // engine dlights, scaled by pt_dlight_scale
-inline constexpr uint32_t lightstyle_sky = 257;    // sky faces, scaled by pt_sky_scale
+inline constexpr uint32_t lightstyle_sky = 257; // sky faces, scaled by pt_sky_scale
 inline constexpr uint32_t lightstyle_sun = 258; // suns without a lightstyle of their own
 inline constexpr uint32_t lightstyle_none = 259; // always 0: what does not shine of a face that glows in parts
 inline constexpr uint32_t lightstyle_count = 260; // and then those of World::animated_lights

@@ -12,6 +12,7 @@
 
 #include "ref_vkpt/vulkan/resources.hpp"
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>

@@ -181,15 +181,16 @@ template <class Head, class Link> void chain(Head& head, Link& link)
 }
 
 // With less, the CPU driver's compiler crashes instead of reporting an error.
-constexpr rlim_t least_address_space = rlim_t(2) << 30;
+constexpr rlim_t min_address_space = rlim_t(2) << 30;
 
 void check_address_space()
 {
     rlimit limit {};
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur < least_address_space)
-        throw FatalError(fmt::format("this process may take {} MiB of address space, and Vulkan drivers need {}: lift the "
-                                     "limit with \"ulimit -v unlimited\" and start again",
-            limit.rlim_cur >> 20, least_address_space >> 20));
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur < min_address_space)
+        throw FatalError(
+            fmt::format("this process may take {} MiB of address space, and Vulkan drivers need {}: lift the "
+                        "limit with \"ulimit -v unlimited\" and start again",
+                limit.rlim_cur >> 20, min_address_space >> 20));
 }
 
 int rank_device_type(VkPhysicalDeviceType type)
@@ -444,9 +445,9 @@ void Device::choose_physical_device(const DeviceSettings& settings)
 // processor's matter (docs/notes/cpu-driver.md).
 bool Device::choose_texels(TableReads wanted) const
 {
-    constexpr uint32_t least_texels = 1u << 27; // tables may grow to so many
+    constexpr uint32_t min_texels = 1u << 27; // tables may grow to so many
     constexpr double slow_gathers = 3;
-    if (!is_cpu || properties.limits.maxTexelBufferElements < least_texels)
+    if (!is_cpu || properties.limits.maxTexelBufferElements < min_texels)
         return false;
     return wanted == TableReads::automatic ? measure_gathers() > slow_gathers : wanted == TableReads::texels;
 }

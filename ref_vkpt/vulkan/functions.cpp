@@ -19,8 +19,7 @@ namespace vkpt {
 
 namespace {
 
-template <class Function>
-void require(Function function, const char* name)
+template <class Function> void require(Function function, const char* name)
 {
     if (!function)
         throw FatalError(std::string("the Vulkan driver lacks ") + name + ": update the graphics driver");

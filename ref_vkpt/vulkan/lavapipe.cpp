@@ -74,7 +74,7 @@ Table make_table()
 }
 
 // Nanoseconds, the least of many: whatever else the machine does only adds to it.
-template <typename Work> double least_time(Work work)
+template <typename Work> double min_time(Work work)
 {
     double least = std::numeric_limits<double>::max();
     for (int i = 0; i < 40; i++) {
@@ -93,8 +93,8 @@ double measure_gathers()
     if (!__builtin_cpu_supports("avx2"))
         return std::numeric_limits<double>::infinity();
     const Table table = make_table();
-    const double gathers = least_time([&] { return sum_by_gathers(table); });
-    return gathers / least_time([&] { return sum_lane_by_lane(table); });
+    const double gathers = min_time([&] { return sum_by_gathers(table); });
+    return gathers / min_time([&] { return sum_lane_by_lane(table); });
 }
 #else
 double measure_gathers() { return std::numeric_limits<double>::infinity(); }

@@ -64,8 +64,8 @@ public:
     MemoryAllocator(const MemoryAllocator&) = delete;
     MemoryAllocator& operator=(const MemoryAllocator&) = delete;
 
-    // Called where memory does not suffice, before the last attempt: gives back what it can, and leaves nothing recorded
-    // that uses what the failure is going to destroy.
+    // Called where memory does not suffice, before the last attempt: gives back what it can, and leaves nothing
+    // recorded that uses what the failure is going to destroy.
     void set_relief(std::function<void()> relief) { relief_ = std::move(relief); }
     // Throws LevelError: out of memory, naming kind and size.
     Allocation allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,

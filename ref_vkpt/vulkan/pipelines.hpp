@@ -6,6 +6,7 @@
 #include "ref_vkpt/vulkan/shaders.hpp"
 
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <mutex>

@@ -8,7 +8,7 @@ namespace vkpt {
 
 namespace {
 
-constexpr VkDeviceSize least_buffer_bytes = 16;
+constexpr VkDeviceSize min_buffer_bytes = 16;
 
 VkFormat texel_format(uint32_t words)
 {
@@ -18,7 +18,8 @@ VkFormat texel_format(uint32_t words)
 } // namespace
 
 Buffer::Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind kind, std::string_view name)
-    : device_(gpu.device.handle), size_(std::max<VkDeviceSize>(bytes, least_buffer_bytes))
+    : device_(gpu.device.handle)
+    , size_(std::max<VkDeviceSize>(bytes, min_buffer_bytes))
 {
     VkBufferCreateInfo info { VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO };
     info.size = size_;
@@ -70,7 +71,8 @@ void Buffer::swap(Buffer& other) noexcept
     std::swap(allocation_, other.allocation_);
 }
 
-TexelView::TexelView(const Gpu& gpu, const Buffer& buffer, uint32_t words) : device_(gpu.device.handle)
+TexelView::TexelView(const Gpu& gpu, const Buffer& buffer, uint32_t words)
+    : device_(gpu.device.handle)
 {
     const VkDeviceSize texel_bytes = words * sizeof(uint32_t);
     VkBufferViewCreateInfo info { VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO };
@@ -93,7 +95,8 @@ void TexelView::swap(TexelView& other) noexcept
 }
 
 Image::Image(const Gpu& gpu, const ImageSettings& settings, std::string_view name)
-    : device_(gpu.device.handle), settings_(settings)
+    : device_(gpu.device.handle)
+    , settings_(settings)
 {
     const VkFormat view_format = settings.view_format == VK_FORMAT_UNDEFINED ? settings.format : settings.view_format;
     VkImageCreateInfo info { VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO };

@@ -4,6 +4,7 @@
 
 #include "ref_vkpt/vulkan/memory.hpp"
 
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -17,8 +18,8 @@ struct Gpu {
 };
 
 enum class BufferHome {
-    device,   // filled by copies or shaders
-    upload,   // written by the CPU, read by shaders: on the device where it can be mapped there
+    device, // filled by copies or shaders
+    upload, // written by the CPU, read by shaders: on the device where it can be mapped there
     readback, // written by the device, read by the CPU
 };
 
@@ -51,7 +52,8 @@ private:
     Allocation allocation_;
 };
 
-// A buffer as texels of 1, 2 or 4 words of 32 bits, which shaders read as numbers without sign. The buffer must outlive it.
+// A buffer as texels of 1, 2 or 4 words of 32 bits, which shaders read as numbers without sign. The buffer must outlive
+// it.
 class TexelView {
 public:
     TexelView() = default;

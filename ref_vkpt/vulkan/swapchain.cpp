@@ -19,7 +19,9 @@ VkSemaphore make_semaphore(VkDevice device)
 
 } // namespace
 
-Swapchain::Swapchain(const Gpu& gpu, const Window& window) : gpu_(gpu), window_(window)
+Swapchain::Swapchain(const Gpu& gpu, const Window& window)
+    : gpu_(gpu)
+    , window_(window)
 {
     if (!gpu.device.has_swapchain)
         throw FatalError(

@@ -7,6 +7,7 @@
 #include "ref_vkpt/vulkan/window_format.hpp"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace vkpt {

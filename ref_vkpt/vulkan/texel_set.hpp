@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A descriptor set of buffers that shaders read as texels (shaders/lib/device/texels.glsl): as many bindings, or one array.
-// Destroying it demands that the device no longer uses it.
+// A descriptor set of buffers that shaders read as texels (shaders/lib/device/texels.glsl): as many bindings, or one
+// array. Destroying it demands that the device no longer uses it.
 #pragma once
 
 #include "ref_vkpt/vulkan/resources.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace vkpt {

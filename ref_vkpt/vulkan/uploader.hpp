@@ -4,6 +4,7 @@
 
 #include "ref_vkpt/vulkan/resources.hpp"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -18,14 +19,13 @@ public:
 
     // A device buffer with these contents. Usable after flush().
     Buffer make_buffer(std::span<const std::byte> bytes, MemoryKind kind, std::string_view name);
-    template <class T>
-    Buffer make_buffer(const std::vector<T>& items, MemoryKind kind, std::string_view name)
+    template <class T> Buffer make_buffer(const std::vector<T>& items, MemoryKind kind, std::string_view name)
     {
         return make_buffer(std::as_bytes(std::span(items)), kind, name);
     }
-    // Fills one mip level from tightly packed pixels and leaves it in SHADER_READ_ONLY. The image needs TRANSFER_DST usage.
-    // Mip levels come from the CPU: scaling blits are drawn, which Mesa's CPU driver cannot do at the vector width that
-    // makes its compute shaders fast (see Device).
+    // Fills one mip level from tightly packed pixels and leaves it in SHADER_READ_ONLY. The image needs TRANSFER_DST
+    // usage. Mip levels come from the CPU: scaling blits are drawn, which Mesa's CPU driver cannot do at the vector
+    // width that makes its compute shaders fast (see Device).
     void fill_image(const Image& image, uint32_t mip, std::span<const std::byte> pixels);
     // Submits what was recorded and waits for it. Does nothing if nothing was recorded.
     void flush();

@@ -12,8 +12,7 @@ namespace {
 
 constexpr uint64_t sdl_window_minimised = 0x40; // the same in SDL 2 and 3
 
-template <class Function>
-Function sdl_function(const char* name)
+template <class Function> Function sdl_function(const char* name)
 {
     void* symbol = engine::symbol(name);
     if (!symbol)
@@ -50,7 +49,8 @@ VkSurfaceKHR Window::create_surface(VkInstance instance) const
     constexpr const char* name = "SDL_Vulkan_CreateSurface";
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     const bool made = is_sdl3()
-        ? sdl_function<bool (*)(void*, VkInstance, const void*, VkSurfaceKHR*)>(name)(window_, instance, nullptr, &surface)
+        ? sdl_function<bool (*)(void*, VkInstance, const void*, VkSurfaceKHR*)>(name)(
+            window_, instance, nullptr, &surface)
         : sdl_function<int (*)(void*, VkInstance, VkSurfaceKHR*)>(name)(window_, instance, &surface) != 0;
     if (!made)
         throw FatalError("the window has no Vulkan surface: is the display's driver installed?");

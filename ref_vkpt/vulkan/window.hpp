@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The engine's SDL window as Vulkan needs it. SDL 2 and 3 are called through the symbols that the engine brought along, so
-// that one module serves engines built with either.
+// The engine's SDL window as Vulkan needs it. SDL 2 and 3 are called through the symbols that the engine brought along,
+// so that one module serves engines built with either.
 #pragma once
 
 #include "ref_vkpt/vulkan/functions.hpp"
@@ -15,7 +15,10 @@ inline constexpr int sdl_vulkan_window_flag = 0x10000000;
 class Window {
 public:
     // nullptr: no window; then there is nothing to present to.
-    explicit Window(void* sdl_window) : window_(sdl_window) { }
+    explicit Window(void* sdl_window)
+        : window_(sdl_window)
+    {
+    }
 
     explicit operator bool() const { return window_ != nullptr; }
     // Instance extensions that the surface needs. Throws FatalError.

@@ -11,8 +11,8 @@ namespace vkpt {
 
 namespace {
 
-// The best first. Our picture is sRGB-encoded. Its copy into a picture of the window converts nothing, so that to a format with
-// _SRGB in its name it is what it is to that without.
+// The best first. Our picture is sRGB-encoded. Its copy into a picture of the window converts nothing, so that to a
+// format with _SRGB in its name it is what it is to that without.
 constexpr WindowFormat known_formats[] = {
     { VK_FORMAT_B8G8R8A8_UNORM, shared::PRESENT_BGRA8 },
     { VK_FORMAT_R8G8B8A8_UNORM, shared::PRESENT_RGBA8 },

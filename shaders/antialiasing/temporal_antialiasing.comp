@@ -1,31 +1,31 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The picture over several frames, whose camera rays pass at other places of the pixel: edges become smooth. What the last view
-// showed there is limited to what this view's neighbourhood makes likely (Salvi 2016, variance clipping; Karis 2014). The result
-// may have more pixels than were rendered: then each of them takes from the samples that happen to lie near its middle, and over
-// the frames samples lie everywhere.
+// The picture over several frames, whose camera rays pass at other places of the pixel: edges become smooth. What the
+// last view showed there is limited to what this view's neighbourhood makes likely (Salvi 2016, variance clipping;
+// Karis 2014). The result may have more pixels than were rendered: then each of them takes from the samples that happen
+// to lie near its middle, and over the frames samples lie everywhere.
 #include "../lib/frame.glsl"
 #include "../lib/bsdf.glsl"
 #include "../lib/packing.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
-// Frames that the history is worth at most at rest, and where the picture moves by moving_pixels a frame or more: there each reading of
-// it blurs, and reflections in it stay behind.
-const float most_frames = 32.0, most_moving_frames = 5.0;
+// Frames that the history is worth at most at rest, and where the picture moves by moving_pixels a frame or more: there
+// each reading of it blurs, and reflections in it stay behind.
+const float max_frames = 32.0, max_moving_frames = 5.0;
 const float moving_pixels = 0.25;
-// Standard deviations of the neighbourhood that the history may lie off its mean where the picture moves. At rest it may be all that the
-// neighbourhood shows: of a lamp as small as a pixel most frames show one pixel in nine.
-const float most_deviations = 1.25;
-// A sample counts for exp(-sample_fall d^2) at a distance of d of the result's pixels. Where samples are scarce the least weight
-// keeps the nearest one in charge.
+// Standard deviations of the neighbourhood that the history may lie off its mean where the picture moves. At rest it
+// may be all that the neighbourhood shows: of a lamp as small as a pixel most frames show one pixel in nine.
+const float max_deviations = 1.25;
+// A sample counts for exp(-sample_fall d^2) at a distance of d of the result's pixels. Where samples are scarce the
+// least weight keeps the nearest one in charge.
 const float sample_fall = 2.3;
 
-// Radiance is averaged as it is where the picture stands still, or edges of lamps would lose most of their light, and small lamps all but
-// vanish. In motion what is bright counts less: each reading of the history spreads a lamp by a part of a pixel, which would be seen,
-// and few frames are averaged, so that its edge would flicker. `knee`: 1 / the luminance that counts half; moving_knee, relative to 1 /
-// exposure, leaves the least error beside lamps.
+// Radiance is averaged as it is where the picture stands still, or edges of lamps would lose most of their light, and
+// small lamps all but vanish. In motion what is bright counts less: each reading of the history spreads a lamp by a
+// part of a pixel, which would be seen, and few frames are averaged, so that its edge would flicker. `knee`: 1 / the
+// luminance that counts half; moving_knee, relative to 1 / exposure, leaves the least error beside lamps.
 const float moving_knee = 0.1;
 vec3 compress(vec3 radiance, float knee) { return radiance / (1.0 + knee * luminance(radiance)); }
 vec3 expand(vec3 colour, float knee) { return colour / quick_max(1.0 - knee * luminance(colour), 1e-4); }
@@ -33,7 +33,8 @@ vec3 expand(vec3 colour, float knee) { return colour / quick_max(1.0 - knee * lu
 void catmull_rom(float t, out float weights[4])
 {
     float t2 = t * t, t3 = t2 * t;
-    weights = float[](-0.5 * t3 + t2 - 0.5 * t, 1.5 * t3 - 2.5 * t2 + 1.0, -1.5 * t3 + 2.0 * t2 + 0.5 * t, 0.5 * t3 - 0.5 * t2);
+    weights = float[](
+        -0.5 * t3 + t2 - 0.5 * t, 1.5 * t3 - 2.5 * t2 + 1.0, -1.5 * t3 + 2.0 * t2 + 0.5 * t, 0.5 * t3 - 0.5 * t2);
 }
 
 uvec2 load_old(ivec2 pixel)
@@ -43,8 +44,9 @@ uvec2 load_old(ivec2 pixel)
 }
 vec3 old_radiance(ivec2 pixel, float knee) { return compress(unpack_light3(load_old(pixel)), knee); }
 
-// At a place whose whole numbers are pixels: bicubic, so that a moving picture does not blur, but for the four corners, which
-// count for less than 0.5 % each; and within the range of the nearest four, or there would be a dark seam around lamps.
+// At a place whose whole numbers are pixels: bicubic, so that a moving picture does not blur, but for the four corners,
+// which count for less than 0.5 % each; and within the range of the nearest four, or there would be a dark seam around
+// lamps.
 vec3 sample_history(vec2 place, float knee)
 {
     vec2 corner = floor(place), part = place - corner;
@@ -54,8 +56,8 @@ vec3 sample_history(vec2 place, float knee)
         float across[4], down[4];
         catmull_rom(part.x, across);
         catmull_rom(part.y, down);
-        [[unroll]] for (int y = 0; y < 4; y++)
-            [[unroll]] for (int x = 0; x < 4; x++)
+        UNROLLED_FOR (int y = 0; y < 4; y++)
+            UNROLLED_FOR (int x = 0; x < 4; x++)
                 if (x == 1 || x == 2 || y == 1 || y == 2) {
                     vec3 old = old_radiance(first + ivec2(x, y) - 1, knee);
                     sum += old * (across[x] * down[y]);
@@ -88,7 +90,7 @@ Neighbourhood look_around(ivec2 rendered, vec2 middle, float knee)
     vec2 enlargement = vec2(frame.resolved_size) / vec2(frame.size);
     vec3 mean = vec3(0.0), square = vec3(0.0), here = vec3(0.0), least = vec3(1e9), most = vec3(0.0);
     float weights = 0.0, nearest = 0.0, brightest = 0.0;
-    [[unroll]] for (int tap = 0; tap < 9; tap++) {
+    UNROLLED_FOR (int tap = 0; tap < 9; tap++) {
         ivec2 at = clamp(rendered + ivec2(tap % 3, tap / 3) - 1, ivec2(0), ivec2(frame.size) - 1);
         vec3 colour = compress(unpack_light3(load_composed(uint(at.y) * frame.size.x + uint(at.x))), knee);
         float weight = tap == 4 ? 1.0 : 0.0;
@@ -110,24 +112,29 @@ Neighbourhood look_around(ivec2 rendered, vec2 middle, float knee)
     return Neighbourhood(here / max(weights, 1e-12), nearest, mean, deviation, least, most, brightest);
 }
 
-// At rest a lamp smaller than a pixel is met through some of the camera's places in the pixel only, and in the other frames nothing
-// around is as bright as the history rightly is. So `reach` remembers for each of these places whether the neighbourhood was dark there,
-// of less than half the luminance that is its most: where it was a period ago and is again, the history stays.
+// At rest a lamp smaller than a pixel is met through some of the camera's places in the pixel only, and in the other
+// frames nothing around is as bright as the history rightly is. So `reach` remembers for each of these places whether
+// the neighbourhood was dark there, of less than half the luminance that is its most: where it was a period ago and is
+// again, the history stays.
 struct Reach {
-    float most;   // luminance
+    float most; // luminance
     uint is_dark; // a bit for each place
-    uint frames;  // since it began anew, up to a period
+    uint frames; // since it began anew, up to a period
 };
 
 Reach unpack_reach(uint bits) { return Reach(unpack_light2(bits & 0xffffu).x, bits >> 16u & 0xffu, bits >> 24u); }
-uint pack_reach(Reach reach) { return pack_light2(vec2(reach.most, 0.0)) & 0xffffu | reach.is_dark << 16u | reach.frames << 24u; }
+uint pack_reach(Reach reach)
+{
+    return pack_light2(vec2(reach.most, 0.0)) & 0xffffu | reach.is_dark << 16u | reach.frames << 24u;
+}
 
 // Takes in this frame's. Whether it is as dark as it was to be expected.
 bool update_reach(inout Reach reach, float brightest)
 {
     uint place = 1u << frame.offset_phase;
     bool is_dark = brightest < 0.5 * reach.most;
-    if (brightest > 2.0 * reach.most || (reach.frames >= OFFSETS_PER_PIXEL && is_dark != ((reach.is_dark & place) != 0u))) {
+    if (brightest > 2.0 * reach.most
+        || (reach.frames >= OFFSETS_PER_PIXEL && is_dark != ((reach.is_dark & place) != 0u))) {
         reach = Reach(brightest, 0xffu & ~place, 1u); // something has changed
         return false;
     }
@@ -142,7 +149,7 @@ void resolve_pixel(uvec2 pixel, uint index)
 {
     vec2 middle = (vec2(pixel) + 0.5) * vec2(frame.size) / vec2(frame.resolved_size);
     uvec2 rendered = min(uvec2(whole_to_int(floor(middle))), frame.size - 1u);
-    vec2 place = load_motion(pixel_index(rendered)).xy;
+    vec2 place = load_reprojected(pixel_index(rendered)).xy;
     vec2 way = (place + 0.5) / vec2(frame.previous_size) - (vec2(rendered) + 0.5) / vec2(frame.size);
     place = vec2(pixel) + way * vec2(frame.resolved_size);
     bool on_screen = all(greaterThanEqual(place, vec2(-0.5))) && all(lessThan(place, vec2(frame.resolved_size) - 0.5));
@@ -155,7 +162,7 @@ void resolve_pixel(uvec2 pixel, uint index)
     float frames = now.certainty;
     Reach reach = Reach(now.brightest, 0u, 0u);
     if ((frame.flags & FRAME_HISTORY) != 0u && on_screen) {
-        vec3 off = now.deviation * most_deviations;
+        vec3 off = now.deviation * max_deviations;
         vec3 lowest = mix(now.least, quick_max(now.mean - off, vec3(0.0)), moved);
         vec3 highest = mix(now.most, now.mean + off, moved);
         vec3 old = sample_history(place, knee);
@@ -175,7 +182,7 @@ void resolve_pixel(uvec2 pixel, uint index)
         }
         frames += known;
         result = mix(old, now.here, now.certainty / quick_max(frames, 1e-3));
-        frames = quick_min(frames, mix(most_frames, most_moving_frames, moved) - 1.0);
+        frames = quick_min(frames, mix(max_frames, max_moving_frames, moved) - 1.0);
     }
     vec3 radiance = quick_min(expand(result, knee), vec3(60000.0)); // 16 bits end soon after
     store_reach(index, pack_reach(reach));

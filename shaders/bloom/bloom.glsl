@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the bloom's passes share: a pyramid of ever smaller pictures (after Jimenez, "Next Generation Post Processing in Call of
-// Duty: Advanced Warfare", SIGGRAPH 2014 course). Every level is a weighted average, so that bloom takes no light away.
+// What the bloom's passes share: a pyramid of ever smaller pictures (after Jimenez, "Next Generation Post Processing in
+// Call of Duty: Advanced Warfare", SIGGRAPH 2014 course). Every level is a weighted average, so that bloom takes no
+// light away.
 #ifndef VKPT_LIB_BLOOM
 #define VKPT_LIB_BLOOM
 
@@ -19,7 +20,9 @@ vec3 sample_bloom_level(uint64_t level, uvec2 size, vec2 place)
     vec2 at = place * vec2(size) - 0.5, corner = floor(at), part = at - corner;
     ivec2 first = whole_to_int(corner);
     return mix(mix(load_bloom_level(level, size, first), load_bloom_level(level, size, first + ivec2(1, 0)), part.x),
-        mix(load_bloom_level(level, size, first + ivec2(0, 1)), load_bloom_level(level, size, first + ivec2(1)), part.x), part.y);
+        mix(load_bloom_level(level, size, first + ivec2(0, 1)), load_bloom_level(level, size, first + ivec2(1)),
+            part.x),
+        part.y);
 }
 
 #endif

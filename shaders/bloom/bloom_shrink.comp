@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A level of the bloom's pyramid from the one before, of twice its size; the first one from the picture, of four times its size.
+// A level of the bloom's pyramid from the one before, of twice its size; the first one from the picture, of four times
+// its size.
 #include "../lib/frame.glsl"
 #include "bloom.glsl"
 #include "../lib/bsdf.glsl"
@@ -14,8 +15,9 @@ vec3 shrink_picture(uvec2 pixel)
 {
     float scale = ExposureBuffer(frame.exposure).v.exposure, weights = 0.0;
     vec3 sum = vec3(0.0);
-    [[dont_unroll]] for (uint i = 0u; i < BLOOM_FIRST_STEP * BLOOM_FIRST_STEP; i++) {
-        uvec2 at = min(pixel * BLOOM_FIRST_STEP + uvec2(i % BLOOM_FIRST_STEP, i / BLOOM_FIRST_STEP), push.source_size - 1u);
+    ROLLED_FOR (uint i = 0u; i < BLOOM_FIRST_STEP * BLOOM_FIRST_STEP; i++) {
+        uvec2 at
+            = min(pixel * BLOOM_FIRST_STEP + uvec2(i % BLOOM_FIRST_STEP, i / BLOOM_FIRST_STEP), push.source_size - 1u);
         vec3 radiance = load_accumulated(at.y * push.source_size.x + at.x);
         float weight = 1.0 / (1.0 + 0.1 * scale * luminance(radiance));
         sum += radiance * weight;
@@ -28,10 +30,11 @@ vec3 shrink_picture(uvec2 pixel)
 vec3 shrink_level(uvec2 pixel)
 {
     vec3 sum = vec3(0.0);
-    [[dont_unroll]] for (uint i = 0u; i < 16u; i++) {
+    ROLLED_FOR (uint i = 0u; i < 16u; i++) {
         ivec2 way = ivec2(i % 4u, i / 4u);
         vec2 weight = mix(vec2(1.0), vec2(3.0), equal(ivec2(1), (way + 1) / 2));
-        sum += load_bloom_level(push.source, push.source_size, ivec2(pixel) * 2 + way - 1) * (weight.x * weight.y / 64.0);
+        sum += load_bloom_level(push.source, push.source_size, ivec2(pixel) * 2 + way - 1)
+            * (weight.x * weight.y / 64.0);
     }
     return sum;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the denoiser's passes share. Light is kept demodulated: diffuse without albedo, specular without a metal's colour, so that
-// no texture is blurred. Sources: Schied et al. 2017 (SVGF), Schied, Peters and Dachsbacher 2018 (A-SVGF).
+// What the denoiser's passes share. Light is kept demodulated: diffuse without albedo, specular without a metal's
+// colour, so that no texture is blurred. Sources: Schied et al. 2017 (SVGF), Schied, Peters and Dachsbacher 2018
+// (A-SVGF).
 #ifndef VKPT_LIB_DENOISE
 #define VKPT_LIB_DENOISE
 
@@ -8,9 +9,9 @@
 #include "../lib/reprojection.glsl"
 #include "../lib/surfaces.glsl"
 
-// Light of a pixel with the standard deviation of its luminance, either for each of the two lobes. Where too few frames tell how much the
-// luminance varies, minus the root of its mean square: the spatial filter's first levels measure it among the neighbours. The levels behind
-// those define VKPT_DEVIATIONS_ARE_KNOWN.
+// Light of a pixel with the standard deviation of its luminance, either for each of the two lobes. Where too few frames
+// tell how much the luminance varies, minus the root of its mean square: the spatial filter's first levels measure it
+// among the neighbours. The levels behind those define VKPT_DEVIATIONS_ARE_KNOWN.
 struct FilteredLight {
     vec3 diffuse;
     float diffuse_deviation;
@@ -32,7 +33,7 @@ bool is_known(float deviation) { return floatBitsToInt(deviation) >= 0; }
 #endif
 float unpack_deviation(uint bits)
 {
-    return uintBitsToFloat((((bits >> 3u) & 0x1fffc000u) + uint(least_light16)) | sign_of_deviation(bits));
+    return uintBitsToFloat((((bits >> 3u) & 0x1fffc000u) + uint(min_light16)) | sign_of_deviation(bits));
 }
 
 uvec4 pack_filtered(FilteredLight light)
@@ -54,21 +55,23 @@ vec3 specular_tint(Surface s) { return mix(vec3(1.0), quick_max(s.albedo, vec3(0
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer FrameStatisticsBuffer { FrameStatistics v; };
 
-bool is_broken(vec3 light) { return any(isnan(light)) || any(isinf(light)); }
-void count_broken_pixel() { atomicAdd(FrameStatisticsBuffer(frame.statistics).v.broken_pixels, 1u); }
+bool is_nonfinite(vec3 light) { return any(isnan(light)) || any(isinf(light)); }
+void count_nonfinite_pixel() { atomicAdd(FrameStatisticsBuffer(frame.statistics).v.nonfinite_pixels, 1u); }
 
-// ---- strata: 3 x 3 blocks of pixels that share a bounce ray, mostly of one pixel each. One of them repeats an older sample.
+// ---- strata: 3 x 3 blocks of pixels that share a bounce ray, mostly of one pixel each. One of them repeats an older
+// sample.
 
 uvec2 stratum_size() { return frame.bounce_block * STRATUM_BLOCKS; }
 uvec2 stratum_count() { return divide_whole(frame.size + stratum_size() - 1u, stratum_size()); }
 
-// The stratum's block whose turn it is in this frame: its leader repeats a sample, where the screen has that pixel. A block that had
-// its turn every time would show one sample for ever.
+// The stratum's block whose turn it is in this frame: its leader repeats a sample, where the screen has that pixel. A
+// block that had its turn every time would show one sample for ever.
 BounceBlock stratum_block(uvec2 stratum)
 {
     uvec4 hash = hash_pcg4(uvec4(stratum, frame.frame_index, 0x51ed270bu));
     uvec2 first = stratum * STRATUM_BLOCKS;
-    return open_bounce_block(first + ((hash.xy >> 16u) * min(uvec2(STRATUM_BLOCKS), bounce_block_count() - first) >> 16u));
+    return open_bounce_block(
+        first + ((hash.xy >> 16u) * min(uvec2(STRATUM_BLOCKS), bounce_block_count() - first) >> 16u));
 }
 
 uvec2 stratum_pixel(uvec2 stratum) { return min(pixel_of_block(stratum_block(stratum), 0u), frame.size - 1u); }
@@ -90,7 +93,7 @@ struct Moments {
     vec2 diffuse; // mean and root mean square of the luminance
     vec2 specular;
     vec2 frames; // how many the light's average is worth: diffuse, specular
-    float reflected_distance; // average, to what the specular lobe shows; 0: unknown
+    float specular_hit_distance; // average, to what the specular lobe shows; 0: unknown
 };
 
 // Frames are kept in 8 bits each: up to 36 of them, in sevenths.
@@ -100,13 +103,13 @@ uvec4 pack_moments(Moments m)
 {
     ivec2 frames = min(whole_to_int(floor(m.frames * frame_parts + 0.5)), 255);
     return uvec4(pack_light2(m.diffuse), pack_light2(m.specular),
-        light16_bits(m.reflected_distance) | (uint(frames.x) << 16u) | (uint(frames.y) << 24u), 0u);
+        light16_bits(m.specular_hit_distance) | (uint(frames.x) << 16u) | (uint(frames.y) << 24u), 0u);
 }
 
 Moments unpack_moments(uvec4 bits)
 {
-    return Moments(unpack_light2(bits.x), unpack_light2(bits.y), vec2((bits.z >> 16u) & 255u, bits.z >> 24u) * (1.0 / frame_parts),
-        unpack_light2(bits.z).x);
+    return Moments(unpack_light2(bits.x), unpack_light2(bits.y),
+        vec2((bits.z >> 16u) & 255u, bits.z >> 24u) * (1.0 / frame_parts), unpack_light2(bits.z).x);
 }
 
 #endif

@@ -7,26 +7,26 @@
 
 VKPT_PUSH_CONSTANTS
 
-// As FilteredLight has it. What is unknown stays so until the next level, but for pixels beside some with more history, as anti-aliasing
-// makes them at every edge: the next level would blur those.
+// As FilteredLight has it. What is unknown stays so until the next level, but for pixels beside some with more history,
+// as anti-aliasing makes them at every edge: the next level would blur those.
 float filtered_deviation(Sums sums, float scale, float deviation)
 {
-    const float least_known = 0.03, pixels = 9.0;
-    bool beside_known = sums.known * scale > least_known;
+    const float min_known = 0.03, pixels = 9.0;
+    bool beside_known = sums.known * scale > min_known;
     float measured = sqrt(beside_known ? measure_variance(sums, scale, pixels) : sums.square * scale);
     return is_known(deviation) ? sqrt(sums.variance) * scale : (beside_known ? measured : -measured);
 }
 
 void filter_pixel(uvec2 pixel, uint index)
 {
-    uvec2 guide = load_guide(index);
+    uvec2 features = load_features(index);
     uvec4 bits = load_element(push.source, index, uvec4(0u));
-    if (guide_depth(guide) <= 0.0) {
+    if (feature_depth(features) <= 0.0) {
         store_element(push.target.address, index, bits);
         return;
     }
     FilteredLight light = unpack_filtered(bits);
-    Pixel centre = make_pixel(index, guide, light);
+    Pixel centre = make_pixel(index, features, light);
     float fall = specular_fall(centre, 1.0);
 
     // Taps beyond the edge do not count; they read the pixel at the edge.
@@ -39,14 +39,15 @@ void filter_pixel(uvec2 pixel, uint index)
     Sums diffuse = no_taps(), specular = diffuse;
     add_tap(diffuse, light.diffuse, centre.diffuse_luminance, light.diffuse_deviation, 0.25);
     add_tap(specular, light.specular, centre.specular_luminance, light.specular_deviation, 0.25);
-    [[unroll]] for (int y = 0; y < 3; y++)
-        [[unroll]] for (int x = 0; x < 3; x++)
+    UNROLLED_FOR (int y = 0; y < 3; y++)
+        UNROLLED_FOR (int x = 0; x < 3; x++)
             if (x != 1 || y != 1)
-                add_neighbour(diffuse, specular, centre, push.source, rows[y] + columns[x], make_way(centre, vec2(x - 1, y - 1)), across[x] * down[y],
-                    x != 1 && y != 1 ? fall * fall : fall);
+                add_neighbour(diffuse, specular, centre, push.source, rows[y] + columns[x],
+                    make_way(centre, vec2(x - 1, y - 1)), across[x] * down[y], x != 1 && y != 1 ? fall * fall : fall);
     float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;
-    FilteredLight result = FilteredLight(diffuse.light * diffuse_scale, filtered_deviation(diffuse, diffuse_scale, light.diffuse_deviation),
-        specular.light * specular_scale, filtered_deviation(specular, specular_scale, light.specular_deviation));
+    FilteredLight result = FilteredLight(diffuse.light * diffuse_scale,
+        filtered_deviation(diffuse, diffuse_scale, light.diffuse_deviation), specular.light * specular_scale,
+        filtered_deviation(specular, specular_scale, light.specular_deviation));
     store_element(push.target.address, index, pack_filtered(result));
 }
 

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How much the repeated samples have changed since the last view: the difference, and the greater of the two, for either lobe.
+// How much the repeated samples have changed since the last view: the difference, and the greater of the two, for
+// either lobe.
 #include "../lib/frame.glsl"
 #include "denoise.glsl"
 
@@ -20,7 +21,7 @@ void compare_stratum(uvec2 stratum, uint number)
             gradient = vec4(0.0);
     }
     store_gradient_a(number, gradient);
-    store_stratum_place(number, uvec2(join_halves(pixel), load_guide(index).y));
+    store_stratum_place(number, uvec2(join_halves(pixel), load_features(index).y));
 }
 
 VKPT_RUN_OVER_STRATA(compare_stratum)

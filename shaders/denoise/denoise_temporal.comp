@@ -6,11 +6,12 @@
 #include "denoise.glsl"
 #include "../lib/layers.glsl"
 
-// Frames that the averages are worth at most; specular light's where the picture moves, for what a surface reflects moves otherwise.
-const float most_frames = 32.0, most_moving_frames = 4.0;
-const float most_moment_frames = 16.0;
+// Frames that the averages are worth at most; specular light's where the picture moves, for what a surface reflects
+// moves otherwise.
+const float max_frames = 32.0, max_moving_frames = 4.0;
+const float max_moment_frames = 16.0;
 // From so many frames on, their variance is believed.
-const float least_frames = 4.0;
+const float min_frames = 4.0;
 // Smoother surfaces show their reflections, which move as things behind them.
 const float glossy_roughness = 0.3;
 
@@ -19,17 +20,18 @@ struct History {
     Moments moments; // frames 0: nothing is known
 };
 
-// What is averaged over the taps: by how much the taps differ is how the picture varies from place to place, not the light from frame to frame.
+// What is averaged over the taps: by how much the taps differ is how the picture varies from place to place, not the
+// light from frame to frame.
 float variance_of(vec2 mean_and_root)
 {
     return quick_max(mean_and_root.y * mean_and_root.y - mean_and_root.x * mean_and_root.x, 0.0);
 }
 
 // In `sum`, moments are mean and variance.
-void add_history(inout History sum, inout float total, Search search, ivec2 place, float share)
+void add_history(inout History sum, inout float total, ReprojectionQuery query, ivec2 place, float share)
 {
     uint there;
-    if (!shows_surface(search, place, there) || share < 1e-3)
+    if (!shows_surface(query, place, there) || share < 1e-3)
         return;
     FilteredLight light = unpack_filtered(load_previous_filtered(there));
     Moments moments = unpack_moments(load_previous_moments(there));
@@ -38,23 +40,23 @@ void add_history(inout History sum, inout float total, Search search, ivec2 plac
     sum.moments.diffuse += vec2(moments.diffuse.x, variance_of(moments.diffuse)) * share;
     sum.moments.specular += vec2(moments.specular.x, variance_of(moments.specular)) * share;
     sum.moments.frames += moments.frames * share;
-    sum.moments.reflected_distance += moments.reflected_distance * share;
+    sum.moments.specular_hit_distance += moments.specular_hit_distance * share;
     total += share;
 }
 
 // Pixels that share out layers show another one in each view; neighbours on all sides have shown this one.
-void add_layer_history(inout History sum, inout float total, Search search, ivec2 place)
+void add_layer_history(inout History sum, inout float total, ReprojectionQuery query, ivec2 place)
 {
-    [[dont_unroll]] for (int tap = 0; tap < 9; tap++)
-        add_history(sum, total, search, place + ivec2(tap % 3, tap / 3) - 1, 1.0 / 9.0);
+    ROLLED_FOR (int tap = 0; tap < 9; tap++)
+        add_history(sum, total, query, place + ivec2(tap % 3, tap / 3) - 1, 1.0 / 9.0);
 }
 
-// The four pixels of the last view around where the surface was then, as far as they show the same surface. `at`: where to look
-// for what the surface showed. Its moments are mean and mean square.
-History find_history(uint index, Search search, vec2 at)
+// The four pixels of the last view around where the surface was then, as far as they show the same surface. `at`: where
+// to look for what the surface showed. Its moments are mean and mean square.
+History find_history(uint index, ReprojectionQuery query, vec2 at)
 {
-    History none = History(
-        FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0), 0.0));
+    History none
+        = History(FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0), 0.0));
     if ((frame.flags & FRAME_HISTORY) == 0u)
         return none;
     at = clamp(at, vec2(-2.0), vec2(frame.previous_size) + 2.0);
@@ -62,11 +64,12 @@ History find_history(uint index, Search search, vec2 at)
     ivec2 first = whole_to_int(corner);
     History sum = none;
     float total = 0.0;
-    [[unroll]] for (int y = 0; y < 2; y++)
-        [[unroll]] for (int x = 0; x < 2; x++)
-            add_history(sum, total, search, first + ivec2(x, y), (x == 0 ? 1.0 - part.x : part.x) * (y == 0 ? 1.0 - part.y : part.y));
+    UNROLLED_FOR (int y = 0; y < 2; y++)
+        UNROLLED_FOR (int x = 0; x < 2; x++)
+            add_history(sum, total, query, first + ivec2(x, y),
+                (x == 0 ? 1.0 - part.x : part.x) * (y == 0 ? 1.0 - part.y : part.y));
     if (total < 0.01 && (frame.flags & FRAME_LAYERED) != 0u && differing_layers(index) != 0u)
-        add_layer_history(sum, total, search, nearest_in_last_view(at));
+        add_layer_history(sum, total, query, nearest_in_last_view(at));
     if (total < 0.01)
         return none;
     float scale = 1.0 / total;
@@ -77,23 +80,24 @@ History find_history(uint index, Search search, vec2 at)
     sum.moments.diffuse.y += sum.moments.diffuse.x * sum.moments.diffuse.x;
     sum.moments.specular.y += sum.moments.specular.x * sum.moments.specular.x;
     sum.moments.frames *= scale;
-    sum.moments.reflected_distance *= scale;
+    sum.moments.specular_hit_distance *= scale;
     return sum;
 }
 
-// Deviation of the average: that of one frame, over the root of the frames that the average is worth. As FilteredLight has it.
+// Deviation of the average: that of one frame, over the root of the frames that the average is worth. As FilteredLight
+// has it.
 float average_deviation(vec2 mean_and_square, float frames)
 {
-    if (frames < least_frames)
+    if (frames < min_frames)
         return -sqrt(mean_and_square.y);
     return sqrt(quick_max(mean_and_square.y - mean_and_square.x * mean_and_square.x, 0.0) / frames);
 }
 
-// A rare path of great radiance must not stay in the history for seconds: new light counts up to so many times of what is known
-// of the place (biased; the more frames tell, the less).
-const float most_times_brighter = 50.0;
+// A rare path of great radiance must not stay in the history for seconds: new light counts up to so many times of what
+// is known of the place (biased; the more frames tell, the less).
+const float max_times_brighter = 50.0;
 // Added to what is known, as a share of the picture's range: in the dark, and more so where little is known yet.
-const float least_known = 0.02, least_known_at_first = 0.4;
+const float min_known = 0.02, min_known_at_first = 0.4;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
@@ -103,34 +107,34 @@ vec3 limit_firefly(vec3 light, vec3 known, float frames, float changed)
     if (changed > 0.1)
         return light;
     ExposureBuffer exposure = ExposureBuffer(frame.exposure);
-    float dark = (frames < least_frames ? least_known_at_first : least_known)
-        / (exposure.v.valid != 0u ? exposure.v.exposure : 1.0);
-    float limit = most_times_brighter * (luminance(known) + dark), l = luminance(light);
+    float dark
+        = (frames < min_frames ? min_known_at_first : min_known) / (exposure.v.valid != 0u ? exposure.v.exposure : 1.0);
+    float limit = max_times_brighter * (luminance(known) + dark), l = luminance(light);
     return l > limit ? light * (limit / l) : light;
 }
 
-// What is known where the history tells little: this frame's light around the pixel. From two pixels off, as nearer ones may share the
-// pixel's own bounce ray (lib/bounce_blocks.glsl). Without it a ledge of one pixel under a lamp stayed dark: anti-aliasing's jitter takes
-// its history away in most frames.
+// What is known where the history tells little: this frame's light around the pixel. From two pixels off, as nearer
+// ones may share the pixel's own bounce ray (lib/bounce_blocks.glsl). Without it a ledge of one pixel under a lamp
+// stayed dark: anti-aliasing's jitter takes its history away in most frames.
 ReflectedLight light_around(uvec2 pixel)
 {
     ReflectedLight sum = ReflectedLight(vec3(0.0), vec3(0.0));
-    [[dont_unroll]] for (int tap = 0; tap < 9; tap++) {
+    ROLLED_FOR (int tap = 0; tap < 9; tap++) {
         uvec2 at = uvec2(ivec2(pixel) + (ivec2(tap % 3, tap / 3) - 1) * 2);
         if (tap == 4 || !is_on_screen(at))
             continue;
         ReflectedLight light = load_reflected_light(pixel_index(at));
-        bool broken = is_broken(light.diffuse) || is_broken(light.specular);
-        sum.diffuse += broken ? vec3(0.0) : light.diffuse * 0.125;
-        sum.specular += broken ? vec3(0.0) : light.specular * 0.125;
+        bool nonfinite = is_nonfinite(light.diffuse) || is_nonfinite(light.specular);
+        sum.diffuse += nonfinite ? vec3(0.0) : light.diffuse * 0.125;
+        sum.specular += nonfinite ? vec3(0.0) : light.specular * 0.125;
     }
     return sum;
 }
 
 // Averaged, for the specular lobe is sampled now and then only.
-float update_reflected_distance(uint index, float before)
+float update_specular_hit_distance(uint index, float before)
 {
-    float now = load_reflected_distance(index);
+    float now = load_specular_hit_distance(index);
     if (now <= 0.0)
         return before;
     now = quick_min(now, 16384.0);
@@ -158,19 +162,19 @@ vec2 find_lambda(uvec2 pixel)
     return (frame.flags & measured) == measured ? changed_share(pixel) : vec2(0.0);
 }
 
-// Of specular light, where its history is the surface's: as many as leave what is reflected, sliding so many pixels in each, within this share
-// of its lobe.
-const float most_lobe_share = 0.12;
-float most_specular_frames(float slide, float reach)
+// Of specular light, where its history is the surface's: as many as leave what is reflected, sliding so many pixels in
+// each, within this share of its lobe.
+const float max_lobe_share = 0.12;
+float max_specular_frames(float slide, float reach)
 {
-    return clamp(most_lobe_share * reach / quick_max(slide, 0.01), 1.0, most_frames);
+    return clamp(max_lobe_share * reach / quick_max(slide, 0.01), 1.0, max_frames);
 }
 
 // The same where the history is that of what is reflected: less and less up to a quarter of a pixel in a frame.
-float most_glossy_frames(uvec2 pixel, vec2 shown)
+float max_glossy_frames(uvec2 pixel, vec2 shown)
 {
     vec2 moved = abs(shown - ((vec2(pixel) + 0.5) * frame.previous_scale - 0.5));
-    return mix(most_frames, most_moving_frames, quick_min(4.0 * quick_max(moved.x, moved.y), 1.0));
+    return mix(max_frames, max_moving_frames, quick_min(4.0 * quick_max(moved.x, moved.y), 1.0));
 }
 
 // Without spatial filter this is already what the next view accumulates on.
@@ -186,7 +190,7 @@ void store_light(uint index, uvec4 light)
 ReflectedLight known_light(uvec2 pixel, Surface surface, History history)
 {
     ReflectedLight known = ReflectedLight(history.light.diffuse, history.light.specular);
-    bvec2 is_new = lessThan(history.moments.frames, vec2(least_frames));
+    bvec2 is_new = lessThan(history.moments.frames, vec2(min_frames));
     if (any(is_new)) {
         ReflectedLight around = light_around(pixel);
         known.diffuse = is_new.x ? around.diffuse : known.diffuse;
@@ -197,8 +201,8 @@ ReflectedLight known_light(uvec2 pixel, Surface surface, History history)
 
 void accumulate_pixel(uvec2 pixel, uint index)
 {
-    uvec2 guide = load_guide(index);
-    if (guide_depth(guide) <= 0.0) {
+    uvec2 features = load_features(index);
+    if (feature_depth(features) <= 0.0) {
         store_light(index, uvec4(0u));
         store_moments(index, uvec4(0u));
         return;
@@ -207,37 +211,37 @@ void accumulate_pixel(uvec2 pixel, uint index)
     unpack_material(load_surface(index), surface);
     ReflectedLight reflected = load_reflected_light(index);
     vec3 diffuse = reflected.diffuse, specular = reflected.specular / specular_tint(surface);
-    if (is_broken(diffuse) || is_broken(specular)) {
-        count_broken_pixel();
+    if (is_nonfinite(diffuse) || is_nonfinite(specular)) {
+        count_nonfinite_pixel();
         diffuse = specular = vec3(0.0); // or it would stay in the history
     }
-    uint slope = load_slope(index);
-    Search search = make_search(guide, unpack_upper_halves(slope), load_motion(index));
-    History history = find_history(index, search, search.shown.xy);
-    float reflected_distance = update_reflected_distance(index, history.moments.reflected_distance);
+    uint depth_gradient = load_depth_gradient(index);
+    ReprojectionQuery query = make_query(features, unpack_upper_halves(depth_gradient), load_reprojected(index));
+    History history = find_history(index, query, query.shown.xy);
+    float specular_hit_distance = update_specular_hit_distance(index, history.moments.specular_hit_distance);
     vec3 direction = camera_direction(pixel, frame.pixel_offset);
-    float direction_length = length(direction), path_length = guide_depth(guide) * direction_length;
-    float reach = find_lobe_reach(surface.roughness, path_length, reflected_distance);
-    float most_specular = most_glossy_frames(pixel, search.shown.xy);
-    if (reflected_distance > 0.0) {
-        vec2 image = place_of_reflection(direction, (path_length + reflected_distance) / direction_length);
+    float direction_length = length(direction), path_length = feature_depth(features) * direction_length;
+    float reach = find_lobe_reach(surface.roughness, path_length, specular_hit_distance);
+    float max_specular = max_glossy_frames(pixel, query.shown.xy);
+    if (specular_hit_distance > 0.0) {
+        vec2 image = place_of_reflection(direction, (path_length + specular_hit_distance) / direction_length);
         if (surface.roughness < glossy_roughness) {
-            History glossy = find_history(index, search, image);
+            History glossy = find_history(index, query, image);
             history.light.specular = glossy.light.specular;
             history.moments.specular = glossy.moments.specular;
             history.moments.frames.y = glossy.moments.frames.y;
         } else {
-            most_specular = most_specular_frames(length(image - search.shown.xy), reach);
+            max_specular = max_specular_frames(length(image - query.shown.xy), reach);
         }
     }
     vec2 changed = find_lambda(pixel);
     ReflectedLight known = known_light(pixel, surface, history);
     diffuse = limit_firefly(diffuse, known.diffuse, history.moments.frames.x, changed.x);
     specular = limit_firefly(specular, known.specular, history.moments.frames.y, changed.y);
-    vec2 frames = quick_min(history.moments.frames + 1.0, vec2(most_frames, most_specular));
+    vec2 frames = quick_min(history.moments.frames + 1.0, vec2(max_frames, max_specular));
     frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed);
     vec2 share = 1.0 / frames;
-    vec2 moment_share = 1.0 / quick_min(frames, vec2(most_moment_frames));
+    vec2 moment_share = 1.0 / quick_min(frames, vec2(max_moment_frames));
     vec2 now = vec2(luminance(diffuse), luminance(specular));
     vec2 diffuse_moments = mix(history.moments.diffuse, vec2(now.x, now.x * now.x), moment_share.x);
     vec2 specular_moments = mix(history.moments.specular, vec2(now.y, now.y * now.y), moment_share.y);
@@ -248,14 +252,15 @@ void accumulate_pixel(uvec2 pixel, uint index)
     light.diffuse_deviation = average_deviation(diffuse_moments, frames.x);
     light.specular_deviation = average_deviation(specular_moments, frames.y);
     store_light(index, pack_filtered(light));
-    store_moments(index, pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),
-        vec2(specular_moments.x, sqrt(specular_moments.y)), frames, reflected_distance)));
-    // One ray's distance tells little: beside an edge it ends near, and without neighbours to mix with its light is a speck.
-    if (frames.y < least_frames && reflected_distance > 0.0)
-        reach = find_lobe_reach(surface.roughness, path_length, quick_max(reflected_distance, path_length));
+    store_moments(index,
+        pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),
+            vec2(specular_moments.x, sqrt(specular_moments.y)), frames, specular_hit_distance)));
+    // One ray's distance tells little: beside an edge it ends near, and light that mixes with no neighbours is a speck.
+    if (frames.y < min_frames && specular_hit_distance > 0.0)
+        reach = find_lobe_reach(surface.roughness, path_length, quick_max(specular_hit_distance, path_length));
     // See specular_fall. Filters must not reach farther than the lobe, or reflections blur.
-    float fall = reflected_distance > 0.0 ? 1.0 / (reach * reach) : 0.0;
-    store_filter_reach(index, uvec2(slope, floatBitsToUint(fall)));
+    float fall = specular_hit_distance > 0.0 ? 1.0 / (reach * reach) : 0.0;
+    store_filter_reach(index, uvec2(depth_gradient, floatBitsToUint(fall)));
 }
 
 VKPT_RUN_OVER_PIXELS(accumulate_pixel)

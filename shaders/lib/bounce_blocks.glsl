@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Blocks of 1, 2 x 1 or 2 x 2 pixels (pt_bounce_pixels), of which one, the leader, sends a bounce ray, each in its turn; the others
-// take over what it met.
+// Blocks of 1, 2 x 1 or 2 x 2 pixels (pt_bounce_pixels), of which one, the leader, sends a bounce ray, each in its
+// turn; the others take over what it met.
 #ifndef VKPT_LIB_BOUNCE_BLOCKS
 #define VKPT_LIB_BOUNCE_BLOCKS
 
@@ -17,10 +17,12 @@ struct BounceBlock {
     uint leader;
 };
 
-// The turns of a block of four: a pixel, the one diagonally across, and the other two. Blocks are out of step with their neighbours.
+// The turns of a block of four: a pixel, the one diagonally across, and the other two. Blocks are out of step with
+// their neighbours.
 BounceBlock open_bounce_block(uvec2 block)
 {
-    uint turn = (hash_pcg4(uvec4(block, 0x2545f491u, 0x9e3779b9u)).x + frame.frame_index) & (bounce_block_pixels() - 1u);
+    uint turn
+        = (hash_pcg4(uvec4(block, 0x2545f491u, 0x9e3779b9u)).x + frame.frame_index) & (bounce_block_pixels() - 1u);
     uint leader = ((turn ^ (turn >> 1u)) & 1u) | (turn << 1u);
     return BounceBlock(block * frame.bounce_block, leader & (bounce_block_pixels() - 1u));
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The one surface model: a diffuse base under a GGX layer, or a GGX metal, mixed by `metallic`.
 // Sources: Walter et al. 2007 (GGX), Heitz 2014 (height-correlated Smith), Dupuy and Benyoub 2023 (visible normals by
-// spherical caps), Kelemen and Szirmay-Kalos 2001 (a base that reflects what the layer lets through). Directions are unit vectors that point away from the surface.
+// spherical caps), Kelemen and Szirmay-Kalos 2001 (a base that reflects what the layer lets through). Directions are
+// unit vectors that point away from the surface.
 #ifndef VKPT_LIB_BSDF
 #define VKPT_LIB_BSDF
 
@@ -10,16 +11,16 @@
 
 struct Surface {
     vec3 position;
-    vec3 normal;           // shading normal, on the viewer's side
+    vec3 normal; // shading normal, on the viewer's side
     vec3 geometric_normal; // of the triangle, on the viewer's side: nothing comes from below it
-    vec3 view;             // towards where the ray came from
+    vec3 view; // towards where the ray came from
     vec3 albedo;
     float roughness; // GGX alpha = roughness^2; 1 and not metallic: matte, exactly Lambert
     float metallic;
 };
 
-// Reflected radiance = (albedo * diffuse + specular) * incoming radiance. The diffuse part is kept free of the albedo so
-// that denoisers see no texture in it.
+// Reflected radiance = (albedo * diffuse + specular) * incoming radiance. The diffuse part is kept free of the albedo
+// so that denoisers see no texture in it.
 struct BsdfValue {
     float diffuse;
     vec3 specular;
@@ -27,27 +28,21 @@ struct BsdfValue {
 
 struct BsdfSample {
     vec3 direction;
-    float pdf;       // per solid angle, of both lobes together; 0: nothing is reflected this way
+    float pdf; // per solid angle, of both lobes together; 0: nothing is reflected this way
     BsdfValue value; // of evaluate_bsdf for `direction`
-    uint lobe;       // BSDF_LOBE_*
+    uint lobe; // BSDF_LOBE_*
 };
 
 const uint BSDF_LOBE_DIFFUSE = 0u;
 const uint BSDF_LOBE_SPECULAR = 1u;
 
 const float bsdf_pi = 3.14159265358979f;
-const float bsdf_min_alpha = 1e-3f;    // smoother than this is for the mirror chain
+const float bsdf_min_alpha = 1e-3f; // smoother than this is for the mirror chain
 const float bsdf_dielectric_f0 = 0.04f; // index of refraction 1.5
 
-float luminance(vec3 colour)
-{
-    return dot(colour, vec3(0.2126f, 0.7152f, 0.0722f));
-}
+float luminance(vec3 colour) { return dot(colour, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
-float ggx_alpha(float roughness)
-{
-    return quick_max(roughness * roughness, bsdf_min_alpha);
-}
+float ggx_alpha(float roughness) { return quick_max(roughness * roughness, bsdf_min_alpha); }
 
 // Interpolated and mapped normals may face away from the viewer: the view is then lifted just above their horizon.
 vec3 view_above_horizon(Surface s)
@@ -63,7 +58,8 @@ vec3 any_tangent(vec3 normal)
     return normalize(cross(other, normal));
 }
 
-// `sine2` = squared sine between normal and half vector: it keeps the precision that 1 - cosine^2 loses on smooth surfaces.
+// `sine2` = squared sine between normal and half vector: it keeps the precision that 1 - cosine^2 loses on smooth
+// surfaces.
 float ggx_distribution(float cosine, float sine2, float alpha)
 {
     float a2 = alpha * alpha;
@@ -85,10 +81,7 @@ float schlick_power(float cosine)
 }
 
 // The layer over the diffuse base fades out towards roughness 1: matte surfaces have none.
-float layer_strength(Surface s)
-{
-    return quick_clamp(5.0f * (1.0f - s.roughness), 0.0f, 1.0f);
-}
+float layer_strength(Surface s) { return quick_clamp(5.0f * (1.0f - s.roughness), 0.0f, 1.0f); }
 
 // Schlick's approximation; `power` = schlick_power of the cosine.
 float dielectric_fresnel(Surface s, float power)
@@ -103,10 +96,7 @@ vec3 specular_fresnel(Surface s, float power)
 }
 
 // The layer reflects less towards grazing angles than Fresnel's formula has it, the rougher it is.
-float layer_rise(Surface s)
-{
-    return 1.0f - 0.9f * s.roughness * s.roughness;
-}
+float layer_rise(Surface s) { return 1.0f - 0.9f * s.roughness * s.roughness; }
 
 // The two factors of coupled_diffuse: what depends on the light's height, and all else.
 float coupled_diffuse_share(Surface s, float nl)
@@ -121,8 +111,8 @@ float coupled_diffuse_base(Surface s, float nv)
 }
 
 // What passes the layer inwards, reflects, and passes it outwards, so that base and layer together never reflect more
-// than they receive: (1 - F(l)) (1 - F(v)) / (1 - mean F), 1 / pi without a layer. F is the share that the layer reflects
-// in all; towards grazing angles that rises less the rougher it is (the factor is fitted to the furnace).
+// than they receive: (1 - F(l)) (1 - F(v)) / (1 - mean F), 1 / pi without a layer. F is the share that the layer
+// reflects in all; towards grazing angles that rises less the rougher it is (the factor is fitted to the furnace).
 float coupled_diffuse(Surface s, float nl, float nv)
 {
     return coupled_diffuse_base(s, nv) * coupled_diffuse_share(s, nl);
@@ -187,8 +177,8 @@ float specular_lobe_probability(Surface s)
     return quick_clamp(specular / quick_max(specular + diffuse, 1e-6f), 0.1f, 0.9f);
 }
 
-// Density of sample_bsdf per solid angle; over the whole sphere it integrates to 1 (the specular lobe of a rough surface
-// reaches below the horizon, where nothing is reflected).
+// Density of sample_bsdf per solid angle; over the whole sphere it integrates to 1 (the specular lobe of a rough
+// surface reaches below the horizon, where nothing is reflected).
 float pdf_bsdf(Surface s, vec3 light)
 {
     vec3 view = view_above_horizon(s);
@@ -219,8 +209,7 @@ vec3 sample_visible_normal(vec3 normal, vec3 view, float alpha, vec2 xi)
 {
     vec3 tangent = any_tangent(normal);
     vec3 bitangent = cross(normal, tangent);
-    vec3 stretched
-        = normalize(vec3(alpha * dot(view, tangent), alpha * dot(view, bitangent), dot(view, normal)));
+    vec3 stretched = normalize(vec3(alpha * dot(view, tangent), alpha * dot(view, bitangent), dot(view, normal)));
     float phi = 2.0f * bsdf_pi * xi.x;
     float z = (1.0f - xi.y) * (1.0f + stretched.z) - stretched.z;
     float sine = sqrt(quick_clamp(1.0f - z * z, 0.0f, 1.0f));

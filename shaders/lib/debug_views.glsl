@@ -16,7 +16,8 @@ vec3 colour_of_number(uint number)
 // From 0 to 1: black, blue, magenta, orange, pale yellow. The luminance rises throughout.
 vec3 heat_colour(float heat)
 {
-    const vec3 stops[5] = vec3[5](vec3(0.0), vec3(0.03, 0.05, 0.45), vec3(0.50, 0.04, 0.40), vec3(0.95, 0.30, 0.03), vec3(1.0, 0.95, 0.60));
+    const vec3 stops[5] = vec3[5](
+        vec3(0.0), vec3(0.03, 0.05, 0.45), vec3(0.50, 0.04, 0.40), vec3(0.95, 0.30, 0.03), vec3(1.0, 0.95, 0.60));
     float place = clamp(heat, 0.0, 1.0) * 4.0;
     uint first = min(uint(place), 3u);
     return mix(stops[first], stops[first + 1u], place - float(first));
@@ -28,7 +29,7 @@ vec3 unavailable_colour(uvec2 pixel) { return vec3((pixel.x + pixel.y) / 8u % 2u
 // Direction as hue, distance as brightness: 16 pixels a frame are full.
 vec3 motion_colour(uvec2 pixel, uint index)
 {
-    vec2 moved = vec2(pixel) - load_motion(index).xy;
+    vec2 moved = vec2(pixel) - load_reprojected(index).xy;
     if (dot(moved, moved) > 1e8)
         return vec3(0.0); // it was behind the camera
     float turn = atan(moved.y, moved.x) / 6.2831853;
@@ -71,24 +72,30 @@ vec3 filter_colour(int view, uvec2 pixel, uint index)
 // `pixel` as rendered.
 vec3 debug_colour(int view, uvec2 pixel, uint index)
 {
-    const float most_rays = 16.0, longest_list = 256.0;
+    const float max_rays = 16.0, longest_list = 256.0;
     PrimarySurface primary = load_primary_surface(index);
     if (view == DEBUG_VIEW_EMISSION || view == DEBUG_VIEW_CACHE) // see primary_visibility
         return load_emitted(index);
     if (view == DEBUG_VIEW_RAYS)
-        return heat_colour(float(load_ray_count(index)) / most_rays);
+        return heat_colour(float(load_ray_count(index)) / max_rays);
     if (primary.depth < 0.0)
         return vec3(0.0);
     Surface s = primary.surface;
     switch (view) {
-    case DEBUG_VIEW_ALBEDO: return s.albedo;
-    case DEBUG_VIEW_NORMAL: return s.normal * 0.5 + 0.5;
-    case DEBUG_VIEW_DEPTH: return vec3(primary.depth / (primary.depth + 512.0));
-    case DEBUG_VIEW_CLUSTER: return primary.cluster < 0 ? vec3(1.0, 0.0, 1.0) : colour_of_number(uint(primary.cluster));
+    case DEBUG_VIEW_ALBEDO:
+        return s.albedo;
+    case DEBUG_VIEW_NORMAL:
+        return s.normal * 0.5 + 0.5;
+    case DEBUG_VIEW_DEPTH:
+        return vec3(primary.depth / (primary.depth + 512.0));
+    case DEBUG_VIEW_CLUSTER:
+        return primary.cluster < 0 ? vec3(1.0, 0.0, 1.0) : colour_of_number(uint(primary.cluster));
     case DEBUG_VIEW_LIST_LENGTH:
         return heat_colour(float(light_count(open_light_list(light_tables(), primary.cluster))) / longest_list);
-    case DEBUG_VIEW_IRRADIANCE: return load_reflected_light(index).diffuse;
-    case DEBUG_VIEW_ROUGHNESS: return vec3(s.roughness, s.metallic, 0.0);
+    case DEBUG_VIEW_IRRADIANCE:
+        return load_reflected_light(index).diffuse;
+    case DEBUG_VIEW_ROUGHNESS:
+        return vec3(s.roughness, s.metallic, 0.0);
     }
     return filter_colour(view, pixel, index);
 }

@@ -15,9 +15,9 @@ VKPT_BUFFER(LtcBuffer, float, 4);
 // How lights are chosen, and points on them.
 struct LightOptions {
     uint subset_length; // pt_light_subset
-    int weight;         // LIGHT_WEIGHT_*
-    int point;          // LIGHT_POINT_*
-    LtcBuffer ltc;      // LTC_* of shared/ltc.h
+    int weight; // LIGHT_WEIGHT_*
+    int point; // LIGHT_POINT_*
+    LtcBuffer ltc; // LTC_* of shared/ltc.h
 };
 
 struct EmitterSample {
@@ -25,26 +25,20 @@ struct EmitterSample {
     vec3 direction; // from the receiver, unit
     float distance;
     vec3 radiance; // towards the receiver. EMITTER_SKY: the average, replace it by the sky's in `direction`
-    float pdf;     // per solid angle at the receiver; 0: this emitter does not light the receiver
+    float pdf; // per solid angle at the receiver; 0: this emitter does not light the receiver
 };
 
 const float emitter_pi = 3.14159265358979f;
 // Triangles are sampled by solid angle from here on; below, float rounding would show, and area sampling is as good.
-const float least_spherical_angle = 3e-4f;
+const float min_spherical_angle = 3e-4f;
 // Below this projected solid angle, too, uniform sampling takes over.
-const float least_projected_angle = 3e-4f;
+const float min_projected_angle = 3e-4f;
 
-// Whether bounce rays meet all of the emitter's front, wherever it is not hidden. Spheres are lights without a surface in the
-// scene, and rays pass what is translucent or cut out: light sampling alone accounts for those.
-bool is_sphere(Emitter e)
-{
-    return e.type == EMITTER_SPHERE || e.type == EMITTER_SUN;
-}
+// Whether bounce rays meet all of the emitter's front, wherever it is not hidden. Spheres are lights without a surface
+// in the scene, and rays pass what is translucent or cut out: light sampling alone accounts for those.
+bool is_sphere(Emitter e) { return e.type == EMITTER_SPHERE || e.type == EMITTER_SUN; }
 
-bool is_met_by_rays(Emitter e)
-{
-    return e.type == EMITTER_TRIANGLE || e.type == EMITTER_SKY;
-}
+bool is_met_by_rays(Emitter e) { return e.type == EMITTER_TRIANGLE || e.type == EMITTER_SKY; }
 
 // Emitters with a reach fade to nothing there, smoothly: (1 - (d / reach)^4)^2.
 float reach_window(vec3 to_emitter, float reach)
@@ -80,8 +74,8 @@ float unfold_angle(float angle, float y, float x)
     return x < 0.0f ? emitter_pi - angle : angle;
 }
 
-// atan(y, x) for y > 0, relative error 2e-7 (polynomial: Abramowitz and Stegun 1964, 4.4.49). Drivers' own cost several times
-// as much and may be less exact.
+// atan(y, x) for y > 0, relative error 2e-7 (polynomial: Abramowitz and Stegun 1964, 4.4.49). Drivers' own cost several
+// times as much and may be less exact.
 float angle_above_axis(float y, float x)
 {
     float side = abs(x);
@@ -93,8 +87,9 @@ float angle_above_axis(float y, float x)
     return unfold_angle(angle, y, x);
 }
 
-// A triangle's solid angle is 2 atan(volume, this): Van Oosterom and Strackee 1983. Corners relative to the eye; volume: six times the
-// tetrahedron's, > 0 in front, which keeps its precision at tiny angles if it is worked out from the edges.
+// A triangle's solid angle is 2 atan(volume, this): Van Oosterom and Strackee 1983. Corners relative to the eye;
+// volume: six times the tetrahedron's, > 0 in front, which keeps its precision at tiny angles if it is worked out from
+// the edges.
 float solid_angle_denominator(vec3 a, vec3 b, vec3 c, vec3 lengths)
 {
     return lengths.x * lengths.y * lengths.z + dot(a, b) * lengths.z + dot(b, c) * lengths.x + dot(c, a) * lengths.y;
@@ -102,11 +97,11 @@ float solid_angle_denominator(vec3 a, vec3 b, vec3 c, vec3 lengths)
 
 // A triangle as seen from a point.
 struct TriangleAspect {
-    vec3 a, b, c;      // receiver to corners
-    vec3 edges_cross;  // cross(p1 - p0, p2 - p0)
-    float volume;      // six times the tetrahedron's; > 0: the receiver is in front
+    vec3 a, b, c; // receiver to corners
+    vec3 edges_cross; // cross(p1 - p0, p2 - p0)
+    float volume; // six times the tetrahedron's; > 0: the receiver is in front
     float solid_angle; // 0 where volume <= 0
-    vec3 lengths;      // of a, b, c
+    vec3 lengths; // of a, b, c
 };
 
 TriangleAspect view_triangle(Emitter e, vec3 receiver)
@@ -124,8 +119,8 @@ TriangleAspect view_triangle(Emitter e, vec3 receiver)
     return t;
 }
 
-// Arvo 1995: first the sub-triangle (a, b, c') that has the share xi.x of the solid angle, c' on the arc from a to c; then
-// uniform height on the arc from b to c'. c' without trigonometric inverses: write it as the mirror image of a at
+// Arvo 1995: first the sub-triangle (a, b, c') that has the share xi.x of the solid angle, c' on the arc from a to c;
+// then uniform height on the arc from b to c'. c' without trigonometric inverses: write it as the mirror image of a at
 // r = p a + q c; then tan(angle / 2) = q G0 / (p G2 + q G1) with the G below, which is linear in p and q.
 vec3 sample_spherical_triangle(TriangleAspect t, vec2 xi)
 {
@@ -175,10 +170,10 @@ TriangleSampling choose_triangle_sampling(TriangleAspect t, Surface s, LightOpti
     sampling.method = options.point;
     if (sampling.method == LIGHT_POINT_PROJECTED) {
         sampling.projected = project_triangle(t.a, t.b, t.c, s.normal);
-        if (sampling.projected.area < least_projected_angle)
+        if (sampling.projected.area < min_projected_angle)
             sampling.method = LIGHT_POINT_SOLID_ANGLE;
     }
-    if (sampling.method == LIGHT_POINT_SOLID_ANGLE && t.solid_angle < least_spherical_angle)
+    if (sampling.method == LIGHT_POINT_SOLID_ANGLE && t.solid_angle < min_spherical_angle)
         sampling.method = LIGHT_POINT_AREA;
     return sampling;
 }
@@ -233,7 +228,8 @@ float sphere_cone_depth(vec3 to_centre, float radius)
     return sine2 / (1.0f + sqrt(1.0f - sine2));
 }
 
-// A receiver inside the sphere (a wall that a dynamic light grazes) is lit from all around: the irradiance is continuous.
+// A receiver inside the sphere (a wall that a dynamic light grazes) is lit from all around: the irradiance is
+// continuous.
 EmitterSample sample_sphere_point(Emitter e, vec3 receiver, vec2 xi)
 {
     EmitterSample result;

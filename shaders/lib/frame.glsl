@@ -24,14 +24,16 @@ layout(set = 0, binding = 1) uniform sampler samplers[SAMPLER_COUNT];
 layout(set = 1, binding = 0) uniform texture2D textures[];
 
 // The pass's push constants, whose struct its row in passes.def names.
-#define VKPT_PUSH_CONSTANTS layout(push_constant, scalar) uniform PushBlock { VKPT_PUSH push; };
+#define VKPT_PUSH_CONSTANTS                                                                                            \
+    layout(push_constant, scalar) uniform PushBlock { VKPT_PUSH push; };
 
-// A picture that may be another one in every lane. Both the index and what is made of it have to be called nonuniform, or the CPU
-// driver takes the first lane's picture for all.
-#define VKPT_PICTURE(slot, sampler_index) nonuniformEXT(sampler2D(textures[nonuniformEXT(slot)], samplers[sampler_index]))
+// A picture that may be another one in every lane. Both the index and what is made of it have to be called nonuniform,
+// or the CPU driver takes the first lane's picture for all.
+#define VKPT_PICTURE(slot, sampler_index)                                                                              \
+    nonuniformEXT(sampler2D(textures[nonuniformEXT(slot)], samplers[sampler_index]))
 
-// An element of a buffer at an address; the last parameter of load_element tells its type. By 64-bit loads and stores where its
-// size allows it (see wide_loads.glsl).
+// An element of a buffer at an address; the last parameter of load_element tells its type. By 64-bit loads and stores
+// where its size allows it (see wide_loads.glsl).
 #define VKPT_ELEMENT(type)                                                                                             \
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer type##_elements { type v[]; };                 \
     type load_element(uint64_t address, uint index, type unused) { return type##_elements(address).v[index]; }         \
@@ -71,21 +73,30 @@ layout(set = 3, binding = 0) uniform utextureBuffer screen_texels[SCREEN_BUFFER_
 
 uvec4 load_element(ScreenBuffer buffer_, uint index, uvec4 unused)
 {
-    return tables_are_texels ? texelFetch(screen_texels[buffer_.texels], int(index)) : load_element(buffer_.address, index, uvec4(0u));
+    return tables_are_texels ? texelFetch(screen_texels[buffer_.texels], int(index))
+                             : load_element(buffer_.address, index, uvec4(0u));
 }
 uvec2 load_element(ScreenBuffer buffer_, uint index, uvec2 unused)
 {
-    return tables_are_texels ? texelFetch(screen_texels[buffer_.texels], int(index)).xy : load_element(buffer_.address, index, uvec2(0u));
+    return tables_are_texels ? texelFetch(screen_texels[buffer_.texels], int(index)).xy
+                             : load_element(buffer_.address, index, uvec2(0u));
 }
-vec2 load_element(ScreenBuffer buffer_, uint index, vec2 unused) { return uintBitsToFloat(load_element(buffer_, index, uvec2(0u))); }
-vec4 load_element(ScreenBuffer buffer_, uint index, vec4 unused) { return uintBitsToFloat(load_element(buffer_, index, uvec4(0u))); }
+vec2 load_element(ScreenBuffer buffer_, uint index, vec2 unused)
+{
+    return uintBitsToFloat(load_element(buffer_, index, uvec2(0u)));
+}
+vec4 load_element(ScreenBuffer buffer_, uint index, vec4 unused)
+{
+    return uintBitsToFloat(load_element(buffer_, index, uvec4(0u)));
+}
 uint load_element(ScreenBuffer buffer_, uint index, uint unused) { return load_element(buffer_.address, index, 0u); }
 float load_element(ScreenBuffer buffer_, uint index, float unused) { return load_element(buffer_.address, index, 0.0); }
 vec3 load_element(ScreenBuffer buffer_, uint index, vec3 unused) { return load_element(buffer_, index, vec4(0.0)).xyz; }
 ReflectedLight load_element(ScreenBuffer buffer_, uint index, ReflectedLight unused)
 {
     uint64_t words = buffer_.address + uint64_t(index * 24u);
-    vec2 a = uintBitsToFloat(load_element(words, 0u, uvec2(0u))), b = uintBitsToFloat(load_element(words, 1u, uvec2(0u))),
+    vec2 a = uintBitsToFloat(load_element(words, 0u, uvec2(0u))),
+         b = uintBitsToFloat(load_element(words, 1u, uvec2(0u))),
          c = uintBitsToFloat(load_element(words, 2u, uvec2(0u)));
     return ReflectedLight(vec3(a, b.x), vec3(b.y, c));
 }
@@ -106,26 +117,28 @@ uint pixel_index(uvec2 pixel) { return pixel.y * frame.size.x + pixel.x; }
 // What is negative is very great without sign.
 bool is_on_screen(uvec2 pixel) { return all(lessThan(pixel, frame.size)); }
 
-// Where lane `lane` of 64 stands in an 8 x 8 tile: 16 neighbouring lanes (one vector of the CPU driver) cover 4 x 4 pixels.
+// Where lane `lane` of 64 stands in an 8 x 8 tile: 16 neighbouring lanes (one vector of the CPU driver) cover 4 x 4
+// pixels.
 uvec2 pixel_in_tile(uint lane)
 {
     return uvec2(((lane >> 4u) & 1u) * 4u + (lane & 3u), (lane >> 5u) * 4u + ((lane >> 2u) & 3u));
 }
 
-// How a pass runs over its pixels, over blocks of them (lib/bounce_blocks.glsl), or over PIXEL_GROUP_SIZE lanes with a number
-// each, or over the light cache's cells that are updated: the macros define main(), which calls run(pixel, index of the pixel in the
-// screen buffers), run(block, its number), run(place in the grid, number of the cell) or run(lane). They are what lets one source be a compute shader or, for the trace backend "pipeline", a ray generation shader,
+// How a pass runs over its pixels, over blocks of them (lib/bounce_blocks.glsl), or over PIXEL_GROUP_SIZE lanes with a
+// number each, or over the light cache's cells that are updated: the macros define main(), which calls run(pixel, index
+// of the pixel in the screen buffers), run(block, its number), run(place in the grid, number of the cell) or run(lane).
+// They are what lets one source be a compute shader or, for the trace backend "pipeline", a ray generation shader,
 // which has neither workgroups nor shared memory: a pass that traces keeps to them.
 #if defined(VKPT_TRACE_PIPELINE)
 #extension GL_EXT_ray_tracing : require
 
 // One launch index a pixel, or a block.
 #define VKPT_RUN_OVER_PIXELS(run)                                                                                      \
-    void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y * frame.size.x + gl_LaunchIDEXT.x); }
+    void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y* frame.size.x + gl_LaunchIDEXT.x); }
 #define VKPT_RUN_OVER_BLOCKS(run)                                                                                      \
-    void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x); }
+    void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y* gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x); }
 #define VKPT_RUN_OVER_CELLS(run)                                                                                       \
-    void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y * CACHE_ROW + gl_LaunchIDEXT.x); }
+    void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y* CACHE_ROW + gl_LaunchIDEXT.x); }
 #define VKPT_RUN_OVER_LANES(run)                                                                                       \
     void main() { run(gl_LaunchIDEXT.x); }
 
@@ -141,8 +154,8 @@ uvec2 place_of_tile(uint tile, uint across)
     return uvec2(tile - row * across, row);
 }
 
-// Workgroups walk several tiles because starting one costs the CPU driver as much as a cheap pixel pass. The pixel is kept from tile to
-// tile: that driver divides lane by lane for the lane's number, and would do so in every tile.
+// Workgroups walk several tiles because starting one costs the CPU driver as much as a cheap pixel pass. The pixel is
+// kept from tile to tile: that driver divides lane by lane for the lane's number, and would do so in every tile.
 #define VKPT_RUN_OVER(size_, run)                                                                                      \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
     void main()                                                                                                        \
@@ -151,9 +164,9 @@ uvec2 place_of_tile(uint tile, uint across)
         uint tiles_across = (size.x + 7u) / 8u;                                                                        \
         uvec2 pixel = place_of_tile(gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP, tiles_across) * 8u                       \
             + pixel_in_tile(gl_LocalInvocationID.x);                                                                   \
-        [[dont_unroll]] for (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {                                            \
+        ROLLED_FOR (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {                                                     \
             if (all(lessThan(pixel, size)))                                                                            \
-                run(pixel, pixel.y * size.x + pixel.x);                                                                \
+                run(pixel, pixel.y* size.x + pixel.x);                                                                 \
             pixel.x += 8u;                                                                                             \
             if (pixel.x >= tiles_across * 8u)                                                                          \
                 pixel += uvec2(-int(tiles_across) * 8, 8);                                                             \

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Bounce rays that aim at the bright small places of a room: blocks of the light cache's cells. One guide of the cluster's list is
-// chosen by what it is likely to send, a cell of it by its share, and a point on the cell. The ray counts if it ends in that block, and
-// shares what it brings by MIS with the BSDF ray that meets the block by chance: the mean is that of BSDF rays alone, whatever the
-// lists say.
+// Bounce rays that aim at the bright small places of a room: blocks of the light cache's cells. One guide of the
+// cluster's list is chosen by what it is likely to send, a cell of it by its share, and a point on the cell. The ray
+// counts if it ends in that block, and shares what it brings by MIS with the BSDF ray that meets the block by chance:
+// the mean is that of BSDF rays alone, whatever the lists say.
 #ifndef VKPT_LIB_GUIDES
 #define VKPT_LIB_GUIDES
 
@@ -13,10 +13,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Gui
 // The guides of a surface's cluster, one of which is chosen.
 struct Guides {
     uint first, count; // entries
-    float total;       // of their weights; 0: none is aimed at
-    uint chosen;       // entry
-    float weight;      // of the chosen one
-    float rest;        // what the choice has left of its random number
+    float total; // of their weights; 0: none is aimed at
+    uint chosen; // entry
+    float weight; // of the chosen one
+    float rest; // what the choice has left of its random number
 };
 const Guides no_guides = Guides(0u, 0u, 0.0, 0u, 0.0, 0.0);
 
@@ -49,7 +49,7 @@ void choose_in_group(inout Guides guides, vec4 weights, float xi)
 {
     float threshold = xi * ((weights.x + weights.y) + (weights.z + weights.w)), before = 0.0;
     uint first = guides.chosen;
-    [[unroll]] for (uint i = 0u; i < 4u; i++) {
+    UNROLLED_FOR (uint i = 0u; i < 4u; i++) {
         bool taken = weights[i] > 0.0 && threshold >= before;
         guides.chosen = taken ? first + i : guides.chosen;
         guides.weight = taken ? weights[i] : guides.weight;
@@ -59,7 +59,8 @@ void choose_in_group(inout Guides guides, vec4 weights, float xi)
     guides.rest = quick_clamp(guides.rest / quick_max(guides.weight, 1e-30), 0.0, 0.99999994);
 }
 
-// One sweep: Listing 47-2, as offer_light in light_sampler.glsl, over groups of four, of which each costs a division.
+// One sweep: Listing 47-2, as update_reservoir in light_sampler.glsl, over groups of four, of which each costs a
+// division.
 Guides open_guides(Surface s, int cluster, float xi)
 {
     Guides guides = no_guides;
@@ -69,9 +70,10 @@ Guides open_guides(Surface s, int cluster, float xi)
     guides.first = list.x;
     guides.count = list.y;
     vec4 weights = vec4(0.0); // of the chosen group
-    [[dont_unroll]] for (uint i = 0u; i < guides.count; i += 4u) {
+    ROLLED_FOR (uint i = 0u; i < guides.count; i += 4u) {
         uvec4 entry = guides.first + min(i + uvec4(0u, 1u, 2u, 3u), guides.count - 1u);
-        vec4 w = vec4(weigh_guide(s, entry.x), weigh_guide(s, entry.y), weigh_guide(s, entry.z), weigh_guide(s, entry.w));
+        vec4 w
+            = vec4(weigh_guide(s, entry.x), weigh_guide(s, entry.y), weigh_guide(s, entry.z), weigh_guide(s, entry.w));
         w = mix(w, vec4(0.0), greaterThanEqual(i + uvec4(0u, 1u, 2u, 3u), uvec4(guides.count)));
         float group = (w.x + w.y) + (w.z + w.w), before = guides.total;
         guides.total += group;
@@ -89,9 +91,10 @@ Guides open_guides(Surface s, int cluster, float xi)
 CacheGuideBlock load_guide_block(uint guide)
 {
     uint64_t address = frame.scene.cache.guide_blocks + uint64_t((guide - 1u) * 64u);
-    uvec4 a = load_element(address, 0u, uvec4(0u)), b = load_element(address, 1u, uvec4(0u)), c = load_element(address, 2u, uvec4(0u)),
-          d = load_element(address, 3u, uvec4(0u));
-    return CacheGuideBlock(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), 0u, uintBitsToFloat(c.xyz), 0u, uint[4](d.x, d.y, d.z, d.w));
+    uvec4 a = load_element(address, 0u, uvec4(0u)), b = load_element(address, 1u, uvec4(0u)),
+          c = load_element(address, 2u, uvec4(0u)), d = load_element(address, 3u, uvec4(0u));
+    return CacheGuideBlock(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), 0u, uintBitsToFloat(c.xyz), 0u,
+        uint[4](d.x, d.y, d.z, d.w));
 }
 
 uint share_of_cell(CacheGuideBlock block, uint cell)
@@ -99,11 +102,13 @@ uint share_of_cell(CacheGuideBlock block, uint cell)
     return (block.shares[cell / CACHE_GUIDE_SIDE] >> (cell % CACHE_GUIDE_SIDE * 8u)) & 0xffu;
 }
 
-// Density, per solid angle at `from`, of a point in one of the block's cells, the block being chosen with this probability.
+// Density, per solid angle at `from`, of a point in one of the block's cells, the block being chosen with this
+// probability.
 float guide_density(CacheGuideBlock block, uint cell, float probability, vec3 from, vec3 point)
 {
     vec3 way = point - from;
-    float distance2 = dot(way, way), height = abs(dot(way, cross(block.across, block.down))); // distance * area * cosine
+    float distance2 = dot(way, way),
+          height = abs(dot(way, cross(block.across, block.down))); // distance * area * cosine
     float share = float(share_of_cell(block, cell)) / float(block.total);
     return height > 0.0 ? probability * share * distance2 * sqrt(distance2) / height : 0.0;
 }
@@ -112,7 +117,7 @@ float guide_density(CacheGuideBlock block, uint cell, float probability, vec3 fr
 uint choose_cell(CacheGuideBlock block, float xi)
 {
     uint threshold = min(uint(xi * float(block.total)), block.total - 1u), sum = 0u, chosen = 0u;
-    [[dont_unroll]] for (uint cell = 0u; cell < CACHE_GUIDE_SIDE * CACHE_GUIDE_SIDE; cell++) {
+    ROLLED_FOR (uint cell = 0u; cell < CACHE_GUIDE_SIDE * CACHE_GUIDE_SIDE; cell++) {
         uint share = share_of_cell(block, cell);
         chosen = share > 0u && sum <= threshold ? cell : chosen;
         sum += share;
@@ -148,7 +153,8 @@ float pdf_guide(Guides guides, Surface s, uint guide, vec3 point)
         return 0.0;
     CacheGuideBlock block = load_guide_block(guide);
     vec3 way = point - block.corner;
-    vec2 place = vec2(dot(way, block.across) / dot(block.across, block.across), dot(way, block.down) / dot(block.down, block.down));
+    vec2 place = vec2(
+        dot(way, block.across) / dot(block.across, block.across), dot(way, block.down) / dot(block.down, block.down));
     uvec2 at = min(uvec2(max(place, vec2(0.0))), uvec2(CACHE_GUIDE_SIDE - 1u));
     return guide_density(block, at.y * CACHE_GUIDE_SIDE + at.x, weigh_guide(s, low) / guides.total, s.position, point);
 }

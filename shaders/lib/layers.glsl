@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The layers of what is seen through glass and in water: what is reflected, or the pane's own picture, and what is behind. A camera ray
-// follows one of them, at random and by how much it is of the whole. In pictures that are filtered (FRAME_LAYERED) neighbouring pixels
-// share them out in a pattern instead, so that each layer has neighbours and a history to be filtered with; what it counts for makes up
-// for the number of its pixels. blend_layers.comp puts the layers together. The pattern moves on with every view, and anti-aliasing
-// averages what is left of it.
+// The layers of what is seen through glass and in water: what is reflected, or the pane's own picture, and what is
+// behind. A camera ray follows one of them, at random and by how much it is of the whole. In pictures that are filtered
+// (FRAME_LAYERED) neighbouring pixels share them out in a pattern instead, so that each layer has neighbours and a
+// history to be filtered with; what it counts for makes up for the number of its pixels. blend_layers.comp puts the
+// layers together. The pattern moves on with every view, and anti-aliasing averages what is left of it.
 #ifndef VKPT_LIB_LAYERS
 #define VKPT_LIB_LAYERS
 
 #include "device/whole_numbers.glsl"
 
-// Pixels are of one of three classes: those to the right and above are of the next class, those to the left and below of the last one.
+// Pixels are of one of three classes: those to the right and above are of the next class, those to the left and below
+// of the last one.
 const uint layer_classes = 3u;
 
 // The classes first to first + count - 1 follow the pixel's layer; 1: there is nothing left to share out.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The light cache, as bounce rays read it: what arrives at a cell of a face from the map's own lights. docs/light-cache.md.
+// The light cache, as bounce rays read it: what arrives at a cell of a face from the map's own lights.
+// docs/light-cache.md.
 #ifndef VKPT_LIB_LIGHT_CACHE
 #define VKPT_LIB_LIGHT_CACHE
 
@@ -9,7 +10,8 @@
 CacheFace load_cache_face(uint face)
 {
     uint64_t address = frame.scene.cache.faces + uint64_t(face * 48u);
-    uvec4 a = load_element(address, 0u, uvec4(0u)), b = load_element(address, 1u, uvec4(0u)), c = load_element(address, 2u, uvec4(0u));
+    uvec4 a = load_element(address, 0u, uvec4(0u)), b = load_element(address, 1u, uvec4(0u)),
+          c = load_element(address, 2u, uvec4(0u));
     return CacheFace(uintBitsToFloat(a), uintBitsToFloat(b), c.x, c.y, uint[2](c.z, c.w));
 }
 
@@ -43,7 +45,10 @@ uvec2 cache_face_cells(CacheFace face)
 
 uint cache_face_layers(CacheFace face) { return face.size >> (2u * CACHE_SIZE_BITS); }
 
-uint cache_layer_style(CacheFace face, uint layer) { return (face.styles[layer >> 1u] >> ((layer & 1u) * 16u)) & 0xffffu; }
+uint cache_layer_style(CacheFace face, uint layer)
+{
+    return (face.styles[layer >> 1u] >> ((layer & 1u) * 16u)) & 0xffffu;
+}
 
 // Where a cell's layers begin.
 uint find_cache_value(CacheFace face, vec3 position)
@@ -75,7 +80,7 @@ CachedLight read_light_cache(uint cache_face, vec3 position)
         return result;
     uint first = find_cache_value(face, position);
     result.known = true;
-    [[dont_unroll]] for (uint layer = 0u; layer < cache_face_layers(face); layer++) {
+    ROLLED_FOR (uint layer = 0u; layer < cache_face_layers(face); layer++) {
         float scale = lightstyle_scale(cache_layer_style(face, layer));
         LightOfStyle value = load_cache_value(first + layer);
         result.guide = layer == 0u ? value.guide : result.guide;
@@ -93,8 +98,8 @@ CachedLight read_light_cache(uint cache_face, vec3 position)
     return result;
 }
 
-// What a GGX layer without Fresnel's term reflects in the mean over all views; the rest would be reflected more than once, or leaves below
-// the horizon. Fitted to sums over directions, within 0.01 for alpha from 0.1 to 1.
+// What a GGX layer without Fresnel's term reflects in the mean over all views; the rest would be reflected more than
+// once, or leaves below the horizon. Fitted to sums over directions, within 0.01 for alpha from 0.1 to 1.
 float mean_ggx_reflectance(float alpha)
 {
     float root = sqrt(alpha);
@@ -103,14 +108,16 @@ float mean_ggx_reflectance(float alpha)
 
 float direction_spread(CachedLight cached) { return quick_clamp(1.0 - length(cached.direction), 0.0, 1.0); }
 
-// Radiance that the surface sends back of the light. Diffuse light exactly: Fresnel's term is linear in schlick_power. The layer sees one
-// light in the mean direction, and is rougher by as much as directions are spread: half vectors half as much as directions, whose
-// variance along each axis is about one less the mean's length. It reflects as much as with its own roughness.
+// Radiance that the surface sends back of the light. Diffuse light exactly: Fresnel's term is linear in schlick_power.
+// The layer sees one light in the mean direction, and is rougher by as much as directions are spread: half vectors half
+// as much as directions, whose variance along each axis is about one less the mean's length. It reflects as much as
+// with its own roughness.
 vec3 reflect_cached_light(Surface s, CachedLight cached)
 {
     float rise = layer_rise(s), nv = dot(s.normal, view_above_horizon(s));
     float diffuse = coupled_diffuse_base(s, nv) * (1.0 - dielectric_fresnel(s, rise * cached.power));
-    float alpha = ggx_alpha(s.roughness), wide_alpha = sqrt(quick_min(alpha * alpha + 0.5 * direction_spread(cached), 1.0));
+    float alpha = ggx_alpha(s.roughness),
+          wide_alpha = sqrt(quick_min(alpha * alpha + 0.5 * direction_spread(cached), 1.0));
     Surface wide = s;
     wide.roughness = sqrt(wide_alpha);
     vec3 layer = evaluate_brdf(wide, normalize(cached.direction + s.normal * 1e-6)).specular
@@ -127,12 +134,12 @@ vec3 show_light_cache(HitSurface hit)
     return cached.guide != 0u ? cached.light * vec3(0.2, 1.0, 0.2) : cached.light;
 }
 
-// Narrower lobes show what the cache does not keep: each direction that light comes from. So do metals, of which lobes are all that is
-// seen, unless it all comes from one side.
-const float least_cached_roughness = 0.34, most_spread_on_metal = 0.1;
+// Narrower lobes show what the cache does not keep: each direction that light comes from. So do metals, of which lobes
+// are all that is seen, unless it all comes from one side.
+const float min_cached_roughness = 0.34, max_spread_on_metal = 0.1;
 bool reflects_like_cache(Surface s, CachedLight cached)
 {
-    return s.roughness >= least_cached_roughness && (s.metallic < 0.5 || direction_spread(cached) <= most_spread_on_metal);
+    return s.roughness >= min_cached_roughness && (s.metallic < 0.5 || direction_spread(cached) <= max_spread_on_metal);
 }
 
 #endif

@@ -9,7 +9,7 @@
 #include "device/wide_loads.glsl"
 
 VKPT_BUFFER(EmitterBuffer, Emitter, 16);
-VKPT_BUFFER(EmitterOutlineBuffer, EmitterOutline, 8);
+VKPT_BUFFER(PackedLightBuffer, PackedLight, 8);
 VKPT_BUFFER(LightListBuffer, LightList, 16);
 VKPT_BUFFER(LightIndexBuffer, uint, 4);
 VKPT_BUFFER(LightstyleBuffer, float, 4);
@@ -20,13 +20,13 @@ VKPT_BUFFER(BspTreeBuffer, BspTreeNode, 8);
 // Addresses of all tables, and the counts.
 struct LightTables {
     EmitterBuffer emitters;
-    EmitterOutlineBuffer outlines;
-    LightListBuffer lists;            // one per cluster, then the one for points outside every cluster
+    PackedLightBuffer packed_lights;
+    LightListBuffer lists; // one per cluster, then the one for points outside every cluster
     LightIndexBuffer static_indices;
     LightIndexBuffer dynamic_indices;
 #define VKPT_SAMPLER_TABLE(name, type, alignment) SamplerTable_##name name;
 #include "../shared/sampler_tables.def"
-    LightstyleBuffer lightstyles;     // one scale per lightstyle
+    LightstyleBuffer lightstyles; // one scale per lightstyle
     BspTreeBuffer tree;
     uint list_count;
     uint tree_lights; // so many static indices behind a list's lights they are once more, in its tree's order
@@ -37,8 +37,8 @@ struct LightListView {
     LightTables tables;
     uint index; // of the list
     LightList range;
-    // Lights that random numbers are spread over. Fewer than light_count() where an older sample is repeated: behind the lights
-    // that its list held, each at its old place, come those that were not there yet.
+    // Lights that random numbers are spread over. Fewer than light_count() where an older sample is repeated: behind
+    // the lights that its list held, each at its old place, come those that were not there yet.
     uint counted;
 };
 
@@ -72,10 +72,7 @@ LightListView open_repeated_list(LightTables tables, int cluster, LightIndexBuff
     return list;
 }
 
-uint light_count(LightListView list)
-{
-    return list.range.static_count + list.range.dynamic_count;
-}
+uint light_count(LightListView list) { return list.range.static_count + list.range.dynamic_count; }
 
 // What stands at a position of a list, or of a multiset, in which a light may have several entries.
 struct LightEntry {
@@ -100,7 +97,8 @@ LightEntry light_entry_at(LightListView list, uint position)
 // The emitter index at a position of the list; ascending.
 uint light_at(LightListView list, uint position) { return light_entry_at(list, position).emitter; }
 
-// The lights of a repeated sample's list that were there when it was drawn, and those that were not. Static lights always were.
+// The lights of a repeated sample's list that were there when it was drawn, and those that were not. Static lights
+// always were.
 LightListView counted_lights(LightListView list)
 {
     list.range.dynamic_count = list.counted - list.range.static_count;
@@ -142,8 +140,8 @@ LightListView static_run(LightListView list, uint first, uint count)
     return list;
 }
 
-// The same lights with each static one as often as the cluster's multiset has it. All else that takes a list takes this, too, but for
-// find_light.
+// The same lights with each static one as often as the cluster's multiset has it. All else that takes a list takes
+// this, too, but for find_light.
 LightListView open_multiset(LightListView list)
 {
     LightMultiset multiset = list.tables.multisets.v[list.index];
@@ -153,8 +151,9 @@ LightListView open_multiset(LightListView list)
     return list;
 }
 
-// Where an emitter stands in a sorted part of the list, -1: nowhere. Without duplicates, places are no farther apart than
-// indices: every index that is read bounds the place from both sides, and in a run of neighbouring emitters gives it away.
+// Where an emitter stands in a sorted part of the list, -1: nowhere. Without duplicates, places are no farther apart
+// than indices: every index that is read bounds the place from both sides, and in a run of neighbouring emitters gives
+// it away.
 int find_light_in(LightListView list, uint emitter, uint first, uint end)
 {
     if (first >= end)

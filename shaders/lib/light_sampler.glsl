@@ -14,22 +14,22 @@
 // The random numbers of one choice. `light` and `point` are dimensions of their own, stratified over the picture.
 struct LightRandom {
     float light; // in [0, 1): which light
-    vec2 point;  // which point on it
+    vec2 point; // which point on it
     Random more; // what a sampler draws beyond that, dimensions from 0 on, independent of the above
 };
 
 struct LightSample {
     int emitter; // index into the emitter table, -1: none
     float probability;
-    vec2 point;  // random numbers for sample_emitter_point: LightRandom::point unless the sampler chose among points
+    vec2 point; // random numbers for sample_emitter_point: LightRandom::point unless the sampler chose among points
 };
 
 const float max_below_one = 0.99999994f; // 1 - 2^-24
 // In a surface's block of dimensions; the BSDF sample that led there has those before.
 const uint first_light_dimension = 3u;
 
-// The numbers of the light choice at a path's surface: 0 is the primary one. A pure function, so that a later pass knows
-// what an earlier one drew.
+// The numbers of the light choice at a path's surface: 0 is the primary one. A pure function, so that a later pass
+// knows what an earlier one drew.
 LightRandom light_random(Random pixel_random, uint vertex)
 {
     Random random = random_for_bounce(pixel_random, vertex + 1u);
@@ -59,10 +59,10 @@ LightSample make_light_sample(uint emitter, float probability, LightRandom rando
     return result;
 }
 
-// The share of a point's light that goes to one way to find it, of density `own` > 0; another has density `other`. Balance
-// heuristic (equation 47.13), or Veach's power heuristic of exponent 2 for samplers that ask for it. The shares of the two
-// ways add up to 1, which is what keeps both unbiased.
-float mis_share(float own, float other)
+// The share of a point's light that goes to one way to find it, of density `own` > 0; another has density `other`.
+// Balance heuristic (equation 47.13), or Veach's power heuristic of exponent 2 for samplers that ask for it. The shares
+// of the two ways add up to 1, which is what keeps both unbiased.
+float mis_weight(float own, float other)
 {
     float ratio = other / own;
 #ifdef VKPT_MIS_POWER_HEURISTIC
@@ -72,42 +72,39 @@ float mis_share(float own, float other)
 }
 
 // floor(xi * count), safe against rounding up to count; count <= 2^22.
-uint choose_uniformly(float xi, uint count)
-{
-    return min(floor_to_uint(xi * float(int(count))), count - 1u);
-}
+uint choose_uniformly(float xi, uint count) { return min(floor_to_uint(xi * float(int(count))), count - 1u); }
 
-LightShape unpack_outline(EmitterOutline outline)
+LightShape unpack_light_shape(PackedLight packed)
 {
-    const uint kept = ~0u << (32u - OUTLINE_BITS), left = ~kept, more = 32u - OUTLINE_MORE_BITS;
-    uint w0 = outline.shape[0], w1 = outline.shape[1], w2 = outline.shape[2], w3 = outline.shape[3];
+    const uint kept = ~0u << (32u - PACKED_LIGHT_BITS), left = ~kept, more = 32u - PACKED_LIGHT_MORE_BITS;
+    uint w0 = packed.shape[0], w1 = packed.shape[1], w2 = packed.shape[2], w3 = packed.shape[3];
     LightShape light;
-    light.p0 = outline.p0;
+    light.p0 = packed.p0;
     light.first = uintBitsToFloat(uvec3(w0 & kept, w1 & kept, w2 & kept));
-    light.second
-        = uintBitsToFloat(uvec3(w3 & kept, (w0 << OUTLINE_BITS) | ((w1 & left) << more), (w2 << OUTLINE_BITS) | ((w3 & left) << more)));
-    light.side = uintBitsToFloat(outline.radiance << 23u);
+    light.second = uintBitsToFloat(uvec3(w3 & kept, (w0 << PACKED_LIGHT_BITS) | ((w1 & left) << more),
+        (w2 << PACKED_LIGHT_BITS) | ((w3 & left) << more)));
+    light.side = uintBitsToFloat(packed.radiance << 23u);
     light.radius = uintBitsToFloat(w0);
     light.reach = uintBitsToFloat(w1);
     light.axis = w2;
     light.cosines = w3;
-    light.is_sphere = int(outline.radiance) < 0;
-    light.radiance = uintBitsToFloat(outline.radiance & OUTLINE_RADIANCE_MASK);
+    light.is_sphere = int(packed.radiance) < 0;
+    light.radiance = uintBitsToFloat(packed.radiance & PACKED_LIGHT_RADIANCE_MASK);
     return light;
 }
 
-LightShape load_outline(LightListView list, uint emitter)
+LightShape load_light_shape(LightListView list, uint emitter)
 {
-#ifdef __cplusplus // tests on the CPU have no table of outlines
-    return unpack_outline(::vkpt::make_outline(load_emitter(list, emitter), 1.0f));
+#ifdef __cplusplus // tests on the CPU have no table of packed lights
+    return unpack_light_shape(::vkpt::pack_light_shape(load_emitter(list, emitter), 1.0f));
 #else
-    return unpack_outline(VKPT_FETCH(EmitterOutline, list.tables.outlines, emitter));
+    return unpack_light_shape(VKPT_FETCH(PackedLight, list.tables.packed_lights, emitter));
 #endif
 }
 
 float weigh_emitter(LightListView list, LightPredictor predictor, uint emitter)
 {
-    return light_contribution(predictor, load_outline(list, emitter));
+    return light_contribution(predictor, load_light_shape(list, emitter));
 }
 
 float weigh_entry(LightListView list, LightPredictor predictor, LightEntry entry)
@@ -130,8 +127,9 @@ float weigh_lights(LightListView list, LightPredictor predictor, uint first, uin
     return total;
 }
 
-// A cheap generator for many numbers in a row (PCG, RXS-M-XS 32 of O'Neill 2014). Its state starts as a hash of pixel, frame
-// and dimension: seeding it from the number that chooses within the subset would correlate the two and bias the result.
+// A cheap generator for many numbers in a row (PCG, RXS-M-XS 32 of O'Neill 2014). Its state starts as a hash of pixel,
+// frame and dimension: seeding it from the number that chooses within the subset would correlate the two and bias the
+// result.
 uint start_fast_random(Random more)
 {
     return hash_pcg4(uvec4(more.pixel.x | (more.pixel.y << 16u), more.frame, more.seed, more.dimension)).x;
@@ -162,8 +160,9 @@ Reservoir make_reservoir(float xi)
     return reservoir;
 }
 
-// True: the reservoir now holds it. Without branches, and with a single division: it stands in the samplers' innermost loops.
-bool offer_light(INOUT(Reservoir) reservoir, uint emitter, float weight)
+// True: the reservoir now holds it. Without branches, and with a single division: it stands in the samplers' innermost
+// loops.
+bool update_reservoir(INOUT(Reservoir) reservoir, uint emitter, float weight)
 {
     float before = reservoir.total;
     reservoir.total += weight;

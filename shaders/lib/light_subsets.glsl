@@ -21,7 +21,7 @@ uint subset_stride(LightListView list, uint subset_length) { return subset_strid
 struct SubsetChoice {
     uint stride; // S
     uint offset; // of the subset's light in each stride
-    float rest;  // in [0, 1)
+    float rest; // in [0, 1)
 };
 
 SubsetChoice choose_subset(uint count, float xi, uint subset_length)
@@ -38,27 +38,28 @@ SubsetChoice choose_subset(LightListView list, float xi, uint subset_length)
     return choose_subset(list.counted, xi, subset_length);
 }
 
-// The sums of the weights so far. CPU drivers write an array lane by lane, which took a seventh of the time of weighing a light,
-// but to memory they can scatter: where the pass has some of its own for each lane (VKPT_LANE_MEMORY, max_subset_length
-// entries of 64 bytes of which a float is used), the sums are there.
+// The sums of the weights so far. CPU drivers write an array lane by lane, which took a seventh of the time of weighing
+// a light, but to memory they can scatter: where the pass has some of its own for each lane (VKPT_LANE_MEMORY,
+// max_subset_length entries of 64 bytes of which a float is used), the sums are there.
 #ifdef VKPT_LANE_MEMORY
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LaneFloat { float v; };
 #define VKPT_SUMS uint64_t sums = VKPT_LANE_MEMORY
-#define VKPT_SUM(i) LaneFloat(sums + uint64_t((i) * 64u)).v
+#define VKPT_SUM(i) LaneFloat(sums + uint64_t((i)*64u)).v
 #else
 #define VKPT_SUMS float sums[max_subset_length]
 #define VKPT_SUM(i) sums[i]
 #endif
 
-// The list to draw candidates from: a multiset, where the list is longer than a subset, which else would hold all of it.
+// The list to draw candidates from: a multiset, where the list is longer than a subset, which else would hold all of
+// it.
 LightListView likely_lights(LightListView list, uint subset_length)
 {
     return list.range.static_count > subset_length ? open_multiset(list) : list;
 }
 
-// Listing 47-1 from line 6 on, with what `others` holds behind the subset's lights. It keeps the sums of the weights so far instead of the
-// weights: they are sorted, so that the second sweep is a search that halves what is left, and a light's chance is its interval to the
-// last bit.
+// Listing 47-1 from line 6 on, with what `others` holds behind the subset's lights. It keeps the sums of the weights so
+// far instead of the weights: they are sorted, so that the second sweep is a search that halves what is left, and a
+// light's chance is its interval to the last bit.
 LightSample sample_subset_in_two_sweeps(
     LightListView list, LightPredictor predictor, SubsetChoice choice, Reservoir others, LightRandom random)
 {
@@ -66,7 +67,8 @@ LightSample sample_subset_in_two_sweeps(
     VKPT_SUMS;
     float subset_total = 0.0f;
     uint length_used = 0u;
-    for (uint position = choice.offset; position < count && length_used < max_subset_length; position += choice.stride) {
+    for (uint position = choice.offset; position < count && length_used < max_subset_length;
+         position += choice.stride) {
         subset_total += weigh_light(list, predictor, position);
         VKPT_SUM(length_used) = subset_total;
         length_used += 1u;
@@ -108,7 +110,7 @@ Reservoir sweep_subset(LightListView list, LightPredictor predictor, SubsetChoic
     Reservoir reservoir = make_reservoir(xi);
     for (uint position = choice.offset; position < count; position += choice.stride) {
         uint emitter = light_at(list, position);
-        offer_light(reservoir, emitter, weigh_emitter(list, predictor, emitter));
+        update_reservoir(reservoir, emitter, weigh_emitter(list, predictor, emitter));
     }
     return reservoir;
 }
@@ -129,9 +131,10 @@ PartChoices choose_parts(LightListView list, float xi, uint subset_length)
     return choices;
 }
 
-// With S and T strides, offsets i and j, sums of weights W_i of static and V_j of dynamic lights, a light of weight w is picked with
-// probability w / (S W_i + T V_j), whichever part it is from: given the other part's offset, that is its chance over the offsets of
-// its own (1 / S or 1 / T for the right one, and then S w or T w of all), so dividing by it is unbiased as in equation 47.19.
+// With S and T strides, offsets i and j, sums of weights W_i of static and V_j of dynamic lights, a light of weight w
+// is picked with probability w / (S W_i + T V_j), whichever part it is from: given the other part's offset, that is its
+// chance over the offsets of its own (1 / S or 1 / T for the right one, and then S w or T w of all), so dividing by it
+// is unbiased as in equation 47.19.
 LightSample sample_subsets_of_parts(LightListView list, Surface s, LightRandom random, LightOptions options)
 {
     if (light_count(list) == 0u)
@@ -193,8 +196,9 @@ float strided_subset_probability(LightListView list, LightPredictor predictor, u
     return mass > 0.0f ? mass / (total * float(stride)) : 0.0f;
 }
 
-// Listing 47-3 without its MIS: each stride has an offset of its own, and a reservoir chooses within the subset. Given the
-// other strides' offsets, a light of weight w is picked with probability w / (S (their weights + w)), and that is reported.
+// Listing 47-3 without its MIS: each stride has an offset of its own, and a reservoir chooses within the subset. Given
+// the other strides' offsets, a light of weight w is picked with probability w / (S (their weights + w)), and that is
+// reported.
 LightSample sample_independent_strides(
     LightListView list, LightPredictor predictor, LightRandom random, uint subset_length)
 {
@@ -209,13 +213,13 @@ LightSample sample_independent_strides(
         if (position >= count) // the last stride may be short: then it gives no light
             break;
         uint emitter = light_at(list, position);
-        offer_light(reservoir, emitter, weigh_emitter(list, predictor, emitter));
+        update_reservoir(reservoir, emitter, weigh_emitter(list, predictor, emitter));
     }
     return make_subset_sample(reservoir, stride, random);
 }
 
-// Equation 47.20: averaged over the offset of the stride that holds `emitter`, for the other strides' offsets as drawn by
-// sample_independent_strides.
+// Equation 47.20: averaged over the offset of the stride that holds `emitter`, for the other strides' offsets as drawn
+// by sample_independent_strides.
 float independent_strides_probability(
     LightListView list, LightPredictor predictor, uint emitter, LightRandom random, uint subset_length)
 {

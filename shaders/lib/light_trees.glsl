@@ -6,10 +6,10 @@
 #include "light_subsets.glsl"
 
 // Where the bounds say that no light can be sent, or arrive, they may err by rounding: then it counts as this much.
-const float least_tree_cosine = 0.01f;
-// What tells best among a node's lights is neither what it may send at most, by its bounds, nor what its centre would, but a mixture; and
-// near or inside of the sphere, some of the lights are nearer than the centre. Chosen by the error in five maps
-// (tests/lights/real_maps_test.cpp).
+const float min_tree_cosine = 0.01f;
+// What tells best among a node's lights is neither what it may send at most, by its bounds, nor what its centre would,
+// but a mixture; and near or inside of the sphere, some of the lights are nearer than the centre. Chosen by the error
+// in five maps (tests/lights/real_maps_test.cpp).
 const float share_of_bound = 0.3f, nearest_square = 0.4f;
 
 // The root of x >= 0, to 0.09 %.
@@ -27,11 +27,11 @@ float likely_cosine(float at_centre, float at_most, float spread)
 {
     const float mean_of_all = 0.25f; // of the cosine, where it is above 0, over all directions
     float likely = mix(quick_max(at_centre, 0.0f), mean_of_all, spread);
-    return mix(likely, quick_max(at_most, least_tree_cosine), share_of_bound);
+    return mix(likely, quick_max(at_most, min_tree_cosine), share_of_bound);
 }
 
-// What the node's lights are likely to send to the surface, were nothing in between, by the node's own bounds: power, cosines at the
-// lights and at the surface, over the square of the distance.
+// What the node's lights are likely to send to the surface, were nothing in between, by the node's own bounds: power,
+// cosines at the lights and at the surface, over the square of the distance.
 float weigh_tree_bounds(LightTreeNode node, Surface s)
 {
     vec3 to_centre = node.centre - s.position;
@@ -41,7 +41,8 @@ float weigh_tree_bounds(LightTreeNode node, Surface s)
     float at_surface = dot(s.normal, to_centre) * inverse, at_lights = -dot(node.axis, to_centre) * inverse;
     // Added to the cone's: past pi its sine is below 0, and everything is possible.
     float cone_sine = quick_root(quick_max(1.0f - node.cone_cosine * node.cone_cosine, 0.0f));
-    float open_sine = cone_sine * cosine + node.cone_cosine * sine, open_cosine = node.cone_cosine * cosine - cone_sine * sine;
+    float open_sine = cone_sine * cosine + node.cone_cosine * sine,
+          open_cosine = node.cone_cosine * cosine - cone_sine * sine;
     bool is_open = open_sine <= 0.0f;
     float arriving = likely_cosine(at_surface, cosine_of_difference(at_surface, cosine, sine), sine * sine);
     float sent = likely_cosine(at_lights, is_open ? 1.0f : cosine_of_difference(at_lights, open_cosine, open_sine),
@@ -54,14 +55,15 @@ LightTreeNode load_tree_node(LightListView list, uint number)
     return VKPT_FETCH(LightTreeNode, list.tables.tree_nodes, number);
 }
 
-// Where the surface is inside of the node's sphere, its children's bounds tell more than its own. A leaf's lights are weighed one by
-// one later.
+// Where the surface is inside of the node's sphere, its children's bounds tell more than its own. A leaf's lights are
+// weighed one by one later.
 float weigh_tree_node(LightListView list, LightTreeNode node, uint number, Surface s)
 {
     vec3 to_centre = node.centre - s.position;
     if (node.second == 0u || dot(to_centre, to_centre) > node.radius * node.radius)
         return weigh_tree_bounds(node, s);
-    return weigh_tree_bounds(load_tree_node(list, number + 1u), s) + weigh_tree_bounds(load_tree_node(list, number + node.second), s);
+    return weigh_tree_bounds(load_tree_node(list, number + 1u), s)
+        + weigh_tree_bounds(load_tree_node(list, number + node.second), s);
 }
 
 // A run of the list's static lights, in the tree's order.
@@ -83,7 +85,8 @@ TreeLeaf make_tree_leaf(float xi)
     return leaf;
 }
 
-// The leaf that `xi` leads to; with `place` >= 0, the one that holds that place of the tree's order. The list has static lights.
+// The leaf that `xi` leads to; with `place` >= 0, the one that holds that place of the tree's order. The list has
+// static lights.
 TreeLeaf descend_tree(LightListView list, Surface s, float xi, int place)
 {
     uint number = list.tables.tree_roots.v[list.index];

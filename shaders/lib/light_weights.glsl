@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The weights by which samplers choose lights: a prediction of what an emitter, unshadowed, contributes to a surface.
-// LIGHT_WEIGHT_CHAPTER: section 47.4.5. LIGHT_WEIGHT_LTC: Heitz et al. 2016, "Real-Time Polygonal-Light Shading with Linearly
-// Transformed Cosines", with a table of our own (tools/fit_ltc).
-// A weight is never 0 where light can arrive: that would be bias.
+// LIGHT_WEIGHT_BRDF_CENTRE: section 47.4.5. LIGHT_WEIGHT_LTC: Heitz et al. 2016, "Real-Time Polygonal-Light Shading
+// with Linearly Transformed Cosines", with a table of our own (tools/fit_ltc). A weight is never 0 where light can
+// arrive: that would be bias.
 #ifndef VKPT_LIB_LIGHT_WEIGHTS
 #define VKPT_LIB_LIGHT_WEIGHTS
 
@@ -14,11 +14,11 @@
 #include "projected_triangle.glsl"
 #include "device/whole_numbers.glsl"
 
-const float least_contribution = 1e-30f;    // the weight of what is possible but predicted to be nothing
-const float greatest_contribution = 1e20f;  // keeps sums of weights finite
-const float prediction_roughness = 0.35f;   // no lobe narrower than this guides the choice of lights
-const float ltc_tail = 0.15f;               // density of a lobe of alpha 1, far from its peak
-const float prediction_horizon = 0.05f;     // sine of the lowest elevation at which the reflectance is looked up
+const float min_contribution = 1e-30f; // the weight of what is possible but predicted to be nothing
+const float max_contribution = 1e20f; // keeps sums of weights finite
+const float prediction_roughness = 0.35f; // no lobe narrower than this guides the choice of lights
+const float ltc_tail = 0.15f; // density of a lobe of alpha 1, far from its peak
+const float prediction_horizon = 0.05f; // sine of the lowest elevation at which the reflectance is looked up
 
 // A surface prepared for weighing many lights.
 struct LightPredictor {
@@ -26,11 +26,12 @@ struct LightPredictor {
     int weight; // LIGHT_WEIGHT_*
     // Chapter's weight only: what predict_reflectance needs of the surface and its viewer.
     float view_height; // cosine
-    float view_root;   // smith_root
-    float alpha2;      // alpha^2
-    vec2 base;         // diffuse reflectance (luminance): x - y schlick_power
-    vec2 layer;        // specular_fresnel (luminance) times alpha^2 / (2 pi): x + y schlick_power
-    // LTC only: rows that turn the world into the space where the lobe is a cosine, and what the lobes reflect (luminance).
+    float view_root; // smith_root
+    float alpha2; // alpha^2
+    vec2 base; // diffuse reflectance (luminance): x - y schlick_power
+    vec2 layer; // specular_fresnel (luminance) times alpha^2 / (2 pi): x + y schlick_power
+    // LTC only: rows that turn the world into the space where the lobe is a cosine, and what the lobes reflect
+    // (luminance).
     vec3 diffuse_rows[3];
     vec3 specular_rows[3];
     float diffuse;
@@ -39,8 +40,8 @@ struct LightPredictor {
 
 struct LtcEntry {
     float xx, xz, yy, zx; // of the inverse matrix
-    float albedo;         // of the lobe with a Fresnel factor of 1
-    float grazing;        // of it with a Fresnel factor of (1 - cosine)^5
+    float albedo; // of the lobe with a Fresnel factor of 1
+    float grazing; // of it with a Fresnel factor of (1 - cosine)^5
 };
 
 LtcEntry load_ltc_entry(LtcBuffer table, uint row, uint column)
@@ -139,12 +140,10 @@ float angle_over_sine(float cosine)
     return cosine >= 0.0f ? near_part : bsdf_pi * inversesqrt(quick_max(1.0f - x * x, 1e-10f)) - near_part;
 }
 
-float form_factor_edge(vec3 a, vec3 b)
-{
-    return (a.x * b.y - a.y * b.x) * angle_over_sine(dot(a, b));
-}
+float form_factor_edge(vec3 a, vec3 b) { return (a.x * b.y - a.y * b.x) * angle_over_sine(dot(a, b)); }
 
-// What share of a cosine lobe a triangle takes: its part above the horizon, projected, over pi. Corners in the lobe's space.
+// What share of a cosine lobe a triangle takes: its part above the horizon, projected, over pi. Corners in the lobe's
+// space.
 float cosine_form_factor(vec3 a, vec3 b, vec3 c)
 {
     ClippedTriangle t = clip_to_horizon(a, b, c);
@@ -153,7 +152,8 @@ float cosine_form_factor(vec3 a, vec3 b, vec3 c)
     vec3 centre = (a + b + c) * (1.0f / 3.0f);
     float centre2 = dot(centre, centre);
     vec3 ab = b - a, ac = c - a;
-    const float small = 0.004f; // sides shorter than 1/16 of the distance: no more than a point, and edges would cancel out
+    const float small
+        = 0.004f; // sides shorter than 1/16 of the distance: no more than a point, and edges would cancel out
     if (t.count == 3u && max(dot(ab, ab), dot(ac, ac)) < small * centre2 && min(a.z, min(b.z, c.z)) > 0.0f)
         return 0.5f * abs(dot(centre, cross(ab, ac))) * centre.z / (bsdf_pi * centre2 * centre2);
     vec3 v0 = normalize(t.v0), v1 = normalize(t.v1), v2 = normalize(t.v2), v3 = normalize(t.v3);
@@ -202,8 +202,8 @@ Fan square_of_sphere(vec3 to_centre, float radius)
 {
     float distance2 = dot(to_centre, to_centre), distance = sqrt(distance2);
     const float half_side_of_disc = 0.886226925f; // sqrt(pi) / 2
-    float half_side = half_side_of_disc * radius * distance
-        * inversesqrt(max(distance2 - radius * radius, 0.02f * distance2));
+    float half_side
+        = half_side_of_disc * radius * distance * inversesqrt(max(distance2 - radius * radius, 0.02f * distance2));
     vec3 x = any_tangent(to_centre / distance), y = cross(to_centre / distance, x);
     vec3 across = (x + y) * half_side, other = (x - y) * half_side;
     Fan square;
@@ -217,22 +217,23 @@ Fan square_of_sphere(vec3 to_centre, float radius)
 
 // An emitter as its weight sees it.
 struct LightShape {
-    vec3 p0;            // a triangle's first corner, a sphere's centre
+    vec3 p0; // a triangle's first corner, a sphere's centre
     vec3 first, second; // a triangle's edges from there
-    float side;          // no less than any component of the two edges
+    float side; // no less than any component of the two edges
     float radius, reach; // of a sphere
-    uint axis, cosines;  // of its cone, as in EmitterOutline; 0: it has none
+    uint axis, cosines; // of its cone, as in PackedLight; 0: it has none
     bool is_sphere;
     float radiance; // luminance
 };
 
 // What the prediction needs to know of an emitter's shape. solid_angle 0: it cannot light the surface.
 struct EmitterAspect {
-    // A vector from the surface towards the emitter's centre, of any length: what it is along the normal and along the view, and its square.
+    // A vector from the surface towards the emitter's centre, of any length: what it is along the normal and along the
+    // view, and its square.
     float height;
     float along_view;
     float length2;
-    float length_bound;  // no less than its length
+    float length_bound; // no less than its length
     float solid_angle;
     float highest_cosine; // of the emitter's points, but for its centre
 };
@@ -257,14 +258,11 @@ float quick_angle_above_axis(float y, float x)
     return unfold_angle(angle, y, x);
 }
 
-bool is_below(vec3 heights, float limit)
-{
-    return heights.x <= limit && heights.y <= limit && heights.z <= limit;
-}
+bool is_below(vec3 heights, float limit) { return heights.x <= limit && heights.y <= limit && heights.z <= limit; }
 
-// The corners are an outline's, and may be a little off: only what is well below a horizon, or well behind the emitter, is out.
-// Without branches: some lane nearly always has an emitter in view, and every value that is chosen by a branch costs CPU drivers a
-// blend and, in this loop, a way through memory.
+// The corners are an outline's, and may be a little off: only what is well below a horizon, or well behind the emitter,
+// is out. Without branches: some lane nearly always has an emitter in view, and every value that is chosen by a branch
+// costs CPU drivers a blend and, in this loop, a way through memory.
 EmitterAspect view_emitter_triangle(Surface s, LightShape light)
 {
     vec3 a = light.p0 - s.position, b = a + light.first, c = a + light.second;
@@ -274,7 +272,7 @@ EmitterAspect view_emitter_triangle(Surface s, LightShape light)
     vec3 inverse = vec3(quick_inversesqrt(squares.x), quick_inversesqrt(squares.y), quick_inversesqrt(squares.z));
     vec3 lengths = squares * inverse;
     float volume = -dot(a, cross(light.first, light.second));
-    float slack = 3.0f * OUTLINE_ERROR * light.side;
+    float slack = 3.0f * PACKED_LIGHT_ERROR * light.side;
     bool unseen = is_below(heights, -slack) || is_below(geometric_heights, -slack)
         || volume <= -6.0f * slack * light.side * lengths.x;
     float angle = quick_angle_above_axis(quick_max(volume, 1e-20f), solid_angle_denominator(a, b, c, lengths));
@@ -298,14 +296,16 @@ EmitterAspect view_emitter_sphere(Surface s, LightShape light)
     return aspect;
 }
 
-// The highest corner may lie lower than the middle of a triangle right above. `inverse`: of the length of what points to the centre.
+// The highest corner may lie lower than the middle of a triangle right above. `inverse`: of the length of what points
+// to the centre.
 float cosine_bound(EmitterAspect aspect, float inverse)
 {
     return quick_max(aspect.highest_cosine, aspect.height * inverse);
 }
 
-// Luminance of evaluate_brdf. The unit direction to the light is told by its cosines to the normal (> 0) and to the view, and by what its
-// squared length is in truth: the half vector's length, and its cosines, follow from those without the vector itself.
+// Luminance of evaluate_brdf. The unit direction to the light is told by its cosines to the normal (> 0) and to the
+// view, and by what its squared length is in truth: the half vector's length, and its cosines, follow from those
+// without the vector itself.
 float predict_reflectance(LightPredictor p, float height, float view_cosine, float length2)
 {
     float sum2 = 1.0f + length2 + 2.0f * view_cosine; // |view + direction|^2, not 0: both are above the horizon
@@ -315,7 +315,8 @@ float predict_reflectance(LightPredictor p, float height, float view_cosine, flo
     float root2 = p.alpha2 + (1.0f - p.alpha2) * height * height;
     float roots = height * p.view_root + p.view_height * root2 * quick_inversesqrt(root2); // smith_root
     float inverse = sum2 * quick_inversesqrt(d * d * roots);
-    float schlick = schlick_power(0.5f * sum2 * quick_inversesqrt(sum2)); // half the sum's length is the cosine to the half vector
+    float schlick = schlick_power(
+        0.5f * sum2 * quick_inversesqrt(sum2)); // half the sum's length is the cosine to the half vector
     return p.base.x - p.base.y * schlick_power(height) + (p.layer.x + p.layer.y * schlick) * inverse * inverse;
 }
 
@@ -368,12 +369,13 @@ float light_contribution(LightPredictor p, LightShape light)
     EmitterAspect aspect = view_emitter_triangle(p.s, light);
     if (light.is_sphere) {
         vec3 to_centre = light.p0 - p.s.position;
-        radiance *= reach_window(to_centre, light.reach) * shape_window(light, to_centre); // no triangle has a reach, or a cone
+        radiance *= reach_window(to_centre, light.reach)
+            * shape_window(light, to_centre); // no triangle has a reach, or a cone
         aspect = view_emitter_sphere(p.s, light);
     }
     float share = p.weight == LIGHT_WEIGHT_LTC ? predict_by_ltc(p, light, aspect) : predict_by_chapter(p, aspect);
     bool arrives = aspect.solid_angle > 0.0f && radiance > 0.0f;
-    return arrives ? quick_clamp(radiance * share, least_contribution, greatest_contribution) : 0.0f;
+    return arrives ? quick_clamp(radiance * share, min_contribution, max_contribution) : 0.0f;
 }
 
 float light_contribution(LightPredictor p, Emitter e)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Next event estimation: one light chosen by the light sampler that this pass was built with, one point on it, one shadow ray.
-// With samplers that say so, MIS: the ray that goes on from the surface anyway counts the emitters that it meets, and both
-// ways to find a point share its light by mis_share.
-// VKPT_SAMPLER_MIS is defined for those samplers alone (shaders/CMakeLists.txt, from their traits): drivers put every call in
-// line before they find out that a constant condition never holds, and a third of the code would be that.
+// Next event estimation: one light chosen by the light sampler that this pass was built with, one point on it, one
+// shadow ray. With samplers that say so, MIS: the ray that goes on from the surface anyway counts the emitters that it
+// meets, and both ways to find a point share its light by mis_weight. VKPT_SAMPLER_MIS is defined for those samplers
+// alone (shaders/CMakeLists.txt, from their traits): drivers put every call in line before they find out that a
+// constant condition never holds, and a third of the code would be that.
 #ifndef VKPT_LIB_LIGHTING
 #define VKPT_LIB_LIGHTING
 
@@ -15,7 +15,8 @@ const uint mask_shadow = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_SKY;
 const uint mask_shadow = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
 #endif
 
-// The lights of a cluster. For a sample of the last view that is repeated: with the last view's lights at their old places.
+// The lights of a cluster. For a sample of the last view that is repeated: with the last view's lights at their old
+// places.
 LightListView open_light_list_for(LightRandom random, int cluster)
 {
     LightTables tables = light_tables();
@@ -26,15 +27,16 @@ LightListView open_light_list_for(LightRandom random, int cluster)
     return open_repeated_list(tables, cluster, LightIndexBuffer(frame.scene.previous_list_lengths));
 }
 
-// How many of a path's surfaces send out a BSDF ray. With MIS the first one always does: without bounces, for emission alone.
+// How many of a path's surfaces send out a BSDF ray. With MIS the first one always does: without bounces, for emission
+// alone.
 uint bsdf_ray_count()
 {
     uint bounces = uint(frame.cvars.pt_bounces);
     return light_sampler_mis ? max(bounces, 1u) : bounces;
 }
 
-// Whether light gets to the ray's origin. A sun's does where the first thing on the ray is the sky, not beyond: maps are closed, and
-// behind their skies stand other rooms.
+// Whether light gets to the ray's origin. A sun's does where the first thing on the ray is the sky, not beyond: maps
+// are closed, and behind their skies stand other rooms.
 bool arrives(Ray shadow, bool from_sun)
 {
     RawHit hit = trace_shadow(shadow, mask_shadow, !from_sun);
@@ -50,7 +52,8 @@ struct ChosenLight {
     vec3 direction; // to it
 };
 
-ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bool bsdf_ray_follows, out ChosenLight chosen)
+ReflectedLight sample_list(
+    LightListView list, Surface s, LightRandom random, bool bsdf_ray_follows, out ChosenLight chosen)
 {
     ReflectedLight result = ReflectedLight(vec3(0.0), vec3(0.0));
     chosen = ChosenLight(0u, vec3(0.0));
@@ -73,7 +76,7 @@ ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bo
     if (emitter.type == EMITTER_SKY)
         radiance = sky_radiance(point.direction);
     // Up to shortly before the emitter: its own surface must not shadow it.
-    vec3 origin = leave_surface(s.position, s.geometric_normal);
+    vec3 origin = offset_ray_origin(s.position, s.geometric_normal);
     vec3 to_light = point.point - origin;
     float distance = length(to_light);
     Ray shadow = Ray(origin, to_light / distance, 0.0, distance - quick_max(0.02, distance * 1e-4));
@@ -82,7 +85,7 @@ ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bo
     float density = point.pdf * light.probability;
 #ifdef VKPT_SAMPLER_MIS
     if (bsdf_ray_follows && is_met_by_rays(emitter))
-        density /= mis_share(density, pdf_bsdf(s, point.direction));
+        density /= mis_weight(density, pdf_bsdf(s, point.direction));
 #endif
     vec3 incoming = radiance / density;
     result.diffuse = bsdf.diffuse * incoming;
@@ -102,8 +105,9 @@ ReflectedLight sample_lights(LightListView list, Surface s, LightRandom random, 
 #ifdef VKPT_SAMPLER_NEWCOMERS_APART
     ReflectedLight sum = ReflectedLight(vec3(0.0), vec3(0.0));
     uint parts = has_newcomers(list) ? 2u : 1u;
-    [[dont_unroll]] for (uint i = 0u; i < parts; i++) {
-        ReflectedLight part = sample_list(i == 0u ? counted_lights(list) : newcomers(list), s, random, bsdf_ray_follows);
+    ROLLED_FOR (uint i = 0u; i < parts; i++) {
+        ReflectedLight part
+            = sample_list(i == 0u ? counted_lights(list) : newcomers(list), s, random, bsdf_ray_follows);
         sum.diffuse += part.diffuse;
         sum.specular += part.specular;
     }
@@ -118,9 +122,9 @@ ReflectedLight sample_direct_light(Surface s, int cluster, LightRandom random, b
     return sample_lights(open_light_list_for(random, cluster), s, random, bsdf_ray_follows);
 }
 
-// The share, by MIS, of the light of an emitter that a BSDF ray of density `bsdf_pdf` from `s` met at `point`; `random` and
-// `s` are those of sample_direct_light. 1 where light sampling cannot find it: it is in no list. 0 where light sampling alone
-// accounts for it.
+// The share, by MIS, of the light of an emitter that a BSDF ray of density `bsdf_pdf` from `s` met at `point`; `random`
+// and `s` are those of sample_direct_light. 1 where light sampling cannot find it: it is in no list. 0 where light
+// sampling alone accounts for it.
 float weigh_met_emitter(Surface s, int cluster, LightRandom random, uint emitter, vec3 point, float bsdf_pdf)
 {
     LightListView list = open_light_list_for(random, cluster);
@@ -129,7 +133,7 @@ float weigh_met_emitter(Surface s, int cluster, LightRandom random, uint emitter
         return 0.0;
     LightOptions options = light_options();
     float probability = light_probability(list, s, emitter, random, options);
-    return mis_share(bsdf_pdf, probability * pdf_emitter_point(e, s, point, options));
+    return mis_weight(bsdf_pdf, probability * pdf_emitter_point(e, s, point, options));
 }
 
 #endif

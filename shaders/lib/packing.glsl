@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Numbers in a few bits each, unit vectors in 32 (octahedral map; Cigolle et al., JCGT 2014). CPU drivers' own functions for it
-// convert lane by lane (whole_numbers.glsl): here numbers are added to one so great that they end up, rounded, in its last bits.
+// Numbers in a few bits each, unit vectors in 32 (octahedral map; Cigolle et al., JCGT 2014). CPU drivers' own
+// functions for it convert lane by lane (whole_numbers.glsl): here numbers are added to one so great that they end up,
+// rounded, in its last bits.
 #ifndef VKPT_LIB_PACKING
 #define VKPT_LIB_PACKING
 
@@ -9,38 +10,17 @@
 #include "device/whole_numbers.glsl"
 
 // The last 16 bits of two words, the last 8 of four.
-uint join_halves(uvec2 v)
-{
-    return (v.x & 0xffffu) | (v.y << 16u);
-}
-uint join_bytes(uvec4 v)
-{
-    return (v.x & 0xffu) | ((v.y & 0xffu) << 8u) | ((v.z & 0xffu) << 16u) | (v.w << 24u);
-}
-uvec2 split_halves(uint bits)
-{
-    return uvec2(bits & 0xffffu, bits >> 16u);
-}
+uint join_halves(uvec2 v) { return (v.x & 0xffffu) | (v.y << 16u); }
+uint join_bytes(uvec4 v) { return (v.x & 0xffu) | ((v.y & 0xffu) << 8u) | ((v.z & 0xffu) << 16u) | (v.w << 24u); }
+uvec2 split_halves(uint bits) { return uvec2(bits & 0xffffu, bits >> 16u); }
 
 // From -1 to 1, in 16 bits each.
-uint pack_snorm2(vec2 v)
-{
-    return join_halves(floatBitsToUint(v * 32767.0f + whole_base));
-}
-vec2 unpack_snorm2(uint bits)
-{
-    return vec2(ivec2(int(bits << 16u), int(bits)) >> 16) * (1.0f / 32767.0f);
-}
+uint pack_snorm2(vec2 v) { return join_halves(floatBitsToUint(v * 32767.0f + whole_base)); }
+vec2 unpack_snorm2(uint bits) { return vec2(ivec2(int(bits << 16u), int(bits)) >> 16) * (1.0f / 32767.0f); }
 
 // From -1 to 1, in 8 bits each. Unpacked times 127.
-uint pack_snorm4(vec4 v)
-{
-    return join_bytes(floatBitsToUint(v * 127.0f + whole_base));
-}
-vec4 unpack_snorm4_times_127(uint bits)
-{
-    return vec4(ivec4(uvec4(bits) << uvec4(24u, 16u, 8u, 0u)) >> 24);
-}
+uint pack_snorm4(vec4 v) { return join_bytes(floatBitsToUint(v * 127.0f + whole_base)); }
+vec4 unpack_snorm4_times_127(uint bits) { return vec4(ivec4(uvec4(bits) << uvec4(24u, 16u, 8u, 0u)) >> 24); }
 
 // Clamped to 0 to 1, in 8 bits each.
 uint pack_unorm4(vec4 v)
@@ -54,14 +34,8 @@ vec4 unpack_unorm4(uint bits)
 }
 
 // From 0 to 1, in 16 bits each.
-uint pack_unorm2(vec2 v)
-{
-    return join_halves(floatBitsToUint(v * 65535.0f + unsigned_whole_base));
-}
-vec2 unpack_unorm2(uint bits)
-{
-    return vec2(ivec2(split_halves(bits))) * (1.0f / 65535.0f);
-}
+uint pack_unorm2(vec2 v) { return join_halves(floatBitsToUint(v * 65535.0f + unsigned_whole_base)); }
+vec2 unpack_unorm2(uint bits) { return vec2(ivec2(split_halves(bits))) * (1.0f / 65535.0f); }
 
 // Floats that lose their last 16 bits.
 uint pack_upper_halves(vec2 v)
@@ -69,10 +43,7 @@ uint pack_upper_halves(vec2 v)
     uvec2 bits = floatBitsToUint(v) + 0x8000u;
     return (bits.x >> 16u) | (bits.y & 0xffff0000u);
 }
-vec2 unpack_upper_halves(uint bits)
-{
-    return uintBitsToFloat(uvec2(bits << 16u, bits & 0xffff0000u));
-}
+vec2 unpack_upper_halves(uint bits) { return uintBitsToFloat(uvec2(bits << 16u, bits & 0xffff0000u)); }
 
 // The octahedron's lower half, folded out.
 vec2 fold_octahedron(vec2 p)
@@ -93,32 +64,20 @@ vec3 unpack_direction(uint bits)
     return normalize(vec3(z < 0.0f ? fold_octahedron(p) : p, z));
 }
 
-// Light, and what else is never negative, in 16 bits: 6 of exponent and 10 of mantissa, from 7e-15, which stands for 0, to 131,000;
-// what is greater, infinite or NaN becomes the greatest. Half floats would reach only to 6e-5 and 65,504, and cost CPU drivers more:
-// they pack them by some 40 instructions each, unpack them out of 64-bit loads lane by lane, and compare what was unpacked as
-// half floats, lane by lane, too.
-const int least_light16 = 0x28000000; // 2^-47
-uint light16_bits(float x)
-{
-    return uint(clamp(floatBitsToInt(x) - (least_light16 - 0x1000), 0, 0x1fffffff)) >> 13u;
-}
-uint pack_light2(vec2 v)
-{
-    return light16_bits(v.x) | (light16_bits(v.y) << 16u);
-}
+// Light, and what else is never negative, in 16 bits: 6 of exponent and 10 of mantissa, from 7e-15, which stands for 0,
+// to 131,000; what is greater, infinite or NaN becomes the greatest. Half floats would reach only to 6e-5 and 65,504,
+// and cost CPU drivers more: they pack them by some 40 instructions each, unpack them out of 64-bit loads lane by lane,
+// and compare what was unpacked as half floats, lane by lane, too.
+const int min_light16 = 0x28000000; // 2^-47
+uint light16_bits(float x) { return uint(clamp(floatBitsToInt(x) - (min_light16 - 0x1000), 0, 0x1fffffff)) >> 13u; }
+uint pack_light2(vec2 v) { return light16_bits(v.x) | (light16_bits(v.y) << 16u); }
 vec2 unpack_light2(uint bits)
 {
-    return vec2(uintBitsToFloat(((bits << 13u) & 0x1fffe000u) + uint(least_light16)),
-        uintBitsToFloat(((bits >> 3u) & 0x1fffe000u) + uint(least_light16)));
+    return vec2(uintBitsToFloat(((bits << 13u) & 0x1fffe000u) + uint(min_light16)),
+        uintBitsToFloat(((bits >> 3u) & 0x1fffe000u) + uint(min_light16)));
 }
 
-uvec2 pack_light3(vec3 colour)
-{
-    return uvec2(pack_light2(vec2(colour)), light16_bits(colour.z));
-}
-vec3 unpack_light3(uvec2 bits)
-{
-    return vec3(unpack_light2(bits.x), unpack_light2(bits.y).x);
-}
+uvec2 pack_light3(vec3 colour) { return uvec2(pack_light2(vec2(colour)), light16_bits(colour.z)); }
+vec3 unpack_light3(uvec2 bits) { return vec3(unpack_light2(bits.x), unpack_light2(bits.y).x); }
 
 #endif

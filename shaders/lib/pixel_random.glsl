@@ -5,7 +5,8 @@
 
 #include "random.glsl"
 
-// Probes are not neighbours in a picture, and where many stand at one place their numbers must not repeat with the masks.
+// Probes are not neighbours in a picture, and where many stand at one place their numbers must not repeat with the
+// masks.
 Random make_pixel_random_of(uvec2 pixel, uint frame_index)
 {
     if (frame.cvars.pt_noise == NOISE_WHITE || (frame.flags & FRAME_PROBES) != 0u)

@@ -6,17 +6,12 @@
 #include "../shared/present.h"
 
 // 8 bits as 10: the nearest of as many shares of the whole.
-uvec3 widen_to_10_bits(uvec3 v)
-{
-    return (v * 1023u + 127u) / 255u;
-}
+uvec3 widen_to_10_bits(uvec3 v) { return (v * 1023u + 127u) / 255u; }
 
-uint join_10_bits(uvec3 v)
-{
-    return v.x | (v.y << 10u) | (v.z << 20u) | 0xc0000000u;
-}
+uint join_10_bits(uvec3 v) { return v.x | (v.y << 10u) | (v.z << 20u) | 0xc0000000u; }
 
-// `word`: red in the lowest byte, then green, blue and what is not looked at. Formats of one word leave the second one 0.
+// `word`: red in the lowest byte, then green, blue and what is not looked at. Formats of one word leave the second one
+// 0.
 uvec2 pack_for_window(uint word, uint packing)
 {
     uvec3 rgb = uvec3(word, word >> 8u, word >> 16u) & 0xffu;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Sampling a triangle uniformly in projected solid angle: the density is cosine / projected solid angle, so that on matte
-// surfaces each unshadowed sample is worth the same. After the idea of Peters 2021, "BRDF Importance Sampling for Polygonal
-// Lights": on the unit disc below the hemisphere, edges of spherical polygons are arcs of ellipses around the origin. The
-// area between such an arc and the origin is known in closed form; its inverse in the azimuth is found by Newton's method.
-// Space: x and y along the surface, z along its normal.
+// Sampling a triangle uniformly in projected solid angle: the density is cosine / projected solid angle, so that on
+// matte surfaces each unshadowed sample is worth the same. After the idea of Peters 2021, "BRDF Importance Sampling for
+// Polygonal Lights": on the unit disc below the hemisphere, edges of spherical polygons are arcs of ellipses around the
+// origin. The area between such an arc and the origin is known in closed form; its inverse in the azimuth is found by
+// Newton's method. Space: x and y along the surface, z along its normal.
 #ifndef VKPT_LIB_PROJECTED_TRIANGLE
 #define VKPT_LIB_PROJECTED_TRIANGLE
 
@@ -77,16 +77,13 @@ float projected_area(vec3 a, vec3 b, vec3 c)
 
 // A triangle as seen by a surface, cut at the horizon and split in two where that leaves four corners.
 struct ProjectedTriangle {
-    vec3 x, y, z;        // the surface's axes in the world
+    vec3 x, y, z; // the surface's axes in the world
     vec3 v0, v1, v2, v3; // unit
-    float first_area;    // of v0, v1, v2
-    float area;          // with v0, v2, v3; 0: below the horizon
+    float first_area; // of v0, v1, v2
+    float area; // with v0, v2, v3; 0: below the horizon
 };
 
-vec3 to_axes(vec3 v, vec3 x, vec3 y, vec3 z)
-{
-    return vec3(dot(v, x), dot(v, y), dot(v, z));
-}
+vec3 to_axes(vec3 v, vec3 x, vec3 y, vec3 z) { return vec3(dot(v, x), dot(v, y), dot(v, z)); }
 
 // Corners relative to the surface.
 ProjectedTriangle project_triangle(vec3 a, vec3 b, vec3 c, vec3 normal)
@@ -110,7 +107,8 @@ ProjectedTriangle project_triangle(vec3 a, vec3 b, vec3 c, vec3 normal)
     return p;
 }
 
-// The plane of a great circle, its normal pointing down: arcs of it above the horizon lie where dot(normal.xy, azimuth) > 0.
+// The plane of a great circle, its normal pointing down: arcs of it above the horizon lie where dot(normal.xy, azimuth)
+// > 0.
 vec3 arc_normal(vec3 a, vec3 b)
 {
     vec3 n = cross(a, b);
@@ -126,21 +124,19 @@ float arc_radius2(vec3 n, vec2 azimuth)
     return n.z * n.z / max(g * g + n.z * n.z, 1e-20f);
 }
 
-float turn(vec2 from, vec2 to)
-{
-    return from.x * to.y - from.y * to.x;
-}
+float turn(vec2 from, vec2 to) { return from.x * to.y - from.y * to.x; }
 
 // The area between the arc and the origin from one azimuth to another (unit vectors, less than half a turn). With psi
-// counted from the ellipse's short axis, half the integral of radius^2 is |n.z| / 2 * atan(|n.z| tan psi); the difference of
-// two such angles needs no axis, so that arcs along the horizon are no special case.
+// counted from the ellipse's short axis, half the integral of radius^2 is |n.z| / 2 * atan(|n.z| tan psi); the
+// difference of two such angles needs no axis, so that arcs along the horizon are no special case.
 float arc_area(vec3 n, vec2 from, vec2 to)
 {
     vec2 axis = vec2(n.x, n.y);
     return -0.5f * n.z * atan(-n.z * turn(from, to), dot(from, to) - turn(axis, from) * turn(axis, to));
 }
 
-// A part of the disc between two azimuths (counter-clockwise, less than half a turn) and two arcs. inner.z = 0: the origin.
+// A part of the disc between two azimuths (counter-clockwise, less than half a turn) and two arcs. inner.z = 0: the
+// origin.
 struct Sector {
     vec3 outer, inner;
     vec2 from, to; // unit
@@ -207,8 +203,8 @@ vec3 sample_sector(Sector s, vec2 xi)
     return vec3(azimuth.x * radius, azimuth.y * radius, sqrt(max(1.0f - radius2, 0.0f)));
 }
 
-// A spherical triangle above the horizon: around the zenith it has a sector below each edge; elsewhere its middle azimuth
-// divides it in two.
+// A spherical triangle above the horizon: around the zenith it has a sector below each edge; elsewhere its middle
+// azimuth divides it in two.
 vec3 sample_disc_triangle(vec3 a, vec3 b, vec3 c, vec2 xi)
 {
     const vec3 origin = vec3(1.0f, 0.0f, 0.0f);
@@ -257,8 +253,8 @@ vec3 sample_projected_triangle(ProjectedTriangle p, vec2 xi)
     float share = xi.x * p.area;
     bool in_first = share < p.first_area || p.area <= p.first_area;
     float rest = in_first ? share / p.first_area : (share - p.first_area) / (p.area - p.first_area);
-    vec3 direction = sample_disc_triangle(
-        p.v0, in_first ? p.v1 : p.v2, in_first ? p.v2 : p.v3, vec2(min(rest, 1.0f), xi.y));
+    vec3 direction
+        = sample_disc_triangle(p.v0, in_first ? p.v1 : p.v2, in_first ? p.v2 : p.v3, vec2(min(rest, 1.0f), xi.y));
     // Clear of the horizon, where the density would be 0.
     return normalize(p.x * direction.x + p.y * direction.y + p.z * max(direction.z, 1e-4f));
 }

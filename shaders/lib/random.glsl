@@ -17,7 +17,7 @@ struct Random {
     uint frame;
     uint seed;
     uint dimension; // of the next number
-    int kind;       // NOISE_*
+    int kind; // NOISE_*
     // Read where kind is NOISE_BLUE:
     BlueNoiseBuffer masks;
     uint period_key;
@@ -25,8 +25,8 @@ struct Random {
 
 // Dimensions are handed out in blocks: one block for each bounce of a path.
 const uint random_dimensions_per_bounce = 16u;
-// Deeper in a path a number acts through so many others that its order over the pixels is lost, and white numbers need no
-// memory: blue are those of the camera path (block 0), of direct light (1) and of the first bounce (2).
+// Deeper in a path a number acts through so many others that its order over the pixels is lost, and white numbers need
+// no memory: blue are those of the camera path (block 0), of direct light (1) and of the first bounce (2).
 const uint blue_blocks = 3u;
 
 // Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020: the four-word PCG hash.
@@ -46,10 +46,7 @@ uvec4 hash_pcg4(uvec4 words)
 }
 
 // In [0, 1): the 24 bits that a float holds exactly, so 1 never appears.
-float uint_to_unit_float(uint bits)
-{
-    return float(bits >> 8u) * 5.9604644775390625e-8f;
-}
+float uint_to_unit_float(uint bits) { return float(bits >> 8u) * 5.9604644775390625e-8f; }
 
 float white_dimension(uvec2 pixel, uint frame, uint seed, uint dimension)
 {
@@ -65,16 +62,16 @@ uint hash_word(uint word)
     return word ^ (word >> 16u);
 }
 
-// What the shifts of all masks in a frame's period are hashed from. To be worked out once: CPU drivers leave in a loop what does not
-// depend on it.
+// What the shifts of all masks in a frame's period are hashed from. To be worked out once: CPU drivers leave in a loop
+// what does not depend on it.
 uint blue_period_key(uint frame, uint seed)
 {
     return hash_pcg4(uvec4(0x6a09e667u, frame / BLUE_NOISE_SLICES, seed, 0u)).x;
 }
 
-// A mask runs through its slices with the frames. Each period of a dimension shifts it anew, by a hash: over the periods a
-// pixel sees every value of the mask equally often, independently in each dimension, so the mean of any estimate is that
-// under white numbers. The hash also gives the bits below the mask's 16.
+// A mask runs through its slices with the frames. Each period of a dimension shifts it anew, by a hash: over the
+// periods a pixel sees every value of the mask equally often, independently in each dimension, so the mean of any
+// estimate is that under white numbers. The hash also gives the bits below the mask's 16.
 float blue_dimension(BlueNoiseBuffer masks, uvec2 pixel, uint frame, uint period_key, uint dimension)
 {
     uint hash = hash_word(period_key + dimension * 0x9e3779b9u);

@@ -16,10 +16,10 @@ struct Ray {
 const float ray_far = 1e6;
 
 struct RawHit {
-    uint triangle;     // id, or TRACE_MISS
-    float t;           // distance in lengths of `direction`; of a miss: the distance up to which nothing was met
+    uint triangle; // id, or TRACE_MISS
+    float t; // distance in lengths of `direction`; of a miss: the distance up to which nothing was met
     vec2 barycentrics; // weights of the triangle's second and third corner
-    uint front;        // 1: the ray came from the side that cross(p1 - p0, p2 - p0) points to
+    uint front; // 1: the ray came from the side that cross(p1 - p0, p2 - p0) points to
 };
 
 // The hit of a ray that has met nothing up to t_max.

@@ -15,7 +15,7 @@ vec3 camera_direction(uvec2 pixel, vec2 offset)
 }
 
 struct ScreenPoint {
-    vec2 pixel;  // (0, 0): the corner of the first pixel
+    vec2 pixel; // (0, 0): the corner of the first pixel
     float depth; // along the camera's axis; <= 0: behind it
 };
 
@@ -30,47 +30,49 @@ ScreenPoint project(Camera camera, vec3 point, uvec2 size)
     return ScreenPoint((screen * 0.5 + 0.5) * vec2(size), depth);
 }
 
-// The pixel of the last view, whole numbers being pixels, whose middle shows what the middle of a pixel of this one does: `before`
-// is where that pixel's ray, which passes `offset` from its corner, ended.
+// The pixel of the last view, whole numbers being pixels, whose middle shows what the middle of a pixel of this one
+// does: `before` is where that pixel's ray, which passes `offset` from its corner, ended.
 vec2 place_in_last_view(ScreenPoint before, vec2 offset)
 {
     return before.depth > 0.0 ? before.pixel - 0.5 - (offset - 0.5) * frame.previous_scale : vec2(-1e6);
 }
 
 // Shading normal, material and depth, as filters compare them. `material`: see material_key.
-uvec2 pack_guide(vec3 normal, float material, float depth)
+uvec2 pack_features(vec3 normal, float material, float depth)
 {
     return uvec2(pack_snorm4(vec4(normal, material)), floatBitsToUint(depth));
 }
 // Normal and material, times 127.
-vec4 guide_bytes(uint bits) { return unpack_snorm4_times_127(bits); }
-float guide_depth(uvec2 guide) { return uintBitsToFloat(guide.y); }
+vec4 feature_bytes(uint bits) { return unpack_snorm4_times_127(bits); }
+float feature_depth(uvec2 features) { return uintBitsToFloat(features.y); }
 
-// One number for what tells materials apart: keys of two roughnesses differ by half their difference, those of a metal and another
-// material by 1 at least.
+// One number for what tells materials apart: keys of two roughnesses differ by half their difference, those of a metal
+// and another material by 1 at least.
 float material_key(float roughness, float metallic) { return (0.5 + 0.5 * roughness) * (metallic > 0.5 ? -1.0 : 1.0); }
 
-// Relative distance of a tap's depth from the plane through the pixel's surface; 0: on it. 1 / depth is linear on the screen.
-float plane_distance(float depth, vec2 slope, vec2 pixels, float tap_depth)
+// Relative distance of a tap's depth from the plane through the pixel's surface; 0: on it. 1 / depth is linear on the
+// screen.
+float plane_distance(float depth, vec2 depth_gradient, vec2 pixels, float tap_depth)
 {
-    return abs(depth / quick_max(tap_depth, 1e-6) - 1.0 - dot(slope, pixels));
+    return abs(depth / quick_max(tap_depth, 1e-6) - 1.0 - dot(depth_gradient, pixels));
 }
 
-// How far from the plane a tap may lie, relative to depth: curved things lean away from it with the slope.
-float plane_tolerance(vec2 slope, vec2 pixels) { return 0.008 + 0.25 * dot(abs(slope), abs(pixels)); }
+// How far from the plane a tap may lie, relative to depth: curved things lean away from it with the depth gradient.
+float plane_tolerance(vec2 depth_gradient, vec2 pixels) { return 0.008 + 0.25 * dot(abs(depth_gradient), abs(pixels)); }
 
-// What finds a pixel's surface in the last view: its guide and slope, and where it was then, with its depth there.
-struct Search {
-    vec3 normal;    // over 127^2, for taps' normals times 127
+// What finds a pixel's surface in the last view: its features and depth gradient, and where it was then, with its depth
+// there.
+struct ReprojectionQuery {
+    vec3 normal; // over 127^2, for taps' normals times 127
     float material; // times 127
-    vec2 slope;
+    vec2 depth_gradient;
     vec3 shown;
 };
 
-Search make_search(uvec2 guide, vec2 slope, vec3 shown)
+ReprojectionQuery make_query(uvec2 features, vec2 depth_gradient, vec3 shown)
 {
-    vec4 kind = guide_bytes(guide.x);
-    return Search(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, slope, shown);
+    vec4 kind = feature_bytes(features.x);
+    return ReprojectionQuery(kind.xyz * (1.0 / (127.0 * 127.0)), kind.w, depth_gradient, shown);
 }
 
 // The pixel of the last view that is nearest to a place there, or one beyond its edge.
@@ -79,20 +81,24 @@ ivec2 nearest_in_last_view(vec2 place)
     return whole_to_int(floor(clamp(place, vec2(-2.0), vec2(frame.previous_size) + 2.0) + 0.5));
 }
 
-bool is_in_last_view(ivec2 place) { return all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, ivec2(frame.previous_size))); }
+bool is_in_last_view(ivec2 place)
+{
+    return all(greaterThanEqual(place, ivec2(0))) && all(lessThan(place, ivec2(frame.previous_size)));
+}
 
 // Whether the last view's pixel `place` shows the surface; `there`: its index, 0 outside of that view.
-bool shows_surface(Search search, ivec2 place, out uint there)
+bool shows_surface(ReprojectionQuery query, ivec2 place, out uint there)
 {
-    const float least_normal_cosine = 0.9, most_material_difference = 0.1; // of material_key
+    const float min_normal_cosine = 0.9, max_material_difference = 0.1; // of material_key
     bool inside = is_in_last_view(place);
     there = inside ? uint(place.y) * frame.previous_size.x + uint(place.x) : 0u;
-    uvec2 old = load_previous_guide(there);
-    vec2 pixels = (vec2(place) + frame.offset_change - search.shown.xy) / frame.previous_scale;
-    float distance = plane_distance(search.shown.z, search.slope, pixels, guide_depth(old));
-    vec4 kind = guide_bytes(old.x);
-    return inside && distance <= plane_tolerance(search.slope, vec2(1.0)) && dot(search.normal, kind.xyz) >= least_normal_cosine
-        && abs(search.material - kind.w) <= 127.0 * most_material_difference;
+    uvec2 old = load_previous_features(there);
+    vec2 pixels = (vec2(place) + frame.offset_change - query.shown.xy) / frame.previous_scale;
+    float distance = plane_distance(query.shown.z, query.depth_gradient, pixels, feature_depth(old));
+    vec4 kind = feature_bytes(old.x);
+    return inside && distance <= plane_tolerance(query.depth_gradient, vec2(1.0))
+        && dot(query.normal, kind.xyz) >= min_normal_cosine
+        && abs(query.material - kind.w) <= 127.0 * max_material_difference;
 }
 
 // What the buffer random_seed holds where the light is not the pixel's own sample alone.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Backend "pipeline": the device's own ray tracing from ray generation shaders (VK_KHR_ray_tracing_pipeline). What a ray meets
-// is told by trace.rchit, trace.rahit and trace.rmiss.
+// Backend "pipeline": the device's own ray tracing from ray generation shaders (VK_KHR_ray_tracing_pipeline). What a
+// ray meets is told by trace.rchit, trace.rahit and trace.rmiss.
 #ifndef VKPT_LIB_SEARCH_PIPELINE
 #define VKPT_LIB_SEARCH_PIPELINE
 
@@ -13,8 +13,8 @@ RawHit search_ray(Ray ray, uint mask, bool any_hit)
     // Stands where the first hit ends the search and no closest-hit shader runs; trace.rmiss says otherwise.
     traced_hit = RawHit(0u, ray.t_max, vec2(0.0), 0u);
     traceRayEXT(accelerationStructureEXT(frame.scene.structure),
-        any_hit ? gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT : gl_RayFlagsNoneEXT, mask, 0u, 0u,
-        0u, ray.origin, ray.t_min, ray.direction, ray.t_max, 0);
+        any_hit ? gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT : gl_RayFlagsNoneEXT, mask, 0u,
+        0u, 0u, ray.origin, ray.t_min, ray.direction, ray.t_max, 0);
     return traced_hit;
 }
 

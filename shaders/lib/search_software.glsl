@@ -9,8 +9,8 @@
 // How many holes in a row a ray passes: more than any scene has, so that the loop ends whatever the driver makes of it.
 const uint max_alpha_layers = 256u;
 
-// This lane's stack: TRACE_STACK_ENTRIES entries of 8 bytes, one every TRACE_STACK_INTERLEAVE * 8 bytes. Free for others while
-// no ray is traced.
+// This lane's stack: TRACE_STACK_ENTRIES entries of 8 bytes, one every TRACE_STACK_INTERLEAVE * 8 bytes. Free for
+// others while no ray is traced.
 uint64_t lane_stack()
 {
     // Not gl_WorkGroupSize: it is only known behind the layout(local_size_x) of the including pass, and 1 before it.
@@ -25,13 +25,13 @@ RawHit search_trees(Ray ray, uint mask, bool any_hit)
         frame.scene.trees, ray.origin, ray.direction, ray.t_min, ray.t_max, mask, any_hit, lane_stack());
 }
 
-// One call of the traversal, whatever there is to do: it is most of what the CPU driver has to compile. Behind a hole the
-// search goes on from exactly there: the same triangle at the same distance is outside of the open interval.
+// One call of the traversal, whatever there is to do: it is most of what the CPU driver has to compile. Behind a hole
+// the search goes on from exactly there: the same triangle at the same distance is outside of the open interval.
 RawHit search_ray(Ray ray, uint mask, bool any_hit)
 {
     bool test_alpha = (frame.flags & FRAME_ALPHA_TEST) != 0u;
     RawHit hit;
-    [[dont_unroll]] for (uint layer = 0u; layer < max_alpha_layers; layer++) {
+    ROLLED_FOR (uint layer = 0u; layer < max_alpha_layers; layer++) {
         hit = search_trees(ray, mask, any_hit && !test_alpha);
         if (!test_alpha || hit.triangle == TRACE_MISS || !is_cut_out(hit.triangle, hit.barycentrics))
             break;

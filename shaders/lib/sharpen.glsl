@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contrast between neighbouring pixels that averaging over frames, and enlarging, have taken away: as much as leaves every channel
-// between black and white (the limits of AMD's FidelityFX RCAS, 2021), so that edges get no halo and noise no more than its share.
+// Contrast between neighbouring pixels that averaging over frames, and enlarging, have taken away: as much as leaves
+// every channel between black and white (the limits of AMD's FidelityFX RCAS, 2021), so that edges get no halo and
+// noise no more than its share.
 #ifndef VKPT_LIB_SHARPEN
 #define VKPT_LIB_SHARPEN
 

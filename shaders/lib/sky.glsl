@@ -5,15 +5,19 @@
 
 #include "frame.glsl"
 
-// xy: where a direction meets the cube around the eye, -1..1 from a picture's left top; z: which picture (Sky::textures).
+// xy: where a direction meets the cube around the eye, -1..1 from a picture's left top; z: which picture
+// (Sky::textures).
 vec3 sky_face(vec3 d)
 {
     vec3 size = abs(d);
     if (size.x >= size.y && size.x >= size.z)
-        return d.x > 0.0 ? vec3(-d.y, -d.z, 0.0) / vec3(size.x, size.x, 1.0) : vec3(d.y, -d.z, 1.0) / vec3(size.x, size.x, 1.0);
+        return d.x > 0.0 ? vec3(-d.y, -d.z, 0.0) / vec3(size.x, size.x, 1.0)
+                         : vec3(d.y, -d.z, 1.0) / vec3(size.x, size.x, 1.0);
     if (size.y >= size.z)
-        return d.y > 0.0 ? vec3(d.x, -d.z, 2.0) / vec3(size.y, size.y, 1.0) : vec3(-d.x, -d.z, 3.0) / vec3(size.y, size.y, 1.0);
-    return d.z > 0.0 ? vec3(-d.y, d.x, 4.0) / vec3(size.z, size.z, 1.0) : vec3(-d.y, -d.x, 5.0) / vec3(size.z, size.z, 1.0);
+        return d.y > 0.0 ? vec3(d.x, -d.z, 2.0) / vec3(size.y, size.y, 1.0)
+                         : vec3(-d.x, -d.z, 3.0) / vec3(size.y, size.y, 1.0);
+    return d.z > 0.0 ? vec3(-d.y, d.x, 4.0) / vec3(size.z, size.z, 1.0)
+                     : vec3(-d.y, -d.x, 5.0) / vec3(size.z, size.z, 1.0);
 }
 
 // Radiance from the sky along a unit direction.

@@ -15,15 +15,15 @@ struct HitSurface {
     Surface surface;
     vec3 emission; // radiance towards the viewer
     float opacity;
-    uint flags;    // MATERIAL_*
-    int emitter;   // >= 0: its emission is in the light lists
-    int cluster;   // -1: outside of the map
-    float front;   // 1: met from its front
+    uint flags; // MATERIAL_*
+    int emitter; // >= 0: its emission is in the light lists
+    int cluster; // -1: outside of the map
+    float front; // 1: met from its front
     uint cache_face; // Triangle::cache_face
 };
 
 // A little off the surface, so that rays leaving it do not meet it again: more where coordinates are coarser.
-vec3 leave_surface(vec3 position, vec3 normal)
+vec3 offset_ray_origin(vec3 position, vec3 normal)
 {
     vec3 size = abs(position);
     return position + normal * (0.02 + 4e-6 * quick_max3(size));
@@ -33,7 +33,7 @@ LightTables light_tables()
 {
     LightTables tables;
     tables.emitters = EmitterBuffer(frame.scene.emitters);
-    tables.outlines = EmitterOutlineBuffer(frame.scene.emitter_outlines);
+    tables.packed_lights = PackedLightBuffer(frame.scene.packed_lights);
     tables.lists = LightListBuffer(frame.scene.light_lists);
     tables.static_indices = LightIndexBuffer(frame.scene.static_light_indices);
     tables.dynamic_indices = LightIndexBuffer(frame.scene.dynamic_light_indices);
@@ -49,18 +49,16 @@ LightTables light_tables()
 float lightstyle_scale(uint lightstyle) { return LightstyleBuffer(frame.scene.lightstyles).v[lightstyle]; }
 
 // Liquids wobble: the picture is displaced along each axis by a sine of the other.
-vec2 warp_uv(vec2 uv)
-{
-    return uv + WARP_AMPLITUDE * sin(uv.yx * WARP_FREQUENCY + frame.time * WARP_SPEED);
-}
+vec2 warp_uv(vec2 uv) { return uv + WARP_AMPLITUDE * sin(uv.yx * WARP_FREQUENCY + frame.time * WARP_SPEED); }
 
 // How pictures are read, at the level of detail that the ray's footprint asks for.
 const int PICTURE_SMOOTH = 0; // over the footprint's ellipse, between texels
-const int PICTURE_TEXEL = 1;  // one texel: enough for bounces, where what is sharp is noise among other noise
+const int PICTURE_TEXEL = 1; // one texel: enough for bounces, where what is sharp is noise among other noise
 
 uvec2 picture_size(Material material) { return split_halves(material.texture_size); }
 
-// The mean over the footprint; of texels that are larger than it the nearest one, where the player wants to see them (gl_texturemode).
+// The mean over the footprint; of texels that are larger than it the nearest one, where the player wants to see them
+// (gl_texturemode).
 vec4 sample_picture(Material material, vec2 uv, Footprint footprint)
 {
     if ((frame.flags & FRAME_NEAREST_TEXELS) != 0u && footprint.mip <= 0.0)
@@ -68,7 +66,7 @@ vec4 sample_picture(Material material, vec2 uv, Footprint footprint)
     vec2 step = footprint.axis / footprint.taps;
     uv -= step * (0.5 * (footprint.taps - 1.0));
     vec4 sum = vec4(0.0);
-    [[dont_unroll]] for (float tap = 0.0; tap < footprint.taps; tap++)
+    ROLLED_FOR (float tap = 0.0; tap < footprint.taps; tap++)
         sum += textureLod(VKPT_PICTURE(material.texture, SAMPLER_REPEAT), uv + step * tap, footprint.mip);
     return sum / footprint.taps;
 }
@@ -119,7 +117,7 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
     vec4 picture = way == PICTURE_TEXEL
         ? fetch_texel(material, uv, choose_mip(triangle, size, cone_width, dot(s.geometric_normal, s.view)))
         : sample_picture(material, uv,
-              find_footprint(triangle, size, cone_width, s.geometric_normal, ray.direction, frame.picture_taps));
+            find_footprint(triangle, size, cone_width, s.geometric_normal, ray.direction, frame.picture_taps));
 
     s.albedo = quick_clamp(picture.rgb * material.tint, 0.0, 1.0);
     s.roughness = material.roughness;
@@ -134,7 +132,7 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
     result.cache_face = triangle.cache_face;
     result.cluster = triangle.cluster >= 0
         ? triangle.cluster
-        : find_cluster(BspTreeBuffer(frame.scene.bsp_tree), leave_surface(s.position, s.geometric_normal));
+        : find_cluster(BspTreeBuffer(frame.scene.bsp_tree), offset_ray_origin(s.position, s.geometric_normal));
     return result;
 }
 
@@ -149,8 +147,8 @@ void store_surface(uint pixel, HitSurface hit)
 }
 
 // position.w of pixels without a surface to light.
-const float DEPTH_NOTHING = -1.0;  // sky, or outside of everything
-const float DEPTH_UNLIT = -2.0;    // a picture that is shown as it is
+const float DEPTH_NOTHING = -1.0; // sky, or outside of everything
+const float DEPTH_UNLIT = -2.0; // a picture that is shown as it is
 
 // What `surface` holds of the material.
 void unpack_material(uvec4 bits, inout Surface s)

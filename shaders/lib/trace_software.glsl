@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Ray tracing in plain compute: walks the 8-wide BVH that ref_vkpt/trace/bvh.cpp builds (layout described there).
+// Ray tracing in plain compute: walks the 8-wide BVH that ref_vkpt/rays/bvh.cpp builds (layout described there).
 //
-// One ray per lane. Measured against the alternatives on the CPU driver: nodes and triangles come as texels (texels.glsl), in half the time
-// of 64-bit loads through buffer_reference, which become hardware gathers; a storage buffer's become branches (half the speed
-// again); a stack in global memory beats private and
-// shared arrays by 10..30 % on incoherent rays; integer min/max on the float bits spares the driver's NaN handling.
+// One ray per lane. Measured against the alternatives on the CPU driver: nodes and triangles come as texels
+// (texels.glsl), in half the time of 64-bit loads through buffer_reference, which become hardware gathers; a storage
+// buffer's become branches (half the speed again); a stack in global memory beats private and shared arrays by 10..30 %
+// on incoherent rays; integer min/max on the float bits spares the driver's NaN handling.
 //
-// Extensions are enabled here, so include this before any declaration. A BvhView that comes straight from push constants or
-// from constant places of a uniform buffer is 14 % (camera rays), 7 % (bounces), 4 % (shadow rays) faster on that driver than
-// one that is fetched through a pointer or by an index: those are gathers, and gathers are what a ray's time goes into.
+// Extensions are enabled here, so include this before any declaration. A BvhView that comes straight from push
+// constants or from constant places of a uniform buffer is 14 % (camera rays), 7 % (bounces), 4 % (shadow rays) faster
+// on that driver than one that is fetched through a pointer or by an index: those are gathers, and gathers are what a
+// ray's time goes into.
 #ifndef VKPT_LIB_TRACE_SOFTWARE_GLSL
 #define VKPT_LIB_TRACE_SOFTWARE_GLSL
 
@@ -35,7 +36,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhWords32 {
 uint64_t software_stack(uint64_t stack_buffer, uint lane)
 {
     uint group = lane / TRACE_STACK_INTERLEAVE, place = lane % TRACE_STACK_INTERLEAVE;
-    return stack_buffer + uint64_t(group) * (TRACE_STACK_BYTES_PER_LANE * TRACE_STACK_INTERLEAVE) + uint64_t(place * 8u);
+    return stack_buffer + uint64_t(group) * (TRACE_STACK_BYTES_PER_LANE * TRACE_STACK_INTERLEAVE)
+        + uint64_t(place * 8u);
 }
 
 // A child's key is its entry distance with its index in the lowest bits: keys of positive floats sort as integers.
@@ -110,9 +112,9 @@ void bvh_test_node(BvhRay ray, BvhNode node, int t_max, out int key[8])
     uvec2 near_y = backwards.y ? node.y.zw : node.y.xy, far_y = backwards.y ? node.y.xy : node.y.zw;
     uvec2 near_z = backwards.z ? node.z.zw : node.z.xy, far_z = backwards.z ? node.z.xy : node.z.zw;
     vec3 start = (uintBitsToFloat(node.frame.xyz) - ray.origin) * ray.inverse, step = bvh_steps(ray, node.frame.w);
-    // Negative floats are negative integers, so the comparison with t_min >= 0 and the final one hold for them as well; what a
-    // NaN gives is either a miss or a needless visit.
-    [[unroll]] for (int child = 0; child < 8; child++) {
+    // Negative floats are negative integers, so the comparison with t_min >= 0 and the final one hold for them as well;
+    // what a NaN gives is either a miss or a needless visit.
+    UNROLLED_FOR (int child = 0; child < 8; child++) {
         int enter = max(max(bvh_slab(near_x, child, start.x, step.x), bvh_slab(near_y, child, start.y, step.y)),
             max(bvh_slab(near_z, child, start.z, step.z), ray.t_min));
         int leave = min(min(bvh_slab(far_x, child, start.x, step.x), bvh_slab(far_y, child, start.y, step.y)),
@@ -135,11 +137,11 @@ BvhTriangle bvh_load_triangle(BvhView bvh, uint slot)
 }
 #undef BVH_TRIANGLE_TEXEL
 
-// A ray as the triangle test sees it: moved to the origin and sheared so that it runs along z, which is its longest axis (Woop, Benthin
-// and Wald, "Watertight Ray/Triangle Intersection", 2013).
+// A ray as the triangle test sees it: moved to the origin and sheared so that it runs along z, which is its longest
+// axis (Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", 2013).
 struct BvhShear {
     vec3 origin;
-    vec2 slope;    // of x and y over z
+    vec2 slope; // of x and y over z
     float inverse; // 1 / z's part of the direction
     bool x_is_z, z_is_z;
     uint mirror; // sign bit: set where the axes' new order or the ray's way along z turns triangles over
@@ -153,7 +155,8 @@ BvhShear bvh_shear(vec3 origin, vec3 direction)
     shear.x_is_z = size.x >= size.y && size.x >= size.z;
     shear.z_is_z = !shear.x_is_z && size.z >= size.y;
     shear.inverse = 1.0 / (shear.x_is_z ? direction.x : (shear.z_is_z ? direction.z : direction.y));
-    shear.slope = vec2(shear.x_is_z ? direction.y : direction.x, shear.z_is_z ? direction.y : direction.z) * shear.inverse;
+    shear.slope
+        = vec2(shear.x_is_z ? direction.y : direction.x, shear.z_is_z ? direction.y : direction.z) * shear.inverse;
     shear.mirror = (floatBitsToUint(shear.inverse) & 0x80000000u) ^ (shear.x_is_z || shear.z_is_z ? 0u : 0x80000000u);
     return shear;
 }
@@ -165,9 +168,11 @@ vec3 bvh_sheared(BvhShear shear, vec3 corner)
     return vec3((shear.x_is_z ? p.y : p.x) - shear.slope.x * z, (shear.z_is_z ? p.y : p.z) - shear.slope.y * z, z);
 }
 
-// An edge's sign depends on nothing but its two corners and the ray, and comes out exactly opposite in the triangle that shares it
-// ("precise": no product is fused with a sum), so no ray passes between two triangles. Moeller and Trumbore's comparison, at best
-// 4 % faster, let 2.6 % of the rays through that were aimed at edges. Two-sided, t in (t_min, t_max), edges inclusive.
+// An edge's sign depends on nothing but its two corners and the ray, and comes out exactly opposite in the triangle
+// that shares it
+// ("precise": no product is fused with a sum), so no ray passes between two triangles. Moeller and Trumbore's
+// comparison, at best 4 % faster, let 2.6 % of the rays through that were aimed at edges. Two-sided, t in (t_min,
+// t_max), edges inclusive.
 bool bvh_test_triangle(BvhTriangle triangle, BvhShear shear, int t_min, int t_max, uint ray_mask, inout RawHit hit)
 {
     vec4 a = uintBitsToFloat(triangle.a), b = uintBitsToFloat(triangle.b);
@@ -182,24 +187,27 @@ bool bvh_test_triangle(BvhTriangle triangle, BvhShear shear, int t_min, int t_ma
     vec3 inward = uintBitsToFloat(floatBitsToUint(weights) ^ sign);
     float t = dot(vec3(p0.z, p1.z, p2.z), weights) * scale * shear.inverse;
     // NaN is above every t_max or below zero.
-    bool meets = inward.x >= 0.0 && inward.y >= 0.0 && inward.z >= 0.0 && floatBitsToInt(t) > t_min && floatBitsToInt(t) < t_max
-        && ((e.y >> BVH_RAY_MASK_SHIFT) & ray_mask) != 0u;
+    bool meets = inward.x >= 0.0 && inward.y >= 0.0 && inward.z >= 0.0 && floatBitsToInt(t) > t_min
+        && floatBitsToInt(t) < t_max && ((e.y >> BVH_RAY_MASK_SHIFT) & ray_mask) != 0u;
     if (meets)
         hit = RawHit(e.y & BVH_ID_MASK, t, weights.yz * scale, (sign ^ shear.mirror) >> 31);
     return meets;
 }
 
-#define BVH_PUSH(k)                                                                                                           \
-    {                                                                                                                         \
-        BvhWords64(stack + uint64_t(top)).words[0]                                                                            \
-            = pack64(uvec2(uint(key[k]), child_words + uint(key[k] & bvh_key_child_mask) * 4u));                              \
-        top += bvh_stack_stride;                                                                                              \
+#define BVH_CHILD(k) BvhWords32(bvh.nodes + uint64_t(child_words + uint(key[k] & bvh_key_child_mask) * 4u)).words[0]
+// Farthest first. Nested, because most nodes have few children in the way and the lanes then skip the rest at once.
+#define BVH_PUSH(k)                                                                                                    \
+    {                                                                                                                  \
+        BvhWords64(stack + uint64_t(top)).words[0]                                                                     \
+            = pack64(uvec2(uint(key[k]), child_words + uint(key[k] & bvh_key_child_mask) * 4u));                       \
+        top += bvh_stack_stride;                                                                                       \
     }
 
-// The nearest triangle with t in (t_min, t_max) and (mask & ray_mask) != 0, with `any_hit` the first such triangle found; no_hit()
-// without. Every ray ends: zero, infinite and NaN ones meet nothing or something, and read nothing outside the trees. `stack`:
-// software_stack() of this lane.
-RawHit software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, float hit_max, uint ray_mask, bool any_hit, uint64_t stack)
+// The nearest triangle with t in (t_min, t_max) and (mask & ray_mask) != 0, with `any_hit` the first such triangle
+// found; no_hit() without. Every ray ends: zero, infinite and NaN ones meet nothing or something, and read nothing
+// outside the trees. `stack`: software_stack() of this lane.
+RawHit software_trace(
+    BvhView bvh, vec3 origin, vec3 direction, float t_min, float hit_max, uint ray_mask, bool any_hit, uint64_t stack)
 {
     RawHit hit = no_hit(hit_max);
     BvhRay ray = bvh_ray(origin, direction, t_min);
@@ -211,7 +219,6 @@ RawHit software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, flo
             uint child_words = current * BVH_NODE_BYTES + BVH_CHILD_WORDS_OFFSET;
             int key[8];
             bvh_test_node(ray, bvh_load_node(bvh, current), t_max, key);
-            // Farthest first. Nested, because most nodes have few children in the way and the lanes then skip the rest at once.
             if (key[1] < bvh_key_none) {
                 if (key[2] < bvh_key_none) {
                     if (key[3] < bvh_key_none) {
@@ -233,12 +240,13 @@ RawHit software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, flo
                 BVH_PUSH(1)
             }
             if (key[0] < bvh_key_none)
-                current = BvhWords32(bvh.nodes + uint64_t(child_words + uint(key[0] & bvh_key_child_mask) * 4u)).words[0];
+                current = BVH_CHILD(0);
             else
                 current = BVH_NO_CHILD;
         }
         if (int(current) < 0 && current != BVH_NO_CHILD) {
-            if (bvh_test_triangle(bvh_load_triangle(bvh, current & BVH_LEAF_FIRST_MASK), shear, ray.t_min, t_max, ray_mask, hit)) {
+            if (bvh_test_triangle(
+                    bvh_load_triangle(bvh, current & BVH_LEAF_FIRST_MASK), shear, ray.t_min, t_max, ray_mask, hit)) {
                 t_max = floatBitsToInt(hit.t);
                 if (any_hit)
                     break;
@@ -264,5 +272,6 @@ RawHit software_trace(BvhView bvh, vec3 origin, vec3 direction, float t_min, flo
 }
 
 #undef BVH_PUSH
+#undef BVH_CHILD
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The whole list by predicted contribution: what the subsets approximate (P(l | J) of equation 47.7). Its cost grows with
-// the list. The weights of at most 64 runs of lights are summed first; only the chosen run is swept again.
+// The whole list by predicted contribution: what the subsets approximate (P(l | J) of equation 47.7). Its cost grows
+// with the list. The weights of at most 64 runs of lights are summed first; only the chosen run is swept again.
 #ifndef VKPT_LIGHT_SAMPLER_FULL
 #define VKPT_LIGHT_SAMPLER_FULL
 
@@ -28,8 +28,8 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
     if (!(total > 0.0f))
         return no_light();
 
-    // Rounding may leave a rest behind the last interval: it belongs to the last run, and in a run to the last light, that
-    // has weight.
+    // Rounding may leave a rest behind the last interval: it belongs to the last run, and in a run to the last light,
+    // that has weight.
     float threshold = random.light * total;
     uint chosen_run = 0u;
     for (uint i = 0u; i < runs; i++) {

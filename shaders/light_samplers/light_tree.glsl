@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A light BVH (Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018; Moreau and Clarberg,
-// "Importance Sampling of Many Lights on the GPU", Ray Tracing Gems, chapter 18): one random descent, at each node to the child that is
-// likely to send more, then one of the leaf's few lights by predicted contribution. Each cluster has a tree of its own, over the
-// static lights of its list alone, so that no descent ends at what the cluster cannot see.
+// A light BVH (Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018; Moreau
+// and Clarberg, "Importance Sampling of Many Lights on the GPU", Ray Tracing Gems, chapter 18): one random descent, at
+// each node to the child that is likely to send more, then one of the leaf's few lights by predicted contribution. Each
+// cluster has a tree of its own, over the static lights of its list alone, so that no descent ends at what the cluster
+// cannot see.
 #ifndef VKPT_LIGHT_SAMPLER_LIGHT_TREE
 #define VKPT_LIGHT_SAMPLER_LIGHT_TREE
 
@@ -10,9 +11,9 @@
 
 const uint light_sampler_traits = SAMPLER_USES_SUBSET | SAMPLER_NEEDS_TREES;
 
-// A leaf of the static lights, and a subset of the dynamic ones with one light of each stride. With probability p of the leaf, T
-// strides, and sums of weights W and V, a light of weight w is picked with probability w / (W / p + T V), whichever part it is from:
-// as in sample_subsets_of_parts, 1 / p standing for the static part's strides.
+// A leaf of the static lights, and a subset of the dynamic ones with one light of each stride. With probability p of
+// the leaf, T strides, and sums of weights W and V, a light of weight w is picked with probability w / (W / p + T V),
+// whichever part it is from: as in sample_subsets_of_parts, 1 / p standing for the static part's strides.
 LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 {
     if (light_count(list) == 0u)
@@ -30,7 +31,8 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
         others.total *= float(of_dynamic.stride) * leaf.probability;
     }
     SubsetChoice all_of_leaf = choose_subset(leaf.count, leaf.rest, LIGHT_TREE_LEAF);
-    LightSample result = sample_subset_in_two_sweeps(lights_of_leaf(list, leaf), predictor, all_of_leaf, others, random);
+    LightSample result
+        = sample_subset_in_two_sweeps(lights_of_leaf(list, leaf), predictor, all_of_leaf, others, random);
     result.probability *= leaf.probability;
     return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Resampled importance sampling (Talbot et al. 2005; Bikker's use for lights, section 47.3.1): M = pt_light_subset candidate
-// points, each on a light chosen uniformly, of which one is kept with a probability proportional to its unshadowed light
-// over its density: F = f(y) / phat(y) * mean(phat / q).
+// Resampled importance sampling (Talbot et al. 2005; Bikker's use for lights, section 47.3.1): M = pt_light_subset
+// candidate points, each on a light chosen uniformly, of which one is kept with a probability proportional to its
+// unshadowed light over its density: F = f(y) / phat(y) * mean(phat / q).
 #ifndef VKPT_LIGHT_SAMPLER_RIS
 #define VKPT_LIGHT_SAMPLER_RIS
 
@@ -23,7 +23,7 @@ float weigh_candidate(LightListView list, Surface s, uint emitter, vec2 point, L
     if (drawn.pdf <= 0.0f)
         return 0.0f;
     vec3 light = reflected_radiance(s, evaluate_bsdf(s, drawn.direction), drawn.radiance);
-    return min(luminance(light) / drawn.pdf, greatest_contribution);
+    return min(luminance(light) / drawn.pdf, max_contribution);
 }
 
 LightCandidate draw_candidate(LightListView list, Surface s, INOUT(uint) state, LightOptions options)
@@ -53,7 +53,7 @@ LightSample sample_light(LightListView list, Surface s, LightRandom random, Ligh
     vec2 point = random.point;
     for (uint i = 0u; i < candidates; i++) {
         LightCandidate candidate = draw_candidate(list, s, state, options);
-        if (offer_light(reservoir, candidate.emitter, candidate.weight))
+        if (update_reservoir(reservoir, candidate.emitter, candidate.weight))
             point = candidate.point;
     }
     if (reservoir.emitter < 0)

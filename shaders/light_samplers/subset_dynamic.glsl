@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `subset` with a subset of its own for the dynamic lights: muzzle flashes, projectiles, explosions, whatever moves. They are few and
-// often outshine all others, but a subset of the whole list holds a given one only once in S times. Here, as long as they are no
-// more than R, each is weighed every time. Without dynamic lights this is `subset` to the last bit.
+// `subset` with a subset of its own for the dynamic lights: muzzle flashes, projectiles, explosions, whatever moves.
+// They are few and often outshine all others, but a subset of the whole list holds a given one only once in S times.
+// Here, as long as they are no more than R, each is weighed every time. Without dynamic lights this is `subset` to the
+// last bit.
 #ifndef VKPT_LIGHT_SAMPLER_SUBSET_DYNAMIC
 #define VKPT_LIGHT_SAMPLER_SUBSET_DYNAMIC
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// BIASED, for comparison (figure 47-7, right): MIS as in `subset_mis`, but all strides share one offset as in `subset`. That
-// keeps the stratification. But the offset that brought a light in also chose the other lights of its subset, while an
-// emitter that a BSDF ray met is put among lights of another offset: the two weights of a point do not add up to 1.
+// BIASED, for comparison (figure 47-7, right): MIS as in `subset_mis`, but all strides share one offset as in `subset`.
+// That keeps the stratification. But the offset that brought a light in also chose the other lights of its subset,
+// while an emitter that a BSDF ray met is put among lights of another offset: the two weights of a point do not add up
+// to 1.
 #ifndef VKPT_LIGHT_SAMPLER_SUBSET_MIS_BIASED
 #define VKPT_LIGHT_SAMPLER_SUBSET_MIS_BIASED
 

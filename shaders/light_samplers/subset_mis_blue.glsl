@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Pseudo-marginal MIS whose error stays blue: `subset_mis`, other than that
-// - the offset in each stride is a random dimension of its own, so with pt_noise blue a mask of its own. For a pixel the
-//   offsets are independent all the same, which is all that section 47.5 asks for. With weights that are proportional to the
-//   contributions the estimate is S (w_1(u_1) + ... + w_R(u_R)): functions of one mask each, whose errors are blue;
-// - both techniques are weighted by the power heuristic: light sampling alone keeps what it does well, and the ray's hits,
+// - the offset in each stride is a random dimension of its own, so with pt_noise blue a mask of its own. For a pixel
+// the
+//   offsets are independent all the same, which is all that section 47.5 asks for. With weights that are proportional
+//   to the contributions the estimate is S (w_1(u_1) + ... + w_R(u_R)): functions of one mask each, whose errors are
+//   blue;
+// - both techniques are weighted by the power heuristic: light sampling alone keeps what it does well, and the ray's
+// hits,
 //   on which no mask helps, count where its density is much the higher one;
-// - dynamic lights have strides of their own, and static ones are drawn from the cluster's multiset, as in `subset_pps`.
-// Unbiased: docs/light-sampling.md, "Random numbers and their spectrum".
+// - dynamic lights have strides of their own, and static ones are drawn from the cluster's multiset, as in
+// `subset_pps`. Unbiased: docs/light-sampling.md, "Random numbers and their spectrum".
 #ifndef VKPT_LIGHT_SAMPLER_SUBSET_MIS_BLUE
 #define VKPT_LIGHT_SAMPLER_SUBSET_MIS_BLUE
 
@@ -42,9 +45,10 @@ uint choose_in_stride(StridedPart part, LightRandom random, uint index)
     return index * part.stride + choose_uniformly(xi, part.stride);
 }
 
-// Each entry weighs as much as its stride is long. Returns what the weight of the light that the reservoir holds now was multiplied
-// by; `scale`: that of the one that it held before.
-float offer_part(INOUT(Reservoir) reservoir, float scale, StridedPart part, LightPredictor predictor, LightRandom random)
+// Each entry weighs as much as its stride is long. Returns what the weight of the light that the reservoir holds now
+// was multiplied by; `scale`: that of the one that it held before.
+float offer_part(
+    INOUT(Reservoir) reservoir, float scale, StridedPart part, LightPredictor predictor, LightRandom random)
 {
     uint count = light_count(part.lights);
     for (uint index = 0u; index * part.stride < count; index++) {
@@ -53,7 +57,8 @@ float offer_part(INOUT(Reservoir) reservoir, float scale, StridedPart part, Ligh
             break;
         LightEntry entry = light_entry_at(part.lights, position);
         float entry_scale = entry.share * float(part.stride);
-        bool taken = offer_light(reservoir, entry.emitter, weigh_emitter(part.lights, predictor, entry.emitter) * entry_scale);
+        bool taken = update_reservoir(
+            reservoir, entry.emitter, weigh_emitter(part.lights, predictor, entry.emitter) * entry_scale);
         scale = taken ? entry_scale : scale;
     }
     return scale;
@@ -104,8 +109,8 @@ float light_probability(LightListView list, Surface s, uint emitter, LightRandom
     LightPredictor predictor = make_predictor(s, options);
     float total = weigh_part(cut_into_strides(static_lights(likely), 0u, options.subset_length), predictor, random,
                       place < static_count ? place : nowhere)
-        + weigh_part(cut_into_strides(dynamic_lights(likely), first_dynamic_dimension, options.subset_length), predictor, random,
-            place < static_count ? nowhere : place - static_count);
+        + weigh_part(cut_into_strides(dynamic_lights(likely), first_dynamic_dimension, options.subset_length),
+            predictor, random, place < static_count ? nowhere : place - static_count);
     float weight = weigh_emitter(likely, predictor, emitter);
     return weight > 0.0f ? weight / total : 0.0f;
 }

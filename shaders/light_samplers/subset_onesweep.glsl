@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Listing 47-2: the probabilities of `subset` in one sweep and without an array. A reservoir keeps one light; the random
-// number is stretched at each decision. A light's share of it is then many intervals: blue noise in it counts for less.
+// Listing 47-2: the probabilities of `subset` in one sweep and without an array. A reservoir keeps one light; the
+// random number is stretched at each decision. A light's share of it is then many intervals: blue noise in it counts
+// for less.
 #ifndef VKPT_LIGHT_SAMPLER_SUBSET_ONESWEEP
 #define VKPT_LIGHT_SAMPLER_SUBSET_ONESWEEP
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// `subset_dynamic` whose static subset is a systematic sample with probability proportional to size (PPS; Madow 1949, "On the Theory of
-// Systematic Sampling, II"): it is drawn from the cluster's multiset, in which a light stands as often as it is likely to matter there.
-// Each entry is a light of its own that sends the light's share, so that nothing else differs and the estimate stays unbiased.
+// `subset_dynamic` whose static subset is a systematic sample with probability proportional to size (PPS; Madow 1949,
+// "On the Theory of Systematic Sampling, II"): it is drawn from the cluster's multiset, in which a light stands as
+// often as it is likely to matter there. Each entry is a light of its own that sends the light's share, so that nothing
+// else differs and the estimate stays unbiased.
 #ifndef VKPT_LIGHT_SAMPLER_SUBSET_PPS
 #define VKPT_LIGHT_SAMPLER_SUBSET_PPS
 

@@ -23,20 +23,22 @@ VKPT_CONST uint PIXEL_TILES_PER_GROUP = 8u;
 
 VKPT_CONST uint STRATUM_BLOCKS = 3u; // A-SVGF: of so many by so many bounce blocks one repeats an older sample
 
-VKPT_CONST uint OFFSETS_PER_PIXEL = 8u; // camera rays pass through so many places of each pixel of the result, one after the other
+VKPT_CONST uint OFFSETS_PER_PIXEL
+    = 8u; // camera rays pass through so many places of each pixel of the result, one after the other
 
-VKPT_CONST uint FRAME_ALPHA_TEST = 1u;  // the scene has alpha-tested triangles
-VKPT_CONST uint FRAME_NO_WORLD = 2u;    // a view of models alone (menus): lit by a fixed light, no sky
-VKPT_CONST uint FRAME_UNDERWATER = 4u;  // the eye is in a liquid
+VKPT_CONST uint FRAME_ALPHA_TEST = 1u; // the scene has alpha-tested triangles
+VKPT_CONST uint FRAME_NO_WORLD = 2u; // a view of models alone (menus): lit by a fixed light, no sky
+VKPT_CONST uint FRAME_UNDERWATER = 4u; // the eye is in a liquid
 VKPT_CONST uint FRAME_PROBES = 8u; // surfaces come from a list of points, not from the camera
-VKPT_CONST uint FRAME_JITTER = 16u;     // camera rays spread over the pixel: accumulation smooths edges
+VKPT_CONST uint FRAME_JITTER = 16u; // camera rays spread over the pixel: accumulation smooths edges
 VKPT_CONST uint FRAME_PROBE_VISIBILITY = 32u; // probe_rays.comp asks whether anything is met, not for the nearest
 
-VKPT_CONST uint FRAME_HISTORY = 64u;    // the buffers named previous_ hold the last view of this scene
+VKPT_CONST uint FRAME_HISTORY = 64u; // the buffers named previous_ hold the last view of this scene
 VKPT_CONST uint FRAME_REPROJECTED = 512u; // primary_visibility tells where things were in the last view
-VKPT_CONST uint FRAME_DENOISED = 128u;  // the picture is made from the filtered light
+VKPT_CONST uint FRAME_DENOISED = 128u; // the picture is made from the filtered light
 VKPT_CONST uint FRAME_ANTIALIASED = 1024u; // the picture is averaged over views
-VKPT_CONST uint FRAME_REPLAYED = 256u;  // random numbers follow the buffer random_seed: some pixels repeat an older sample
+VKPT_CONST uint FRAME_REPLAYED
+    = 256u; // random numbers follow the buffer random_seed: some pixels repeat an older sample
 VKPT_CONST uint FRAME_BLOOM = 2048u; // the picture is mixed with what bloom_*.comp made of it
 VKPT_CONST uint FRAME_LAYERED = 8192u; // pixels share out what glass and water show, and are mixed by blend_layers
 VKPT_CONST uint FRAME_NEAREST_TEXELS = 262144u; // large texels of pictures are shown as squares
@@ -91,10 +93,11 @@ VKPT_CONST uint SCREEN_BUFFER_COUNT = 0u
 
 // What the passes count for the CPU.
 struct FrameStatistics {
-    uint broken_pixels; // whose light was not a number, or infinite; they are shown black
+    uint nonfinite_pixels; // whose light was not a number, or infinite; they are shown black
 };
 
-VKPT_CONST uint BLOOM_FIRST_STEP = 4u; // the pyramid's first level has a pixel for so many of the picture's, in either direction
+VKPT_CONST uint BLOOM_FIRST_STEP
+    = 4u; // the pyramid's first level has a pixel for so many of the picture's, in either direction
 
 // Light that a surface reflects: diffuse without albedo.
 struct ReflectedLight {
@@ -116,40 +119,40 @@ struct BloomPush {
 struct FilterPush {
     ScreenBuffer source; // of the type of the buffer `filtered`
     ScreenBuffer target;
-    uint step;       // pixels between taps
-    uint level;      // from 0
+    uint step; // pixels between taps
+    uint level; // from 0
 };
 
-// What a level of denoise/denoise_spread.glsl is told (push constants).
-struct SpreadPush {
+// What a level of denoise/denoise_atrous.glsl is told (push constants).
+struct AtrousPush {
     ScreenBuffer source; // of the type of the buffer `filtered`
     ScreenBuffer target; // of the last level: none
-    ivec2 way;       // pixels to the first tap
+    ivec2 way; // pixels to the first tap
 };
 
 // What inspect_pixel.comp is told (push constants).
 struct InspectPush {
     uint64_t surface;
     uint64_t lights;
-    uint pixel;    // index in the screen buffers
+    uint pixel; // index in the screen buffers
     uint capacity; // lights that there is room for
-    uint draws;    // that a probability is averaged over
-    uint choices;  // at least, of which picks are counted
+    uint draws; // that a probability is averaged over
+    uint choices; // at least, of which picks are counted
 };
 
 struct Camera {
     vec3 eye;
     vec3 forward;
     vec3 right; // scaled by tan(fov_x / 2)
-    vec3 up;    // scaled by tan(fov_y / 2)
+    vec3 up; // scaled by tan(fov_y / 2)
 };
 
 // Six pictures, their directions turned by `rotation` (columns: sky space axes in the world).
 struct Sky {
     vec3 rotation[3];
     uint textures[6]; // on +x, -x, +y, -y, +z, -z; files named rt, lf, bk, ft, up, dn
-    vec3 radiance;    // multiplies the pictures
-    uint present;     // 0: `radiance` alone is the sky
+    vec3 radiance; // multiplies the pictures
+    uint present; // 0: `radiance` alone is the sky
 };
 
 struct SamplerTableAddresses {
@@ -157,7 +160,8 @@ struct SamplerTableAddresses {
 #include "sampler_tables.def"
 };
 
-// Addresses of the scene's tables. Triangle ids and emitter indices: first the map's, then those of this frame's moving things.
+// Addresses of the scene's tables. Triangle ids and emitter indices: first the map's, then those of this frame's moving
+// things.
 struct SceneView {
     BvhView trees; // the map's and the moving things'
     uint64_t trace_stack;
@@ -165,15 +169,16 @@ struct SceneView {
     uint64_t structure_ids[2]; // tables of triangle ids, see STRUCTURE_TABLE_SHIFT
     uint64_t triangles;
     uint64_t previous_positions; // of the moving things' triangles, nine floats each: where they were in the last view
-    uint first_moving;           // triangle id; UINT_MAX: previous_positions are not known
+    uint first_moving; // triangle id; UINT_MAX: previous_positions are not known
     uint64_t materials;
     uint64_t emitters;
-    uint64_t emitter_outlines;
+    uint64_t packed_lights;
     uint64_t light_lists;
     uint64_t static_light_indices;
     uint64_t dynamic_light_indices;
     SamplerTableAddresses sampler_tables;
-    // The same for samples that repeat the last view's random numbers, see LightLists::repeat(). 0: nothing has changed.
+    // The same for samples that repeat the last view's random numbers, see LightLists::repeat(). 0: nothing has
+    // changed.
     uint64_t repeated_lists;
     uint64_t repeated_light_indices;
     uint64_t previous_list_lengths; // a uint each
@@ -189,12 +194,12 @@ struct SceneView {
 struct FrameUniforms {
     Camera camera;
     Camera previous_camera; // where FRAME_HISTORY
-    vec2 pixel_offset;      // where in their pixel camera rays pass, unless FRAME_JITTER
-    uint offset_phase;      // that place's number of OFFSETS_PER_PIXEL, where as many pixels are rendered as are shown
-    float picture_taps;     // at most, along a ray's footprint in a picture
-    uvec2 previous_size;    // pixels of the buffers named previous_, other than previous_resolved
-    vec2 previous_scale;    // previous_size / size
-    vec2 offset_change;     // from `motion` to where the last view's pixels were sampled, in its pixels
+    vec2 pixel_offset; // where in their pixel camera rays pass, unless FRAME_JITTER
+    uint offset_phase; // that place's number of OFFSETS_PER_PIXEL, where as many pixels are rendered as are shown
+    float picture_taps; // at most, along a ray's footprint in a picture
+    uvec2 previous_size; // pixels of the buffers named previous_, other than previous_resolved
+    vec2 previous_scale; // previous_size / size
+    vec2 offset_change; // from `reprojected` to where the last view's pixels were sampled, in its pixels
     SceneView scene;
     ScreenBuffers screen;
     uint64_t exposure; // ExposureState
@@ -209,24 +214,24 @@ struct FrameUniforms {
     uint probe_count;
     uint dark_light_count;
     uint64_t dark_lights; // DarkLight
-    uvec2 size;          // pixels rendered
-    uvec2 bloom_size;    // pixels of the level of `bloom` that is its result, where FRAME_BLOOM
+    uvec2 size; // pixels rendered
+    uvec2 bloom_size; // pixels of the level of `bloom` that is its result, where FRAME_BLOOM
     uvec2 resolved_size; // pixels of the buffers `resolved` and `accumulated`: more where anti-aliasing upscales
     uint64_t output_words; // the picture that is shown: a word a pixel, RGBA, red in the lowest byte, sRGB-encoded
-    uint output_across;  // its pixels in a row
+    uint output_across; // its pixels in a row
     uvec2 output_origin; // where the view lies in it
     uvec2 output_size;
-    float time;          // seconds of the game
+    float time; // seconds of the game
     float frame_seconds; // wall time since the last view
-    uint frame_index;    // seeds the random numbers
+    uint frame_index; // seeds the random numbers
     uint seed;
-    uvec2 bounce_block;      // pixels that share a bounce ray: 1 x 1, 2 x 1 or 2 x 2
+    uvec2 bounce_block; // pixels that share a bounce ray: 1 x 1, 2 x 1 or 2 x 2
     uint accumulated_frames; // frames already in `accumulated`
-    uint flags;              // FRAME_*
-    vec4 blend;              // the engine's screen blend, sRGB-encoded, alpha
-    float gamma;             // vid_gamma
-    float overbright;        // multiplies the exposed radiance: vk_overbrightbits
-    float intensity;         // multiplies the encoded picture: by vk_intensity
+    uint flags; // FRAME_*
+    vec4 blend; // the engine's screen blend, sRGB-encoded, alpha
+    float gamma; // vid_gamma
+    float overbright; // multiplies the exposed radiance: vk_overbrightbits
+    float intensity; // multiplies the encoded picture: by vk_intensity
     ShaderCvars cvars;
 };
 

@@ -13,8 +13,9 @@ VKPT_CONST uint LTC_SIZE = 16u;
 VKPT_CONST uint LTC_VALUES = 6u;
 VKPT_CONST float LTC_LEAST_ROUGHNESS = 0.1f;
 
-// Values: the inverse matrix (xx, xz, yy, zx; zz = 1, the others 0) in the frame with z along the normal and the view in the
-// xz plane; then the lobe's albedo for a Fresnel factor of 1, and the part of it that goes with Schlick's (1 - cosine)^5.
+// Values: the inverse matrix (xx, xz, yy, zx; zz = 1, the others 0) in the frame with z along the normal and the view
+// in the xz plane; then the lobe's albedo for a Fresnel factor of 1, and the part of it that goes with Schlick's (1 -
+// cosine)^5.
 
 VKPT_SHARED_END
 

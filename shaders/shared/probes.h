@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What hosts ask of the scene beside pictures (ref_vkpt/extension.hpp): irradiance at points, rays, and what the light sampler makes
-// of one pixel. Quake world units, linear RGB.
+// What hosts ask of the scene beside pictures (ref_vkpt/extension.hpp): irradiance at points, rays, and what the light
+// sampler makes of one pixel. Quake world units, linear RGB.
 #ifndef VKPT_SHARED_PROBES_H
 #define VKPT_SHARED_PROBES_H
 

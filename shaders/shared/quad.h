@@ -14,15 +14,15 @@ struct Quad {
     vec2 corner_max;
     vec2 uv_min;
     vec2 uv_max;
-    uint color;         // RGBA8, red in the lowest byte, sRGB-encoded like the picture; multiplies it
-    uint texture_slot;  // bindless index
+    uint color; // RGBA8, red in the lowest byte, sRGB-encoded like the picture; multiplies it
+    uint texture_slot; // bindless index
     uint sampler_index; // SAMPLER_*
-    uint flags;         // QUAD_*
+    uint flags; // QUAD_*
 };
 VKPT_ASSERT_SIZE(Quad, 48);
 
 VKPT_CONST uint QUAD_OPAQUE = 1u; // hides what lies below it
-VKPT_CONST uint QUAD_PLAIN = 2u;  // its colour alone, no picture
+VKPT_CONST uint QUAD_PLAIN = 2u; // its colour alone, no picture
 
 // A tile that some quad touches; its quads in drawing order are quad_indices[first .. first + count).
 struct QuadTile {
@@ -34,8 +34,8 @@ struct QuadTile {
 VKPT_ASSERT_SIZE(QuadTile, 20);
 
 struct QuadPush {
-    uint64_t quads;        // Quad
-    uint64_t tiles;        // QuadTile, one per workgroup
+    uint64_t quads; // Quad
+    uint64_t tiles; // QuadTile, one per workgroup
     uint64_t quad_indices; // uint
     uint64_t output_words; // FrameUniforms::output_words
     uvec2 output_size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the software trace backend's builder (ref_vkpt/trace/bvh.cpp) and its traversal (lib/trace_software.glsl) agree
+// What the software trace backend's builder (ref_vkpt/rays/bvh.cpp) and its traversal (lib/trace_software.glsl) agree
 // on. The layout of nodes and triangles is described in bvh.cpp. GLSL users enable
 // GL_EXT_shader_explicit_arithmetic_types_int64 before including this.
 #ifndef VKPT_SHARED_TRACE_H
@@ -13,7 +13,8 @@ VKPT_CONST uint BVH_WIDTH = 8u;
 VKPT_CONST uint BVH_NODE_BYTES = 96u;
 VKPT_CONST uint BVH_FRAME_OFFSET = 48u; // bytes from a node's start
 VKPT_CONST uint BVH_CHILD_WORDS_OFFSET = 64u;
-// Distance between a node's planes: a positive float's bits >> BVH_STEP_SHIFT, that is its exponent and two bits of mantissa.
+// Distance between a node's planes: a positive float's bits >> BVH_STEP_SHIFT, that is its exponent and two bits of
+// mantissa.
 VKPT_CONST uint BVH_STEP_SHIFT = 21u;
 VKPT_CONST uint BVH_STEP_BITS = 10u;
 VKPT_CONST uint BVH_TRIANGLE_BYTES = 48u;

@@ -72,10 +72,10 @@ TEST(ImageFile, SaysWhatIsWrong)
     std::vector<float> broken = sample;
     broken[3] = std::numeric_limits<float>::quiet_NaN();
     folder.write("nan.pfm", text_of(formats::write_pfm(2, 2, broken)));
-    const std::pair<const char*, const char*> cases[]
-        = { { "short.pfm", "bytes" }, { "header.pfm", "header" }, { "empty.pfm", "header" }, { "blank.pfm", "header" }, { "word.pfm", "two" }, { "huge.pfm", "99999999999" },
-              { "text.pfm", "PF" }, { "text.png", "text.png" }, { "text.exr", "text.exr" }, { "picture.gif", ".exr" },
-              { "nan.pfm", "1 of 12" }, { "nowhere.exr", "No such file" }, { "nowhere.png", "No such file" } };
+    const std::pair<const char*, const char*> cases[] = { { "short.pfm", "bytes" }, { "header.pfm", "header" },
+        { "empty.pfm", "header" }, { "blank.pfm", "header" }, { "word.pfm", "two" }, { "huge.pfm", "99999999999" },
+        { "text.pfm", "PF" }, { "text.png", "text.png" }, { "text.exr", "text.exr" }, { "picture.gif", ".exr" },
+        { "nan.pfm", "1 of 12" }, { "nowhere.exr", "No such file" }, { "nowhere.png", "No such file" } };
     for (const auto& [name, part] : cases) {
         const std::string failure = failure_of(folder.path() / name);
         EXPECT_NE(failure.find(part), std::string::npos) << name << ": " << failure;

@@ -30,21 +30,22 @@ TEST(Spectrum, TellsWhiteFromSmoothAndRough)
     EXPECT_LT(measure_spectrum(rough, side).low_to_high(), 0.01);
 }
 
-// One wave has all its power at its own frequency, whichever way it runs, and half a picture of side^2 / 2 pixels' worth
-// at each of the two places that are it.
+// One wave has all its power at its own frequency, whichever way it runs, and half a picture of side^2 / 2 pixels'
+// worth at each of the two places that are it.
 TEST(Spectrum, AWaveStandsInItsOwnBand)
 {
     constexpr size_t side = 64;
-    for (const auto& [across, down] : { std::pair { 3, 0 }, { 0, 5 }, { 7, 2 }, { 4, 6 }, { 8, 0 }, { 0, 9 }, { 12, 5 },
-             { 21, 17 }, { 31, 0 } }) {
+    for (const auto& [across, down] :
+        { std::pair { 3, 0 }, { 0, 5 }, { 7, 2 }, { 4, 6 }, { 8, 0 }, { 0, 9 }, { 12, 5 }, { 21, 17 }, { 31, 0 } }) {
         SCOPED_TRACE(testing::Message() << across << " " << down);
         std::vector<double> wave(side * side);
         for (size_t i = 0; i < wave.size(); i++)
-            wave[i] = std::cos(2 * std::numbers::pi * double(size_t(across) * (i % side) + size_t(down) * (i / side))
-                / double(side));
+            wave[i] = std::cos(
+                2 * std::numbers::pi * double(size_t(across) * (i % side) + size_t(down) * (i / side)) / double(side));
         const Spectrum spectrum = measure_spectrum(wave, side);
         const double frequency = std::hypot(across, down) / double(side);
-        EXPECT_NEAR(frequency < 0.125 ? spectrum.high : spectrum.low, 0, 1e-9) << "an eighth of a cycle per pixel divides";
+        EXPECT_NEAR(frequency < 0.125 ? spectrum.high : spectrum.low, 0, 1e-9)
+            << "an eighth of a cycle per pixel divides";
         EXPECT_GT(frequency < 0.125 ? spectrum.low : spectrum.high, 0.1);
         const auto own = size_t(frequency * 2 * double(spectrum.power.size()));
         for (size_t band = 0; band < spectrum.power.size(); band++)

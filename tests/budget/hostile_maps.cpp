@@ -15,7 +15,7 @@ namespace {
 
 using formats::Bsp;
 
-constexpr size_t most_bytes = 990'000;
+constexpr size_t max_bytes = 990'000;
 constexpr uint16_t wall = 0, lamp = 1;
 
 formats::BspTexinfo make_texinfo(const std::string& texture, uint32_t flags, int value)
@@ -81,7 +81,7 @@ void add_face(Bsp& bsp, size_t first_edge, size_t corners, uint16_t texinfo)
 }
 
 // As many alike as fit.
-void add_faces(Bsp& bsp, size_t corners, float radius, uint16_t texinfo, size_t bytes = most_bytes)
+void add_faces(Bsp& bsp, size_t corners, float radius, uint16_t texinfo, size_t bytes = max_bytes)
 {
     const size_t edge = add_polygon(bsp, corners, radius);
     for (size_t used = 5000; used + 20 + 4 * corners < bytes && bsp.faces.size() < 60000; used += 20 + 4 * corners)
@@ -100,8 +100,8 @@ void add_clusters(Bsp& bsp, size_t count)
         std::memcpy(bsp.visibility.data() + 4 + 4 * i, &row, 4);
 }
 
-// A tree all of whose planes pass through the origin, so that what lies there is on both sides of each; every leaf is in
-// a cluster of its own, if there are so many, and all of space.
+// A tree all of whose planes pass through the origin, so that what lies there is on both sides of each; every leaf is
+// in a cluster of its own, if there are so many, and all of space.
 void add_tree(Bsp& bsp, size_t nodes, size_t clusters)
 {
     bsp.leaves.clear();
@@ -162,7 +162,7 @@ Bsp make_stretched(glm::vec3 s_axis, float s_offset)
     return bsp;
 }
 
-Bsp make_polygons(size_t corners, float radius, uint16_t texinfo, size_t bytes = most_bytes)
+Bsp make_polygons(size_t corners, float radius, uint16_t texinfo, size_t bytes = max_bytes)
 {
     Bsp bsp = make_base();
     add_faces(bsp, corners, radius, texinfo, bytes);
@@ -254,7 +254,7 @@ Bsp make_rings(size_t count, size_t length)
         const size_t start = i / length * length, end = std::min(start + length, count);
         bsp.texinfos.back().next = int32_t(i + 1 < end ? i + 1 : start);
     }
-    add_faces(bsp, 4, 100, 0, most_bytes - 76 * count);
+    add_faces(bsp, 4, 100, 0, max_bytes - 76 * count);
     finish_world(bsp);
     return bsp;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// No map of less than a megabyte takes more than the budget of tests/formats/file_budget.hpp, from its bytes to all that is
-// made of it at load.
+// No map of less than a megabyte takes more than the budget of tests/formats/file_budget.hpp, from its bytes to all
+// that is made of it at load.
 #include "ref_vkpt/lights/sampler_tables.hpp"
 #include "ref_vkpt/scene/world.hpp"
 #include "tests/budget/hostile_maps.hpp"

@@ -50,9 +50,9 @@ std::string make_zip(const std::vector<ZipFile>& files)
         const std::string packed = deflate_raw(file.text);
         const uLong sum = crc32(0, reinterpret_cast<const Bytef*>(file.text.data()), uInt(file.text.size()));
         const uint32_t size = file.told_size ? file.told_size : uint32_t(file.text.size());
-        const std::string common = little_endian(20, 2) + little_endian(0, 2) + little_endian(8, 2) + little_endian(0, 4)
-            + little_endian(uint32_t(sum), 4) + little_endian(uint32_t(packed.size()), 4) + little_endian(size, 4)
-            + little_endian(uint32_t(file.name.size()), 2) + little_endian(0, 2);
+        const std::string common = little_endian(20, 2) + little_endian(0, 2) + little_endian(8, 2)
+            + little_endian(0, 4) + little_endian(uint32_t(sum), 4) + little_endian(uint32_t(packed.size()), 4)
+            + little_endian(size, 4) + little_endian(uint32_t(file.name.size()), 2) + little_endian(0, 2);
         const size_t offset = zip.size();
         zip += "PK\x03\x04" + common + file.name + packed;
         directory += "PK\x01\x02" + little_endian(0x0314, 2) + common + little_endian(0, 6)
@@ -104,8 +104,8 @@ TEST_F(Archives, ABadOneIsNamedAndLeftOut)
     no_end[good.size() - 22] = 'x';
     no_directory[good.find("PK\x01\x02")] = 'x';
     short_directory[good.size() - 22 + 10] = '\x09'; // nine files
-    for (const std::string& bad : { std::string("this is no archive"), std::string(), no_end, no_directory, short_directory,
-             good.substr(0, good.size() - 30), std::string("PACK") }) {
+    for (const std::string& bad : { std::string("this is no archive"), std::string(), no_end, no_directory,
+             short_directory, good.substr(0, good.size() - 30), std::string("PACK") }) {
         warnings_.clear();
         folder_.write("baseq2/z.pk3", bad);
         const FileSystem files(folder_.path(), "", warn());
@@ -117,7 +117,8 @@ TEST_F(Archives, ABadOneIsNamedAndLeftOut)
 TEST_F(Archives, FalseSizesTakeNoMemory)
 {
     const Cost cost = expect_within_budget("false sizes", [&] {
-        folder_.write("baseq2/size.pk3", make_zip({ { "a.txt", "short", 0xfffffff0 }, { "b.txt", "short", 30000000 } }));
+        folder_.write(
+            "baseq2/size.pk3", make_zip({ { "a.txt", "short", 0xfffffff0 }, { "b.txt", "short", 30000000 } }));
         const FileSystem files(folder_.path(), "", warn());
         if (files.read("a.txt") || files.read("b.txt") || warnings_.size() != 2)
             throw std::runtime_error("was read");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The host's parts: game files in the engine's order, scene names, where brush models stand.
+#include "client/host/client_map.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/file_system.hpp"
 #include "client/host/output_file.hpp"
 #include "client/host/private_folder.hpp"
-#include "client/host/scene.hpp"
 #include "client/host/temporary_folder.hpp"
 #include "tests/client/run_program.hpp"
 
@@ -269,7 +269,8 @@ TEST(OutputFile, IsNotLedElsewhere)
     folder.write("victim", "precious");
     std::filesystem::create_directory(folder.path() / "shared");
     const std::filesystem::path file = folder.path() / "shared/a.json";
-    std::filesystem::create_symlink("../victim", folder.path() / "shared" / (".a.json." + std::to_string(getpid()) + ".part"));
+    std::filesystem::create_symlink(
+        "../victim", folder.path() / "shared" / (".a.json." + std::to_string(getpid()) + ".part"));
     write_file(file, "mine");
     EXPECT_EQ(folder.read("victim"), "precious");
     EXPECT_EQ(folder.read("shared/a.json"), "mine");

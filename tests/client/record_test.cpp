@@ -182,7 +182,8 @@ TEST(Record, KeepsAllOfTheFirstViewsFrame)
         (std::vector<CallKind> {
             CallKind::begin_frame, CallKind::draw_tiled, CallKind::render_view, CallKind::end_frame }));
     // begin and end of three frames, the screen and the settings, a tile, a view and the last console's character
-    EXPECT_EQ(reader.totals().calls - uint32_t(reader.facts().size()), 6u + trace::recorded_settings.size() + 1 + 1 + 1);
+    EXPECT_EQ(
+        reader.totals().calls - uint32_t(reader.facts().size()), 6u + trace::recorded_settings.size() + 1 + 1 + 1);
 }
 
 TEST(Record, RefusesWithoutAFileAndEndsTheEngineOnAFullDisk)

@@ -14,8 +14,8 @@ namespace {
 
 using namespace vkpt::trace;
 
-constexpr size_t most_bytes = 1'000'000;
-constexpr double most_mib = 512, most_seconds = 5;
+constexpr size_t max_bytes = 1'000'000;
+constexpr double max_mib = 512, max_seconds = 5;
 
 // Calls in a trace's coding.
 class Coding {
@@ -83,7 +83,7 @@ std::string pack(const std::string& raw)
 }
 
 // As often as it fits into a small file.
-std::string fill(const std::string& chunk) { return repeat(chunk, (most_bytes - sizeof(FileHeader)) / chunk.size()); }
+std::string fill(const std::string& chunk) { return repeat(chunk, (max_bytes - sizeof(FileHeader)) / chunk.size()); }
 
 const std::string begin = Coding().call(CallKind::begin_frame).take(), end = Coding().call(CallKind::end_frame).take();
 constexpr size_t chunk_bytes = 32 << 20; // the largest that are read
@@ -227,15 +227,15 @@ TEST_P(TraceBudget, IsKept)
     // Larger than any real one, and read to be compared with what was recorded.
     folder.write("baseq2/maps/sample.bsp", folder.read("baseq2/maps/sample.bsp") + std::string(20'000'000, 'x'));
     const std::string file = bytes_of(FileHeader()) + GetParam().make();
-    ASSERT_LE(file.size(), most_bytes);
+    ASSERT_LE(file.size(), max_bytes);
     folder.write("bad.rtrace", file);
     const std::vector<std::string> info { "info", "bad.rtrace" },
         render { "render", "bad.rtrace", "--size", "64x64", "--spp", "1", "-o", "a.png" };
     for (const std::vector<std::string>& arguments : { info, render }) {
         const ProgramResult result = run_program(VKPT_PROGRAM, arguments, folder.path(),
             { std::string("VKPT_MODULE=") + FAKE_MODULE, "XDG_CACHE_HOME=" + (folder.path() / "cache").string() });
-        EXPECT_LT(result.peak_mib, most_mib);
-        EXPECT_LT(result.cpu_seconds, most_seconds);
+        EXPECT_LT(result.peak_mib, max_mib);
+        EXPECT_LT(result.cpu_seconds, max_seconds);
         std::printf("%s: %.0f MiB, %.2f s\n", arguments[0].c_str(), result.peak_mib, result.cpu_seconds);
         ASSERT_NE(result.status, -1) << "it crashed";
         if (!*GetParam().reason)

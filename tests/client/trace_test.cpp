@@ -322,7 +322,8 @@ std::string pack_chunk(const std::string& raw, uint32_t wrong_bits = 0)
 {
     std::string packed(compressBound(uLong(raw.size())), '\0');
     uLongf size = uLong(packed.size());
-    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(raw.data()), uLong(raw.size()));
+    compress(
+        reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(raw.data()), uLong(raw.size()));
     packed.resize(size);
     const ChunkHeader header { tag_calls, uint32_t(size), uint32_t(raw.size()), 0, crc_of(packed) ^ wrong_bits, 0 };
     return bytes_of(header) + packed;

@@ -22,7 +22,8 @@ protected:
     SceneText()
     {
         const float up[3][3] = { { 0, 0, 1 }, { 0, 0, 1 }, { 0, 0, 1 } };
-        triangles[0] = { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0.5f } }, { { 0, 0 }, { 1, 0 }, { 0, 0.25f } }, {}, 1, 0, 1 };
+        triangles[0]
+            = { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0.5f } }, { { 0, 0 }, { 1, 0 }, { 0, 0.25f } }, {}, 1, 0, 1 };
         triangles[1] = { { { 5, 0, 0 }, { 6, 0, 0 }, { 5, 1, 0 } }, {}, {}, 2, -1, 4 };
         for (SceneTriangle& triangle : triangles)
             std::memcpy(triangle.normals, up, sizeof up);
@@ -33,9 +34,9 @@ protected:
         emitters[0]
             = { shared::EMITTER_TRIANGLE, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0.5f } }, {}, 0, { 2, 3, 4 }, 0.5f, 0 };
         emitters[1] = { shared::EMITTER_SPHERE, {}, { 7, 8, 9 }, 2, { 1, 0, 0 }, 16 * std::numbers::pi_v<float>, 100 };
-        contents
-            = { triangles, 2, materials, 3, emitters, 2, { { 1, 2, 3 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 0, 0.5f } },
-                  { { "env/rt.pcx", "", "", "", "", "" }, { { 0, 1, 0 }, { -1, 0, 0 }, { 0, 0, 1 } }, { 2, 2, 2 } }, 1.5f };
+        contents = { triangles, 2, materials, 3, emitters, 2,
+            { { 1, 2, 3 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 0, 0.5f } },
+            { { "env/rt.pcx", "", "", "", "", "" }, { { 0, 1, 0 }, { -1, 0, 0 }, { 0, 0, 1 } }, { 2, 2, 2 } }, 1.5f };
         // A palette whose entry 5 is red, and pictures of that.
         formats::IndexedImage image { 4, 2, std::vector<uint8_t>(8, 5), {} };
         image.palette[5] = { 255, 0, 0, 255 };
@@ -43,7 +44,8 @@ protected:
             return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         };
         folder.write("baseq2/pics/colormap.pcx", text_of(formats::write_pcx(image)));
-        folder.write("baseq2/textures/lamp.wal", text_of(formats::write_wal({ 16, 16, std::vector<uint8_t>(256, 5), {} }, {})));
+        folder.write(
+            "baseq2/textures/lamp.wal", text_of(formats::write_wal({ 16, 16, std::vector<uint8_t>(256, 5), {} }, {})));
         folder.write("baseq2/env/rt.pcx", text_of(formats::write_pcx(image)));
         files = std::make_unique<FileSystem>(folder.path(), "");
         pictures = std::make_unique<ScenePictures>(*files);
@@ -101,7 +103,8 @@ TEST_F(SceneText, SkyShowsItsSides)
 TEST_F(SceneText, JsonHasCameraEmittersAndTheirPower)
 {
     using std::numbers::pi;
-    const nlohmann::json json = nlohmann::json::parse(make_scene_json(contents, "maps/a.bsp", 3, { 640, 480 }, "sky.exr"));
+    const nlohmann::json json
+        = nlohmann::json::parse(make_scene_json(contents, "maps/a.bsp", 3, { 640, 480 }, "sky.exr"));
     EXPECT_EQ(json.at("schema"), scene_schema);
     EXPECT_EQ(json.at("frame"), 3);
     EXPECT_NEAR(json.at("camera").at("fov_x").get<double>(), 90, 1e-4);

@@ -159,6 +159,15 @@ TEST_F(Cvars, ValidSpellingsStay)
     EXPECT_TRUE(mock.console.empty()) << mock.console.front();
 }
 
+TEST_F(Cvars, RenamedValuesOfOldConfigurationsStand)
+{
+    mock.set("pt_light_weight", "chapter");
+    cvars::update();
+    EXPECT_EQ(cvars::values().pt_light_weight, "brdf_centre");
+    EXPECT_EQ(mock.get("pt_light_weight"), "brdf_centre");
+    EXPECT_TRUE(mock.console.empty()) << mock.console.front();
+}
+
 TEST_F(Cvars, TheEnginesOwnAreNotJudged)
 {
     mock.set("r_customwidth", "nonsense");
@@ -219,11 +228,11 @@ TEST_F(Cvars, FilesAreGivenBack)
 TEST_F(Cvars, FilesOverTheLimitAreNotAskedFor)
 {
     mock.files["maps/small.bsp"] = "tiny";
-    constexpr int most_bytes = 256 << 20;
-    mock.told_sizes["maps/small.bsp"] = most_bytes;
+    constexpr int max_bytes = 256 << 20;
+    mock.told_sizes["maps/small.bsp"] = max_bytes;
     EXPECT_TRUE(engine::load_file("maps/small.bsp"));
     EXPECT_EQ(mock.files_loaded, 1);
-    mock.told_sizes["maps/small.bsp"] = most_bytes + 1;
+    mock.told_sizes["maps/small.bsp"] = max_bytes + 1;
     EXPECT_FALSE(engine::load_file("maps/small.bsp"));
     EXPECT_EQ(mock.files_loaded, 1) << "the engine would have taken that memory";
     EXPECT_EQ(mock.lines_with("maps/small.bsp is not read: it has 268435457 bytes").size(), 1u);

@@ -15,8 +15,8 @@ constexpr const char* capture_some = "set pt_capture_every 1\nwait_5\nset pt_cap
 // The number in "frame000017.png".
 int frame_number(const std::filesystem::path& picture) { return std::stoi(picture.stem().string().substr(5)); }
 
-// The last picture of each `capture_some`: between two of them frame numbers leap, or the renderer was started anew, which
-// then captures into a new folder.
+// The last picture of each `capture_some`: between two of them frame numbers leap, or the renderer was started anew,
+// which then captures into a new folder.
 std::vector<formats::Image> captured(const EngineRun& run)
 {
     std::vector<formats::Image> last;
@@ -49,8 +49,9 @@ TEST(Engine, RestartsVideoInOtherModes)
 {
     EngineOptions options;
     const std::string capture = capture_some;
-    options.script = "wait_5\n" + capture + "vid_restart\nwait_25\nvid_restart\nwait_25\n" + capture + "r_customwidth 400\nr_customheight 300\nvid_restart\nwait_25\n" + capture
-        + "r_mode 0\nvid_restart\nwait_25\n" + capture + "r_mode -2\nvid_fullscreen 2\nvid_restart\nwait_25\n" + capture
+    options.script = "wait_5\n" + capture + "vid_restart\nwait_25\nvid_restart\nwait_25\n" + capture
+        + "r_customwidth 400\nr_customheight 300\nvid_restart\nwait_25\n" + capture + "r_mode 0\nvid_restart\nwait_25\n"
+        + capture + "r_mode -2\nvid_fullscreen 2\nvid_restart\nwait_25\n" + capture
         + "r_mode -1\nvid_fullscreen 0\nr_customwidth 161\nr_customheight 97\nr_vsync 0\nvid_restart\nwait_25\n"
         + capture + "quit\n";
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec", "test.cfg" };
@@ -68,10 +69,10 @@ TEST(Engine, FollowsItsWindow)
     const std::string window = "xdotool search --class quake2 ";
     EngineOptions options;
     const std::string capture = capture_some;
-    options.script = "wait_25\n" + capture + display_mark + capture + display_mark + display_mark + capture + display_mark
-        + "wait_25\nvid_restart\nwait_25\n" + capture + "quit\n";
-    options.display_commands = { window + "windowsize 402 299", window + "windowunmap", window + "windowmap",
-        window + "windowsize 97 61" };
+    options.script = "wait_25\n" + capture + display_mark + capture + display_mark + display_mark + capture
+        + display_mark + "wait_25\nvid_restart\nwait_25\n" + capture + "quit\n";
+    options.display_commands
+        = { window + "windowsize 402 299", window + "windowunmap", window + "windowmap", window + "windowsize 97 61" };
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec", "test.cfg" };
     const EngineRun run(options);
     run.expect_clean();

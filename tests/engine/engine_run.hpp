@@ -5,9 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <ios>
 #include <filesystem>
 #include <functional>
+#include <ios>
 #include <map>
 #include <string>
 #include <vector>
@@ -51,8 +51,8 @@ std::string wait_aliases();
 // A line for EngineOptions::script that makes the harness note the engine's memory and open files.
 inline constexpr const char* memory_mark = "echo memory mark\nwait_25\n";
 
-// A line for EngineOptions::script: here the harness runs the next of EngineOptions::display_commands, and the engine goes on
-// drawing until it has. (In other files the engine goes on with its script after some frames.)
+// A line for EngineOptions::script: here the harness runs the next of EngineOptions::display_commands, and the engine
+// goes on drawing until it has. (In other files the engine goes on with its script after some frames.)
 inline constexpr const char* display_mark = "echo display mark\nwait_25\nwait_25\n";
 
 // Owns the run's folder; the result is valid as long as it lives.
@@ -65,7 +65,8 @@ public:
 
     const EngineResult& result() const { return outcome; }
 
-    // Exit status 0 within its CPU time, our module loaded every time a renderer was, no message of the validation layers.
+    // Exit status 0 within its CPU time, our module loaded every time a renderer was, no message of the validation
+    // layers.
     void expect_clean() const;
     // Where the renderer's first start captured frames under `capture_name`, its second one with any, and so on.
     std::filesystem::path captures(int start = 1) const;

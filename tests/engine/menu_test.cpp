@@ -55,17 +55,19 @@ TEST(Engine, VideoMenuChoosesThisRendererAndItsRowsAct)
     const std::string capture = "set pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\n";
     // A mark's waits are over before its keys are all pressed.
     const std::string keys = display_mark + repeat("wait_100\n", 4);
-    options.script = "wait_25\n" + capture + "menu_video\nwait_5\n" + keys
+    options.script = "wait_25\n" + capture + "menu_video\nwait_5\n"
+        + keys
         // The menu has asked for the restart, too, but behind this script.
-        + "vid_renderer\nvid_restart\nwait_25\nmenu_video\nwait_5\n" + keys + "wait_5\nvid_gamma\nvk_intensity\nvk_overbrightbits\n" + capture + "quit\n";
+        + "vid_renderer\nvid_restart\nwait_25\nmenu_video\nwait_5\n" + keys
+        + "wait_5\nvid_gamma\nvk_intensity\nvk_overbrightbits\n" + capture + "quit\n";
     options.display_commands = {
         // From "Custom" to "Vulkan", which is this renderer, and up around the corner to "apply".
         press({ "Left", "Up", "Return" }),
         // Three rows more than before lie above "apply", where the cursor was.
         press({ "Up", "Up", "Up", "Up", "Up", "Right", "Right", "Up", "Right", "Up", "Up", "Right", "Escape" }),
     };
-    options.arguments
-        = { "+set", "pt_capture_dir", capture_name, "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
+    options.arguments = { "+set", "pt_capture_dir", capture_name, "+set", "pt_render_scale", "25", "+map", own_map,
+        "+exec", "test.cfg" };
     options.cpu_seconds = 600;
     const EngineRun run(options);
     run.expect_clean();
@@ -79,7 +81,8 @@ TEST(Engine, VideoMenuChoosesThisRendererAndItsRowsAct)
     EXPECT_NE(read_text(run.result().game_folder / "config.cfg").find("set vid_renderer \"vk\""), std::string::npos);
     const auto before = list_pictures(run.captures(1)), after = list_pictures(run.captures(2));
     ASSERT_FALSE(before.empty() || after.empty()) << run.result().console;
-    EXPECT_GT(measure_picture(load_picture(after.back())).mean, 1.2 * measure_picture(load_picture(before.back())).mean);
+    EXPECT_GT(
+        measure_picture(load_picture(after.back())).mean, 1.2 * measure_picture(load_picture(before.back())).mean);
 }
 
 // While the page is open its keys do not reach the engine, whose menu escape would open.

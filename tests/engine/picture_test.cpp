@@ -22,7 +22,7 @@ constexpr int capture_every = 20;
 constexpr double mean_tolerance = 0.05; // relative
 constexpr double deviation_tolerance = 0.05;
 constexpr double noise_tolerance = 0.12;
-constexpr double least_noise = 0.004; // two steps of 8 bits are no noise worth comparing
+constexpr double min_noise = 0.004; // two steps of 8 bits are no noise worth comparing
 constexpr double black_tolerance = 0.015;
 
 std::vector<PictureStatistics> read_statistics()
@@ -90,7 +90,7 @@ TEST(Engine, DemoFramesAreAsTheyShouldBe)
         EXPECT_LT(seen[i].black, 0.5) << "half of the picture is black";
         EXPECT_NEAR(seen[i].mean, stored[i].mean, mean_tolerance * stored[i].mean);
         EXPECT_NEAR(seen[i].deviation, stored[i].deviation, deviation_tolerance * stored[i].deviation);
-        EXPECT_NEAR(seen[i].noise, stored[i].noise, noise_tolerance * stored[i].noise + least_noise);
+        EXPECT_NEAR(seen[i].noise, stored[i].noise, noise_tolerance * stored[i].noise + min_noise);
         EXPECT_NEAR(seen[i].black, stored[i].black, black_tolerance);
     }
 }

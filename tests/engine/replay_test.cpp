@@ -125,8 +125,8 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
     ASSERT_EQ(recorded.status, 0) << recorded.errors;
     const size_t frames = trace::TraceReader(folder.path() / "a.rtrace").frame_count();
     const ProgramResult replayed = run({ "render", "a.rtrace", "--basedir", game_data, "--size", size, "--seed", "1",
-        "--set", "pt_validation=1", "--frames", std::to_string(frames), "--set", "pt_capture_dir=capture", "--set", "pt_capture_every=" + every,
-        "-o", "last.png" });
+        "--set", "pt_validation=1", "--frames", std::to_string(frames), "--set", "pt_capture_dir=capture", "--set",
+        "pt_capture_every=" + every, "-o", "last.png" });
     ASSERT_EQ(replayed.status, 0) << replayed.errors;
     EXPECT_EQ(replayed.errors.find("vkpt validation:"), std::string::npos) << replayed.errors;
     for (const auto& picture : shown) {

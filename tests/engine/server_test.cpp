@@ -63,8 +63,8 @@ EngineOptions play(const std::string& commands)
     options.files["demos/evil.dm2"] = make_demo(commands);
     options.files["victim.cfg"] = "bind x quit\n";
     options.files["vkpt/bench/victim.json"] = "{ \"mine\": 1 }\n";
-    options.arguments = { "+set", "timedemo", "1", "+set", "cl_predict", "0", "+set", "nextdemo", "quit", "+demomap",
-        "evil.dm2" };
+    options.arguments
+        = { "+set", "timedemo", "1", "+set", "cl_predict", "0", "+set", "nextdemo", "quit", "+demomap", "evil.dm2" };
     options.cpu_seconds = 600;
     return options;
 }

@@ -25,9 +25,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int most_rounds = 100, maps_per_round = 5; // 500 map changes and 100 restarts
-constexpr size_t warm_up_rounds = 2, least_rounds = warm_up_rounds + 2;
-constexpr double most_growth = 0.01; // of the memory after the warm-up
+constexpr int max_rounds = 100, maps_per_round = 5; // 500 map changes and 100 restarts
+constexpr size_t warm_up_rounds = 2, min_rounds = warm_up_rounds + 2;
+constexpr double max_growth = 0.01; // of the memory after the warm-up
 
 // Not set at random: they write files, end the run, or take another driver's measure of time.
 constexpr std::string_view left_alone[]
@@ -181,10 +181,10 @@ TEST(Soak, LongNothingPilesUp)
     options.height = 90;
     options.cpu_seconds = 1e9; // as long as it was told to
     Script script { unsigned(seed) };
-    for (int round = 0; round < most_rounds; round++)
+    for (int round = 0; round < max_rounds; round++)
         options.files[file_of_round(round)] = script.write_round(options.display_commands)
-            + (size_t(round) + 1 < least_rounds ? "" : "exec soak_end.cfg\n") // a slow machine takes longer
-            + (round + 1 < most_rounds ? "exec " + file_of_round(round + 1) + "\n" : "quit\n");
+            + (size_t(round) + 1 < min_rounds ? "" : "exec soak_end.cfg\n") // a slow machine takes longer
+            + (round + 1 < max_rounds ? "exec " + file_of_round(round + 1) + "\n" : "quit\n");
     options.files["soak_end.cfg"] = "// where the time is over, this quits\n";
     options.script = "exec " + file_of_round(0) + "\n";
     options.arguments = { "+exec", "test.cfg" };
@@ -208,14 +208,14 @@ TEST(Soak, LongNothingPilesUp)
         std::printf("%zu %s\n", count, what.c_str());
     for (size_t i = 0; i < memory.size(); i++)
         std::printf("after round %zu: %.1f MiB, %zu open files\n", i + 1, double(memory[i]) / (1 << 20), handles[i]);
-    ASSERT_GE(memory.size(), least_rounds) << "too few rounds to say anything: let it run longer";
+    ASSERT_GE(memory.size(), min_rounds) << "too few rounds to say anything: let it run longer";
     for (size_t i = warm_up_rounds; i < handles.size(); i++)
         EXPECT_EQ(handles[i], handles[warm_up_rounds - 1]) << "open files after round " << i + 1;
     // The least of the last half against the least of the first: what is only held for a while does not count.
     const auto middle = memory.begin() + std::ptrdiff_t(warm_up_rounds + (memory.size() - warm_up_rounds) / 2);
     const double before = double(*std::min_element(memory.begin() + warm_up_rounds, middle)),
                  after = double(*std::min_element(middle, memory.end()));
-    EXPECT_LT(after, before * (1 + most_growth));
+    EXPECT_LT(after, before * (1 + max_growth));
 }
 
 } // namespace vkpt::tests

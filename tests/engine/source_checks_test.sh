@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# scripts/check_layers.sh and scripts/check_functions.sh find what they are for.
+# scripts/check_layers.sh, check_functions.sh and format_code.sh find what they are for.
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/../.." && pwd)
 folder=$(mktemp -d)
@@ -26,3 +26,12 @@ write_function 60 >"$folder/ref_vkpt/frame/frame.cpp"
 write_function 61 >"$folder/ref_vkpt/frame/frame.cpp"
 found=$("$root/scripts/check_functions.sh" "$folder") && fail "a function of 61 lines was not found"
 [[ $found == *"frame.cpp:3: 61 lines: void act()" ]] || fail "$found"
+
+mkdir "$folder/code" && cp "$root/.clang-format" "$folder/code"
+printf 'int  f( );\n' >"$folder/code/some.cpp"
+"$root/scripts/format_code.sh" --check "$folder/code" >"$folder/said"
+status=$?
+((status == 3)) && { echo "not checked: another version of clang-format"; exit 0; }
+((status == 1)) && grep -q 'some.cpp is not formatted' "$folder/said" || fail "code that is not formatted was not found"
+"$root/scripts/format_code.sh" "$folder/code" && "$root/scripts/format_code.sh" --check "$folder/code" || fail "formatted code is refused"
+[[ $(<"$folder/code/some.cpp") == 'int f();' ]] || fail "$(<"$folder/code/some.cpp")"

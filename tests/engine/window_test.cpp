@@ -86,8 +86,8 @@ TEST(Engine, LostSurfacesAreMadeAnew)
     const std::string grabbed = (folder.path() / "window.png").string();
     options.script = std::string("wait_25\n") + display_mark + "set pt_capture_every 1\nwait_5\n" + display_mark
         + "set pt_capture_every 0\nwait\nquit\n";
-    options.display_commands = { faults.begin("surface"), VKPT_GRAB_WINDOW " " + std::to_string(options.width) + " "
-            + std::to_string(options.height) + " " + grabbed };
+    options.display_commands = { faults.begin("surface"),
+        VKPT_GRAB_WINDOW " " + std::to_string(options.width) + " " + std::to_string(options.height) + " " + grabbed };
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec", "test.cfg" };
     options.cpu_seconds = 600;
     const EngineRun run(options);

@@ -86,8 +86,8 @@ VkResult VKAPI_CALL create_instance(
     return result;
 }
 
-VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
-    const VkAllocationCallbacks* callbacks, VkDevice* made)
+VkResult VKAPI_CALL create_device(
+    VkPhysicalDevice physical, const VkDeviceCreateInfo* info, const VkAllocationCallbacks* callbacks, VkDevice* made)
 {
     const std::scoped_lock lock(mutex);
     auto* link = find_link<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
@@ -120,8 +120,7 @@ PFN_vkAcquireNextImageKHR next_acquire;
 VkResult VKAPI_CALL acquire(
     VkDevice of, VkSwapchainKHR swapchain, uint64_t limit, VkSemaphore semaphore, VkFence fence, uint32_t* picture)
 {
-    return is_lost(shown) ? VK_ERROR_SURFACE_LOST_KHR
-                          : next_acquire(of, swapchain, limit, semaphore, fence, picture);
+    return is_lost(shown) ? VK_ERROR_SURFACE_LOST_KHR : next_acquire(of, swapchain, limit, semaphore, fence, picture);
 }
 
 PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR next_capabilities;

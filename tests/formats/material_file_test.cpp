@@ -22,8 +22,7 @@ TEST(MaterialFile, ReadsNamesAndAttributes)
         "materials/test.mat");
     EXPECT_TRUE(file.messages.empty());
     ASSERT_EQ(file.entries.size(), 2u);
-    EXPECT_EQ(file.entries[0].names,
-        (std::vector<std::string> { "e1u1/metal5_4", "e1u1/metal5_5", "models/x/skin" }));
+    EXPECT_EQ(file.entries[0].names, (std::vector<std::string> { "e1u1/metal5_4", "e1u1/metal5_5", "models/x/skin" }));
     EXPECT_EQ(file.entries[0].attributes,
         (Attributes { { "roughness_override", "0.25" }, { "texture_normals", "overrides/metal_n.tga" } }));
     EXPECT_EQ(file.entries[1].attributes, (Attributes { { "kind", "CHROME" } }));
@@ -62,15 +61,15 @@ TEST(MaterialFile, WritesWhatItReads)
 
 TEST(MaterialFile, HasLimits)
 {
-    EXPECT_THROW(read_materials(std::string(most_material_bytes + 1, '\n'), "m.mat"), FormatError);
+    EXPECT_THROW(read_materials(std::string(max_material_bytes + 1, '\n'), "m.mat"), FormatError);
     std::string names;
-    for (size_t i = 0; i <= most_material_names; i++)
+    for (size_t i = 0; i <= max_material_names; i++)
         names += "a,\n";
     EXPECT_THROW(read_materials(names, "m.mat"), FormatError);
     std::string nonsense;
     for (int i = 0; i < 1000; i++)
         nonsense += "what is this\n";
-    EXPECT_EQ(read_materials(nonsense, "m.mat").messages.size(), MaterialFile::most_messages);
+    EXPECT_EQ(read_materials(nonsense, "m.mat").messages.size(), MaterialFile::max_messages);
 }
 
 TEST(MaterialFile, EveryAttributeIsOnceInTheTable)

@@ -20,12 +20,12 @@ struct Entity : Edict {
 class OwnEntitiesTest : public testing::Test {
 protected:
     OwnEntitiesTest()
-        : array(most_edicts)
+        : array(max_edicts)
     {
         game.edicts = array.data();
         game.edict_size = sizeof(Entity);
         game.edict_count = 60;
-        game.max_edicts = most_edicts;
+        game.max_edicts = max_edicts;
         engine.link_entity = [](Edict*) { links++; };
         links = 0;
     }
@@ -50,9 +50,9 @@ TEST_F(OwnEntitiesTest, AreThereOnlyWhileTheServerLooks)
     const int handle = own.add();
     own.state(handle).skin = 7;
     own.touch(handle, 100);
-    EXPECT_EQ(own.show(game, engine), most_edicts);
+    EXPECT_EQ(own.show(game, engine), max_edicts);
     EXPECT_EQ(array.back().state.skin, 7);
-    EXPECT_EQ(array.back().state.number, most_edicts - 1);
+    EXPECT_EQ(array.back().state.number, max_edicts - 1);
     EXPECT_EQ(links, 1);
     array.back().link_count = 5; // the server's note
     own.hide(game);
@@ -71,26 +71,26 @@ TEST_F(OwnEntitiesTest, TheGameMayUseEverySlot)
 {
     for (int i = 0; i < 10; i++)
         own.add();
-    game.edict_count = most_edicts - 4;
+    game.edict_count = max_edicts - 4;
     own.show(game, engine);
     EXPECT_EQ(count_shown(), 4);
     EXPECT_EQ(own.without_slot(), 6);
     own.hide(game);
-    game.edict_count = most_edicts;
-    EXPECT_EQ(own.show(game, engine), most_edicts);
+    game.edict_count = max_edicts;
+    EXPECT_EQ(own.show(game, engine), max_edicts);
     EXPECT_EQ(count_shown(), 0);
     EXPECT_EQ(own.without_slot(), 10);
 }
 
 TEST_F(OwnEntitiesTest, ComeAFewAFrame)
 {
-    for (int i = 0; i < 3 * OwnEntities::most_new_per_frame; i++)
+    for (int i = 0; i < 3 * OwnEntities::max_new_per_frame; i++)
         own.add();
     for (int frame = 1; frame <= 3; frame++) {
         own.begin_frame();
         for (int call = 0; call < 3; call++) {
             own.show(game, engine);
-            EXPECT_EQ(count_shown(), frame * OwnEntities::most_new_per_frame);
+            EXPECT_EQ(count_shown(), frame * OwnEntities::max_new_per_frame);
             own.hide(game);
         }
     }

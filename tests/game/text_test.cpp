@@ -78,7 +78,7 @@ TEST(LightText, ErrorsNameLineAndWord)
     EXPECT_NE(file("light 0 0 0 0 0 mauve").find("'mauve' says nothing"), std::string::npos);
     EXPECT_NE(file("light 0 0 0 0 0 300 4 5").find("'5' is one number too many"), std::string::npos);
     std::string many;
-    for (size_t i = 0; i <= most_lights; i++)
+    for (size_t i = 0; i <= max_lights; i++)
         many += "light 0 0 0 0 0\n";
     EXPECT_NE(file(many.c_str()).find("line 97: more than 96 lights"), std::string::npos);
 }
@@ -161,7 +161,7 @@ TEST(GameFiles, LinksAreNotFollowedAndStrangersFilesStay)
     fs::create_directory_symlink(folder.path / "lights", outside.path / "lights");
     EXPECT_NE(error_of([&] { linked.write("a", "# mark"); }), "");
     EXPECT_NE(error_of([&] { linked.read("a"); }), "");
-    std::ofstream(folder.path / "lights/big.txt") << std::string(TextFiles::most_bytes + 1, 'x');
+    std::ofstream(folder.path / "lights/big.txt") << std::string(TextFiles::max_bytes + 1, 'x');
     EXPECT_NE(error_of([&] { files.read("big"); }).find("longer than"), std::string::npos);
 }
 

@@ -39,7 +39,7 @@ ServerOptions make_cycle(long frames, long deaths)
 }
 
 // With the module, and once more without it: the game gets the same calls about players and has to do the same.
-void expect_same_states(ServerOptions options, long least_deaths)
+void expect_same_states(ServerOptions options, long min_deaths)
 {
     options.probe_inside = true;
     const ServerRun wrapped(options);
@@ -47,7 +47,7 @@ void expect_same_states(ServerOptions options, long least_deaths)
     long deaths = 0;
     for (size_t i = 1; i < wrapped.states().size(); i++)
         deaths += wrapped.states()[i].health <= 0 && wrapped.states()[i - 1].health > 0;
-    EXPECT_GE(deaths, least_deaths);
+    EXPECT_GE(deaths, min_deaths);
 
     options.probe_inside = options.sanitized = false;
     options.replay = true;

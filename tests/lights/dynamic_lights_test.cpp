@@ -15,7 +15,7 @@ namespace {
 using shared::Emitter;
 
 constexpr int map_size = 10; // cells
-constexpr size_t most_lights = 64;
+constexpr size_t max_lights = 64;
 
 // A light of the game, with the name that the engine does not tell.
 struct GameLight {
@@ -35,7 +35,7 @@ public:
     void step()
     {
         const uint32_t action = rng_() % 3;
-        if (action == 0 && lights.size() < most_lights)
+        if (action == 0 && lights.size() < max_lights)
             lights.insert(lights.begin() + ptrdiff_t(rng_() % (lights.size() + 1)), { make_light(), names_++ });
         else if (action == 1 && !lights.empty())
             lights.erase(lights.begin() + ptrdiff_t(rng_() % lights.size()));
@@ -91,7 +91,7 @@ TEST(DynamicLights, KeepTheirSlotsWhileTheyLive)
         game.step();
         std::vector<Emitter> arranged = game.emitters();
         const std::vector<uint32_t> slot = slots.arrange(arranged);
-        ASSERT_LE(arranged.size(), most_lights);
+        ASSERT_LE(arranged.size(), max_lights);
         std::vector<std::pair<int, uint32_t>> now;
         std::vector<bool> taken(arranged.size(), false);
         for (size_t i = 0; i < game.lights.size(); i++) {
@@ -206,7 +206,8 @@ TEST(DynamicLights, ThatGoOutAreInNoList)
     EXPECT_TRUE(lists.dynamic_indices().empty());
 }
 
-// Two lights in a row move on by more than half of what is between them: the first ends nearest to where the second was.
+// Two lights in a row move on by more than half of what is between them: the first ends nearest to where the second
+// was.
 TEST(DynamicLights, TheNearestPairIsMatchedFirst)
 {
     const auto light_at = [](float x) {
@@ -229,8 +230,8 @@ TEST(DynamicLights, TheNearestPairIsMatchedFirst)
     }
 }
 
-// What moves as one and has thousands of lights that are alike: their order tells them apart, and no time grows with the
-// square of their number.
+// What moves as one and has thousands of lights that are alike: their order tells them apart, and no time grows with
+// the square of their number.
 TEST(DynamicLights, ThousandsThatAreAlikeKeepTheirSlots)
 {
     std::vector<Emitter> lights(8000);

@@ -111,13 +111,13 @@ TEST(Emitters, UndrawnAndBlackLightsAreNamed)
 }
 
 // Rays that bounce pass through what is not whole: its light must not be counted as a wall's.
-TEST(Emitters, WhatLetsRaysThroughIsAVeil)
+TEST(Emitters, WhatLetsRaysThroughIsTransparent)
 {
     for (const int32_t flag : { formats::SURF_TRANS33, formats::SURF_TRANS66, formats::SURF_ALPHATEST }) {
         formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
         bsp.texinfos[1].flags |= flag;
         const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
-        EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[1])].type, shared::EMITTER_VEIL) << flag;
+        EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[1])].type, shared::EMITTER_TRANSPARENT) << flag;
         EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[2])].type, shared::EMITTER_TRIANGLE) << flag;
     }
 }
@@ -152,7 +152,8 @@ TEST(Emitters, FollowTheFirstLightstyleThatIsNotSteady)
     }
 }
 
-// Three pictures by turns, the second without light: emitters have the brightest one's radiance, a table has the shares.
+// Three pictures by turns, the second without light: emitters have the brightest one's radiance, a table has the
+// shares.
 TEST(Emitters, FollowAnAnimation)
 {
     formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
@@ -284,8 +285,7 @@ TEST(PointLights, BadEntitiesAreNamedNotFatal)
 TEST(PointLights, AreAllClassesThatBeginSo)
 {
     for (const char* name : { "light", "light_mine1", "light_torch", "lightflare", "light_spot" })
-        EXPECT_EQ(extract_with_entities(
-                      R"({ "classname" ")" + std::string(name) + R"(" "origin" "64 64 64" })")
+        EXPECT_EQ(extract_with_entities(R"({ "classname" ")" + std::string(name) + R"(" "origin" "64 64 64" })")
                       .emitters.size(),
             1u)
             << name;
@@ -294,8 +294,10 @@ TEST(PointLights, AreAllClassesThatBeginSo)
 
 shared::Emitter extract_spot(const std::string& keys)
 {
-    const StaticEmitters emitters = extract_with_entities(R"({ "classname" "info_null" "targetname" "t1" "origin" "64 64 10" }
-        { "classname" "light" "origin" "64 64 64" )" + keys + " }");
+    const StaticEmitters emitters
+        = extract_with_entities(R"({ "classname" "info_null" "targetname" "t1" "origin" "64 64 10" }
+        { "classname" "light" "origin" "64 64 64" )"
+            + keys + " }");
     return emitters.emitters.size() == 1 ? emitters.emitters[0] : shared::Emitter {};
 }
 

@@ -3,7 +3,7 @@
 // part: its functions are not inline, hence the anonymous namespace.
 #pragma once
 
-#include "ref_vkpt/lights/outlines.hpp"
+#include "ref_vkpt/lights/packed_lights.hpp"
 #include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
 #include "shaders/shared/light_sampler.h"

@@ -144,7 +144,7 @@ TEST(LightCache, IsBoundedWhateverTheMap)
     const size_t point = add_face(bsp, { { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } }, { 0, 0, 1 }, 0);
     bsp.models[0].face_count = int32_t(bsp.faces.size());
     const LightCacheLayout layout = Map(bsp).lay_out();
-    EXPECT_LE(layout.cells.size(), most_cache_cells);
+    EXPECT_LE(layout.cells.size(), max_cache_cells);
     EXPECT_GT(layout.faces[large].size, 0u);
     EXPECT_EQ(layout.faces[broken].size, 0u);
     EXPECT_EQ(layout.faces[point].size, 0u);

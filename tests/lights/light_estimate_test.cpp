@@ -208,7 +208,7 @@ TEST(LightEstimates, WeightsAndPointsOnlyChangeTheNoise)
             continue;
         const ListCase seen = sampler.has(shared::SAMPLER_MIS) ? list : without_unlisted(list);
         const double truth = sampler.integrate(seen, 64);
-        for (const int weight : { shared::LIGHT_WEIGHT_CHAPTER, shared::LIGHT_WEIGHT_LTC })
+        for (const int weight : { shared::LIGHT_WEIGHT_BRDF_CENTRE, shared::LIGHT_WEIGHT_LTC })
             for (const int point :
                 { shared::LIGHT_POINT_AREA, shared::LIGHT_POINT_SOLID_ANGLE, shared::LIGHT_POINT_PROJECTED }) {
                 const Moments found = estimate_evenly(sampler, seen, { 8, weight, point }, 4000);

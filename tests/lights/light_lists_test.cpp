@@ -269,7 +269,7 @@ TEST(LightLists, MovingLightsFindRoomOrAreLeftOut)
     CellWorld world(32, 1, 1);
     LightLists lists;
     lists.build(world.bsp, {});
-    const size_t clusters = lists.lists().size() - 1, fit = LightLists::most_dynamic_entries / clusters;
+    const size_t clusters = lists.lists().size() - 1, fit = LightLists::max_dynamic_entries / clusters;
     Emitter lamp {};
     lamp.type = shared::EMITTER_SPHERE;
     lamp.p0 = world.point_in_the_open();
@@ -364,11 +364,11 @@ TEST(LightLists, ShadersFindPlacesInRepeatedLists)
     std::mt19937 rng(7);
     const auto draw = [&](uint32_t least, uint32_t most) { return std::uniform_int_distribution(least, most)(rng); };
     for (int round = 0; round < 300; round++) {
-        const uint32_t most_apart = 1u << draw(0, 12);
+        const uint32_t max_apart = 1u << draw(0, 12);
         uint32_t next = draw(0, 1) ? 0 : draw(0, 5000);
         const auto make_run = [&](size_t count) {
             std::vector<uint32_t> run;
-            for (; run.size() < count; next += draw(1, most_apart))
+            for (; run.size() < count; next += draw(1, max_apart))
                 run.push_back(next);
             return run;
         };

@@ -122,9 +122,9 @@ TEST_P(LightSampler, WeightsOfEachLightAverageToOne)
     if (is_long() || sampler().has(shared::SAMPLER_DRAWS_POINTS))
         return; // of long lists each is picked too rarely
     int told = 0;
-    const int fewest_picks = std::max(200, draw_count() / 600);
+    const int min_picks = std::max(200, draw_count() / 600);
     for (const auto& [emitter, sum] : sums) {
-        if (sum.picks < fewest_picks)
+        if (sum.picks < min_picks)
             continue; // too rarely to tell
         const double n = draw_count(), mean = sum.weights / n;
         const double deviation = std::sqrt(std::max(sum.squares / n - mean * mean, 0.0) / n);

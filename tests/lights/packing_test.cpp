@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Whole numbers by way of floats, and numbers in a few bits: shaders/lib/device/whole_numbers.glsl and packing.glsl against
-// C++'s own arithmetic and GLM's packing.
+// Whole numbers by way of floats, and numbers in a few bits: shaders/lib/device/whole_numbers.glsl and packing.glsl
+// against C++'s own arithmetic and GLM's packing.
 #include "glsl_libraries.hpp"
 
 #include <cmath>
@@ -14,15 +14,15 @@ namespace {
 
 using namespace glsl;
 
-constexpr uint most_whole = 1u << 22;
+constexpr uint max_whole = 1u << 22;
 
 TEST(WholeNumbers, AreDividedExactly)
 {
     for (uint divisor = 1; divisor < 3000; divisor += divisor < 130 ? 1 : 97)
-        for (uint quotient = 0; quotient <= most_whole / divisor; quotient += 1 + most_whole / divisor / 500)
+        for (uint quotient = 0; quotient <= max_whole / divisor; quotient += 1 + max_whole / divisor / 500)
             for (const uint number :
                 { quotient * divisor - (quotient > 0), quotient * divisor, quotient * divisor + divisor - 1 })
-                if (number < most_whole) {
+                if (number < max_whole) {
                     ASSERT_EQ(divide_whole(number, divisor), number / divisor) << number << " / " << divisor;
                     ASSERT_EQ(remainder_whole(number, divisor), number % divisor) << number << " % " << divisor;
                 }
@@ -30,7 +30,7 @@ TEST(WholeNumbers, AreDividedExactly)
 
 TEST(WholeNumbers, FloorIsThatOfTheFloat)
 {
-    for (const float whole : { 0.0f, 1.0f, 2.0f, 63.0f, 99999.0f, float(most_whole) }) {
+    for (const float whole : { 0.0f, 1.0f, 2.0f, 63.0f, 99999.0f, float(max_whole) }) {
         EXPECT_EQ(floor_to_uint(whole), uint(whole));
         const float below = std::nextafter(whole, -1.0f), above = std::nextafter(whole, 1e9f);
         if (whole > 0) {

@@ -12,8 +12,8 @@ namespace {
 
 using namespace glsl;
 
-constexpr LightOptions projected { 8, LIGHT_WEIGHT_CHAPTER, LIGHT_POINT_PROJECTED, {} };
-constexpr LightOptions by_area { 8, LIGHT_WEIGHT_CHAPTER, LIGHT_POINT_AREA, {} };
+constexpr LightOptions projected { 8, LIGHT_WEIGHT_BRDF_CENTRE, LIGHT_POINT_PROJECTED, {} };
+constexpr LightOptions by_area { 8, LIGHT_WEIGHT_BRDF_CENTRE, LIGHT_POINT_AREA, {} };
 
 struct Case {
     Emitter emitter;
@@ -54,7 +54,7 @@ TEST(ProjectedTriangle, EverySampleIsWorthTheWhole)
     for (int i = 0; i < 3000; i++) {
         const Case c = make_random_case(rng);
         const float area = project(c).area;
-        if (area < least_projected_angle)
+        if (area < min_projected_angle)
             continue;
         told++;
         for (int k = 0; k < 8; k++) {
@@ -121,7 +121,7 @@ TEST(ProjectedTriangle, SamplesLieOnTheTriangleAboveTheHorizon)
     std::uniform_real_distribution<float> unit(0, 1);
     for (int i = 0; i < 3000; i++) {
         const Case c = make_random_case(rng);
-        if (project(c).area < least_projected_angle)
+        if (project(c).area < min_projected_angle)
             continue;
         for (const float xi : { 0.0f, unit(rng), 0.99999994f }) {
             const EmitterSample drawn = sample_emitter_point(c.emitter, c.surface, vec2(xi, unit(rng)), projected);

@@ -52,7 +52,7 @@ struct ListCase {
 
 struct SamplerOptions {
     uint32_t subset_length = 8;
-    int weight = shared::LIGHT_WEIGHT_CHAPTER;
+    int weight = shared::LIGHT_WEIGHT_BRDF_CENTRE;
     int point = shared::LIGHT_POINT_SOLID_ANGLE;
 };
 

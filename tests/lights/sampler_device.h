@@ -32,7 +32,7 @@ VKPT_ASSERT_SIZE(DeviceResult, 32);
 // A light list, a surface and the options; addresses of tables.
 struct DeviceCase {
     uint64_t emitters;
-    uint64_t outlines;
+    uint64_t packed_lights;
     uint64_t lists; // one
     uint64_t static_indices;
     uint64_t dynamic_indices;

@@ -2,10 +2,10 @@
 // The light samplers as the Vulkan driver runs them: unbiased, as frequent as they report, and equal to the same files
 // compiled as C++, so that what the other tests here prove of those holds on the device.
 #include "ref_vkpt/lights/ltc_table.hpp"
-#include "ref_vkpt/lights/outlines.hpp"
+#include "ref_vkpt/lights/packed_lights.hpp"
 #include "sampler_device.h"
 #include "sampler_lists.hpp"
-#include "tests/trace/headless_compute.hpp"
+#include "tests/rays/headless_compute.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -105,10 +105,10 @@ protected:
     {
         DeviceCase c {};
         c.emitters = upload(list.emitters);
-        std::vector<shared::EmitterOutline> outlines;
+        std::vector<shared::PackedLight> packed_lights;
         for (const shared::Emitter& e : list.emitters)
-            outlines.push_back(make_outline(e, list.lightstyles[e.lightstyle]));
-        c.outlines = upload(outlines);
+            packed_lights.push_back(pack_light_shape(e, list.lightstyles[e.lightstyle]));
+        c.packed_lights = upload(packed_lights);
         c.lists = upload(std::vector { list.range });
         // Buffers are never empty.
         const auto padded = [](auto items) {
@@ -252,7 +252,7 @@ void SamplerOnDevice::check_weights_and_points()
                 list.emitters[i].radiance = glm::vec3(0);
     const double truth = sampler().integrate(list, 32);
     const auto draws = make_draws(list, 8192, 5);
-    for (const int weight : { shared::LIGHT_WEIGHT_CHAPTER, shared::LIGHT_WEIGHT_LTC })
+    for (const int weight : { shared::LIGHT_WEIGHT_BRDF_CENTRE, shared::LIGHT_WEIGHT_LTC })
         for (const int point :
             { shared::LIGHT_POINT_AREA, shared::LIGHT_POINT_SOLID_ANGLE, shared::LIGHT_POINT_PROJECTED }) {
             const Mean mean = mean_light(run(list, draws, { 8, weight, point }));

@@ -75,12 +75,12 @@ void fill_list(ListCase& list, const std::vector<uint32_t>& indices)
     list.dynamic_indices.insert(list.dynamic_indices.end(), middle, indices.end());
     // Behind the list, each light once, twice, four or eight times: any numbers are right, but where what is near is
     // rare, estimates take too long to converge.
-    constexpr uint32_t greatest_exponent = 3;
+    constexpr uint32_t max_exponent = 3;
     constexpr float near = 20;
     shared::LightMultiset multiset { uint32_t(list.static_indices.size()), 0 };
     for (auto index = indices.begin(); index != middle; ++index) {
         const bool is_near = glm::length(list.emitters[*index].p0) < near;
-        const uint32_t exponent = is_near ? greatest_exponent : (*index * 2654435761u) >> 30u;
+        const uint32_t exponent = is_near ? max_exponent : (*index * 2654435761u) >> 30u;
         list.static_indices.insert(
             list.static_indices.end(), size_t(1) << exponent, *index | exponent << shared::LIGHT_COPIES_SHIFT);
     }
@@ -148,7 +148,7 @@ ListCase make_hard_list(size_t count, uint32_t seed)
         if (i % 5 == 0)
             make_dark(e, i / 5);
         if (i % 11 == 0 && e.type == shared::EMITTER_TRIANGLE)
-            e.type = shared::EMITTER_VEIL;
+            e.type = shared::EMITTER_TRANSPARENT;
         if (i % 7 == 0 && e.type == shared::EMITTER_TRIANGLE)
             list.emitters.push_back(e); // not in the list
         else

@@ -4,6 +4,8 @@
 
 #include "sampler_case.hpp"
 
+#include <cstdint>
+
 namespace vkpt::test {
 
 // `count` lights around the point at the origin, about a quarter of them spheres. The list's indices have gaps, so that

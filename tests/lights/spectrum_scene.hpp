@@ -6,6 +6,8 @@
 #include "client/analysis/spectrum.hpp"
 #include "sampler_case.hpp"
 
+#include <cstdint>
+
 namespace vkpt::test {
 
 class SpectrumScene {

@@ -62,8 +62,7 @@ TEST(Suns, AreAimedByLights)
 // What maps/NAME.lights says comes last.
 TEST(Suns, LaterWorldsReplaceKeys)
 {
-    const std::vector<Sun> suns
-        = suns_of(R"({ "classname" "worldspawn" "_sun_light" "200" "_sun_color" "1 0 0" }
+    const std::vector<Sun> suns = suns_of(R"({ "classname" "worldspawn" "_sun_light" "200" "_sun_color" "1 0 0" }
                      { "classname" "worldspawn" "_sun_light" "90" })");
     ASSERT_EQ(suns.size(), 1u);
     EXPECT_EQ(suns[0].light, 90);
@@ -91,8 +90,7 @@ TEST(Suns, AreListedWhereSkyMayBeSeen)
         open[size_t(cell)] = true;
     formats::Bsp half = make_cell_map(size, open);
     half.faces[7].texinfo = 0;
-    const StaticEmitters of_half
-        = extract_emitters(half, [](const std::string&) { return glm::vec3(0.5f); }, {});
+    const StaticEmitters of_half = extract_emitters(half, [](const std::string&) { return glm::vec3(0.5f); }, {});
     LightLists lists;
     lists.build(half, of_half.emitters);
     const shared::Emitter sun = make_sun({ .light = 64, .half_angle = 0.01f }, glm::vec3(1));

@@ -4,6 +4,7 @@
 
 #include "formats/bsp.hpp"
 
+#include <cstdint>
 #include <random>
 #include <vector>
 

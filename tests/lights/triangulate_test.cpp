@@ -16,7 +16,7 @@ using Outline = std::vector<glm::vec3>;
 struct Cut {
     std::vector<std::array<uint32_t, 3>> triangles;
     float area = 0;
-    float least_towards_normal = 1e30f;
+    float min_normal_cosine_of_light = 1e30f;
     std::set<uint32_t> corners;
 };
 
@@ -30,7 +30,7 @@ Cut cut_outline(const Outline& outline, glm::vec3 normal)
     for (const auto& t : cut.triangles) {
         const glm::vec3 across = glm::cross(polygon[t[1]] - polygon[t[0]], polygon[t[2]] - polygon[t[0]]);
         cut.area += 0.5f * glm::length(across);
-        cut.least_towards_normal = std::min(cut.least_towards_normal, glm::dot(across, normal));
+        cut.min_normal_cosine_of_light = std::min(cut.min_normal_cosine_of_light, glm::dot(across, normal));
         cut.corners.insert(t.begin(), t.end());
     }
     return cut;
@@ -46,7 +46,7 @@ TEST(Triangulate, FacesTheFrontWhicheverWayTheOutlineRuns)
         const Cut cut = cut_outline(square, normal);
         EXPECT_EQ(cut.triangles.size(), 2u);
         EXPECT_FLOAT_EQ(cut.area, 64 * 64);
-        EXPECT_GT(cut.least_towards_normal, 0);
+        EXPECT_GT(cut.min_normal_cosine_of_light, 0);
     }
 }
 
@@ -59,7 +59,7 @@ TEST(Triangulate, UsesCornersOnStraightEdges)
         EXPECT_EQ(cut.triangles.size(), 6u) << "start " << start;
         EXPECT_EQ(cut.corners.size(), 8u) << "start " << start;
         EXPECT_FLOAT_EQ(cut.area, 64 * 64) << "start " << start;
-        EXPECT_GT(cut.least_towards_normal, 100) << "start " << start;
+        EXPECT_GT(cut.min_normal_cosine_of_light, 100) << "start " << start;
     }
 }
 

@@ -70,7 +70,8 @@ TEST(MapBudget, ManySidesAndKeysAreRefused)
     std::vector<glm::ivec2> circle;
     for (int i = 0; i < 3000; i++)
         circle.emplace_back(i, i * i / 1000);
-    expect_refused(entity_text({ { "classname", "worldspawn" } }, prism_brush(circle, 0, 64, "wall")), "sides.map", "sides");
+    expect_refused(
+        entity_text({ { "classname", "worldspawn" } }, prism_brush(circle, 0, 64, "wall")), "sides.map", "sides");
     Pairs pairs { { "classname", "worldspawn" } };
     for (int i = 0; i < 60000; i++)
         pairs.emplace_back(fmt::format("{}", i), "");

@@ -151,7 +151,8 @@ TEST(Overlap, WhatAWallHidesMakesNoNodes)
 {
     const auto map = [](const std::string& hidden) {
         const std::string pillar = box_brush({ { -60, -60, 0 }, { 60, 60, 192 } }, "pillar");
-        return compile(entity_text({ { "classname", "worldspawn" } }, walls_around({ two_rooms::room_a }, "wall") + pillar + hidden)
+        return compile(entity_text({ { "classname", "worldspawn" } },
+                           walls_around({ two_rooms::room_a }, "wall") + pillar + hidden)
             + entity_text({ { "classname", "info_player_start" }, { "origin", "200 200 24" } }));
     };
     const Bsp bare = map(""), with_hidden = map(box_brush({ { -13, -17, 40 }, { 11, 19, 90 } }, "hidden"));

@@ -3,6 +3,7 @@
 
 #include "formats/image.hpp"
 
+#include <cstdint>
 #include <filesystem>
 
 namespace vkpt::tests {

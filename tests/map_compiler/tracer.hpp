@@ -4,6 +4,8 @@
 
 #include "formats/bsp.hpp"
 
+#include <cstdint>
+
 namespace vkpt::tests {
 
 struct TraceResult {

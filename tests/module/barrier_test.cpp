@@ -199,10 +199,10 @@ protected:
 TEST_F(Barriers, StandBetweenAllPassesWithEverySetting)
 {
     constexpr int frames = 3; // from the second on with a history
-    const auto expect_ordered_frames = [&](size_t fewest_passes) {
+    const auto expect_ordered_frames = [&](size_t min_passes) {
         const auto recorded = record_frames(frames);
         ASSERT_GE(recorded.size(), size_t(frames));
-        EXPECT_GE(expect_ordered(recorded), frames * fewest_passes);
+        EXPECT_GE(expect_ordered(recorded), frames * min_passes);
     };
     {
         SCOPED_TRACE("all filters");

@@ -21,8 +21,7 @@ TEST(Calibration, OurMapIsAsBrightAsItsLightmaps)
     EXPECT_EQ(result.status, 0) << result.errors;
     // vkpt1.bsp, luxels, and the quartiles of path-traced to baked: docs/calibration.md has the middle one.
     std::smatch row;
-    ASSERT_TRUE(std::regex_search(
-        result.output, row, std::regex("vkpt1\\.bsp +500 +([0-9.]+) +([0-9.]+) +([0-9.]+)")))
+    ASSERT_TRUE(std::regex_search(result.output, row, std::regex("vkpt1\\.bsp +500 +([0-9.]+) +([0-9.]+) +([0-9.]+)")))
         << result.output;
     EXPECT_NEAR(std::stod(row[2]), 0.83, 0.08);
     EXPECT_LT(std::stod(row[1]), std::stod(row[2]));

@@ -78,9 +78,9 @@ protected:
     }
     void SetUp() override
     {
-        for (const auto& [name, value] : CvarList { { "r_2D_unfiltered", "1" }, { "r_videos_unfiltered", "1" },
-                 { "r_lerp_list", "" }, { "r_nolerp_list", "pics/conchars.pcx" }, { "vid_gamma", "1" },
-                 { "gl3_intensity_2D", "1" } })
+        for (const auto& [name, value] :
+            CvarList { { "r_2D_unfiltered", "1" }, { "r_videos_unfiltered", "1" }, { "r_lerp_list", "" },
+                { "r_nolerp_list", "pics/conchars.pcx" }, { "vid_gamma", "1" }, { "gl3_intensity_2D", "1" } })
             session_->set(name, value);
     }
 
@@ -194,8 +194,8 @@ TEST_F(Layer2d, TintsMultiplyEachChannel)
 {
     constexpr int left = 12, top = 9;
     const float tint[3] = { 1, 0.5f, 0.25f };
-    const formats::Image shown = show(
-        [&](const engine::Exports8& module) { module.draw_pic_scaled_tinted(left, top, "thing", 2, tint); });
+    const formats::Image shown
+        = show([&](const engine::Exports8& module) { module.draw_pic_scaled_tinted(left, top, "thing", 2, tint); });
     expect(
         shown,
         [&](int x, int y) -> std::optional<formats::Rgba8> {

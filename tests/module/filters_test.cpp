@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The filters in a game's course: every trace backend, menus, pauses, rewinds, lights that come and go, and a long
 // flight through our own level.
-#include "client/host/scene.hpp"
+#include "client/host/client_map.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
@@ -247,7 +247,8 @@ TEST_F(FiltersAndLists, ErrorStays)
 {
     const Radiance reference = session_->accumulate(300);
     session_->set("pt_accumulate", 0);
-    for (const char* sampler : { "subset", "subset_dynamic", "subset_pps", "subset_mis_blue", "light_tree", "uniform" }) {
+    for (const char* sampler :
+        { "subset", "subset_dynamic", "subset_pps", "subset_mis_blue", "light_tree", "uniform" }) {
         session_->set("pt_light_sampler", sampler);
         const auto error = [&](auto count_of_frame) {
             session_->load_map("room");
@@ -302,7 +303,8 @@ TEST_F(Filters, ANewLightIsSeenAtOnce)
     session_->set("flt_taa", "off");
     const engine::DynamicLight light { { 0, 0, 100 }, { 1, 1, 1 }, 400 };
     session_->view.dlights = &light;
-    for (const char* sampler : { "subset", "subset_dynamic", "subset_pps", "subset_mis_blue", "light_tree", "uniform" }) {
+    for (const char* sampler :
+        { "subset", "subset_dynamic", "subset_pps", "subset_mis_blue", "light_tree", "uniform" }) {
         session_->set("pt_light_sampler", sampler);
         session_->load_map("room");
         session_->view.dlight_count = 0;
@@ -329,7 +331,7 @@ TEST(Flight, HasNoBrokenPixel)
     Session session(std::filesystem::path(VKPT_GAME_FOLDER),
         { { "pt_seed", "0" }, { "flt_denoiser", "asvgf" }, { "flt_taa", "upscale" }, { "pt_exposure", "0" } },
         { 64, 36 });
-    client::Scene scene(session.files(), client::parse_scene_name("maps/vkpt1.bsp"));
+    client::ClientMap scene(session.files(), client::parse_scene_name("maps/vkpt1.bsp"));
     scene.register_with(session.host());
     for (int frame = 0; frame < frames; frame++) {
         const float t = float(frame) / 60;

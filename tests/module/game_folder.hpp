@@ -6,6 +6,7 @@
 #include "formats/image.hpp"
 #include "tests/client/run_program.hpp"
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 

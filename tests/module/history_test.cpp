@@ -57,8 +57,8 @@ protected:
     static inline std::string cube_path_;
 };
 
-// One hall's lamp goes out: there, and there alone, is what was known worthless. With the halls beside each other and, the
-// head tilted, above each other.
+// One hall's lamp goes out: there, and there alone, is what was known worthless. With the halls beside each other and,
+// the head tilted, above each other.
 TEST_F(History, GradientsActWhereTheLightChanged)
 {
     constexpr int reach = 26; // pixels that the gradient's filter reaches over the floor

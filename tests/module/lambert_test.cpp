@@ -186,7 +186,7 @@ TEST(LambertOfSamplers, Agree)
         session.set("pt_light_sampler", name);
         for (const char* point : { "area", "solid_angle", "projected" }) {
             session.set("pt_light_point", point);
-            session.set("pt_light_weight", std::string(point) == "area" ? "ltc" : "chapter");
+            session.set("pt_light_weight", std::string(point) == "area" ? "ltc" : "brdf_centre");
             expect_agreement(name + " " + point);
         }
     }

@@ -86,11 +86,11 @@ TEST_P(LayersOf, FilteredPictureIsTheConvergedOne)
     start(GetParam().sheet, GetParam().flags);
     session_->look(GetParam().eye, { 0, 0, 0 }, 50);
     const Radiance reference = converge();
-    for (const auto& [antialiasing, most_error] : { std::pair("off", 0.025f), std::pair("on", 0.013f) }) {
+    for (const auto& [antialiasing, max_error] : { std::pair("off", 0.025f), std::pair("on", 0.013f) }) {
         const Radiance filtered = filter("asvgf", antialiasing, 60);
         EXPECT_NEAR(luminance(filtered.mean()), luminance(reference.mean()), 0.04f * luminance(reference.mean()))
             << antialiasing;
-        EXPECT_LT(visible_error(filtered, reference), most_error) << antialiasing;
+        EXPECT_LT(visible_error(filtered, reference), max_error) << antialiasing;
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "formats/bsp.hpp"
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 #include <utility>

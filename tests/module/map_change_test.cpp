@@ -58,7 +58,7 @@ void add_large_map(GameFolder& folder)
 TEST(MapChange, FiftyInARowLeaveNothingBehind)
 {
     constexpr int changes = 50, warm_up = 10;
-    constexpr double most_growth = 4 << 20; // bytes
+    constexpr double max_growth = 4 << 20; // bytes
     GameFolder folder;
     add_small_map(folder);
     add_large_map(folder);
@@ -89,7 +89,7 @@ TEST(MapChange, FiftyInARowLeaveNothingBehind)
             resident = resident_bytes();
     }
     EXPECT_NE(first[0], first[1]);
-    EXPECT_LT(double(resident_bytes()) - double(resident), most_growth);
+    EXPECT_LT(double(resident_bytes()) - double(resident), max_growth);
 }
 
 // A new start of the renderer in the same process, as after vid_restart.

@@ -57,7 +57,8 @@ void add_picture(const GameFolder& folder, const std::string& name, const std::f
     formats::Image picture { picture_texels, picture_texels, {} };
     for (int y = 0; y < picture_texels; y++)
         for (int x = 0; x < picture_texels; x++)
-            picture.pixels.push_back(is_red(x, y) ? formats::Rgba8 { 255, 0, 0, 255 } : formats::Rgba8 { 0, 255, 0, 255 });
+            picture.pixels.push_back(
+                is_red(x, y) ? formats::Rgba8 { 255, 0, 0, 255 } : formats::Rgba8 { 0, 255, 0, 255 });
     folder.add_wall(name, white_index); // 16 x 16 texels of texinfo space
     folder.add("textures/" + name + ".tga", formats::write_tga(picture));
 }
@@ -85,7 +86,8 @@ void add_lamp_maps(const GameFolder& folder)
 void add_uplight_maps(const GameFolder& folder)
 {
     folder.add_map("uplight", make_uplight_map().finish());
-    for (const auto& [texture, flags] : { std::pair { "white", uint32_t(0) }, std::pair { "fence", uint32_t(formats::SURF_ALPHATEST) } }) {
+    for (const auto& [texture, flags] :
+        { std::pair { "white", uint32_t(0) }, std::pair { "fence", uint32_t(formats::SURF_ALPHATEST) } }) {
         MapBuilder map = make_uplight_map();
         map.add(rectangle({ 0, 0, 100 }, { 160, 0, 0 }, { 0, 160, 0 }), map.add_material(texture, flags));
         folder.add_map(std::string("under_") + texture, map.finish());
@@ -111,7 +113,8 @@ void add_picture_maps(const GameFolder& folder)
 {
     add_picture(folder, "stripes", [](int x, int) { return x < picture_texels / 2; });
     add_picture(folder, "squares", [](int x, int y) { return (x + y) % 2 == 0; });
-    for (const auto& [picture, flags] : { std::pair { "stripes", uint32_t(formats::SURF_FLOWING) }, std::pair { "squares", uint32_t(0) } }) {
+    for (const auto& [picture, flags] :
+        { std::pair { "stripes", uint32_t(formats::SURF_FLOWING) }, std::pair { "squares", uint32_t(0) } }) {
         MapBuilder map;
         map.add(rectangle({ 0, 0, 0 }, { 512, 0, 0 }, { 0, 512, 0 }), map.add_material(picture, flags));
         folder.add_map(picture, map.finish());
@@ -134,8 +137,8 @@ protected:
         add_uplight_maps(*folder_);
         add_other_maps(*folder_);
         add_picture_maps(*folder_);
-        session_ = std::make_unique<Session>(
-            *folder_, CvarList { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } });
+        session_
+            = std::make_unique<Session>(*folder_, CvarList { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } });
     }
     static void TearDownTestSuite()
     {
@@ -185,7 +188,7 @@ protected:
 
     // Every pixel whose colour is told is as red, or as green, as its ray says.
     static void expect_colours(
-        const Radiance& picture, const std::function<std::optional<bool>(const CameraRay&)>& is_red, int least_told)
+        const Radiance& picture, const std::function<std::optional<bool>(const CameraRay&)>& is_red, int min_told)
     {
         int told = 0, wrong = 0, red_ones = 0;
         for (int y = 0; y < picture.height; y++)
@@ -198,7 +201,7 @@ protected:
                 const glm::vec3 seen = picture.at(x, y);
                 wrong += (seen.x > seen.y) != *red || seen == glm::vec3(0);
             }
-        EXPECT_GT(told, least_told);
+        EXPECT_GT(told, min_told);
         EXPECT_GT(red_ones, told / 8);
         EXPECT_LT(red_ones, told - told / 8);
         EXPECT_EQ(wrong, 0) << "of " << told;
@@ -290,15 +293,15 @@ TEST_F(Optics, MaxRadianceLimitsEachPath)
     const Radiance direct = picture(0, 0), all = picture(1, 0), limited = picture(1, double(limit));
     EXPECT_TRUE(picture(1, 1e6) == all);
     EXPECT_TRUE(picture(0, double(limit)) == direct);
-    const auto most_between = [&](const Radiance& a) {
+    const auto max_between = [&](const Radiance& a) {
         float most = 0;
         for (size_t i = 0; i < a.pixels.size(); i++)
             most = std::max(most, a.pixels[i].y - direct.pixels[i].y);
         return most;
     };
-    EXPECT_GT(most_between(all), 5 * limit);
-    EXPECT_LT(most_between(limited), 1.1f * limit);
-    EXPECT_GT(most_between(limited), 0.5f * limit);
+    EXPECT_GT(max_between(all), 5 * limit);
+    EXPECT_LT(max_between(limited), 1.1f * limit);
+    EXPECT_GT(max_between(limited), 0.5f * limit);
 }
 
 // ---- what the game is told
@@ -356,7 +359,9 @@ TEST_F(Optics, LooksIntoWaterAreBentTowardsItsFloor)
     session_->look({ -90, 0, 60 }, { 0, 0, -20 }, 60);
     expect_colours(
         session_->accumulate(24),
-        [&](const CameraRay& ray) { return is_left_of(refract_at_zero(ray, 1 / water_index), pool_floor, floor_border); },
+        [&](const CameraRay& ray) {
+            return is_left_of(refract_at_zero(ray, 1 / water_index), pool_floor, floor_border);
+        },
         1000);
 }
 
@@ -367,7 +372,9 @@ TEST_F(Optics, LooksOutOfWaterAreBentAwayFromItsSurface)
     session_->look({ -40, 0, -60 }, { -15, 0, 0 }, 50);
     expect_colours(
         session_->accumulate(24),
-        [&](const CameraRay& ray) { return is_left_of(refract_at_zero(ray, water_index), pool_ceiling, ceiling_border); },
+        [&](const CameraRay& ray) {
+            return is_left_of(refract_at_zero(ray, water_index), pool_ceiling, ceiling_border);
+        },
         1000);
 }
 

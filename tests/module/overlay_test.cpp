@@ -87,7 +87,8 @@ TEST_F(OverlayOfModule, PresetsSetTheirCvars)
     session_->host().run_text("pt_preset\n");
     EXPECT_TRUE(session_->has_line("pt_preset is \"low\""));
     session_->host().run_text("pt_preset best\n");
-    EXPECT_TRUE(session_->has_line("pt_preset \"best\" is unknown; there are: auto, low, medium, high, ultra, reference"));
+    EXPECT_TRUE(
+        session_->has_line("pt_preset \"best\" is unknown; there are: auto, low, medium, high, ultra, reference"));
     EXPECT_EQ(value("pt_render_scale"), "50");
     session_->host().run_text("pt_preset auto never\n");
     EXPECT_TRUE(session_->has_line("not \"never\""));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Maps that were not made for these tests: those in the folder $VKPT_TEST_MAPS, all their pictures missing, and our own
 // level with its data where the build has made it.
-#include "client/host/scene.hpp"
+#include "client/host/client_map.hpp"
 #include "formats/entities.hpp"
 #include "tests/module/session.hpp"
 
@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t most_views = 4;
+constexpr size_t max_views = 4;
 constexpr int frames = 8;
 
-// The eyes of players at up to `most_views` start points, spread over the map.
+// The eyes of players at up to `max_views` start points, spread over the map.
 std::vector<client::Camera> find_starts(const formats::Bsp& bsp)
 {
     std::vector<client::Camera> starts;
@@ -27,8 +27,8 @@ std::vector<client::Camera> find_starts(const formats::Bsp& bsp)
             if (const auto start = client::find_player_start({ entity }))
                 starts.push_back(*start);
     std::vector<client::Camera> chosen;
-    for (size_t i = 0; i < std::min(most_views, starts.size()); i++)
-        chosen.push_back(starts[i * starts.size() / std::min(most_views, starts.size())]);
+    for (size_t i = 0; i < std::min(max_views, starts.size()); i++)
+        chosen.push_back(starts[i * starts.size() / std::min(max_views, starts.size())]);
     return chosen;
 }
 
@@ -39,7 +39,7 @@ void expect_lit(Session& session, const std::string& map)
     ASSERT_TRUE(bytes) << map;
     const std::vector<client::Camera> starts = find_starts(formats::read_bsp(*bytes, map));
     ASSERT_FALSE(starts.empty()) << map;
-    client::Scene scene(session.files(), client::parse_scene_name(map));
+    client::ClientMap scene(session.files(), client::parse_scene_name(map));
     scene.register_with(session.host());
     for (const client::Camera& start : starts) {
         scene.set_camera(start);

@@ -10,6 +10,7 @@
 #include "tests/module/picture.hpp"
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 namespace vkpt::tests {

@@ -100,7 +100,7 @@ TEST_F(Suns, AreFoundByEverySampler)
     session.load_map("suns");
     for (const char* const* name = session.extension().info().light_samplers; *name; name++) {
         session.set("pt_light_sampler", *name);
-        for (const char* weight : { "chapter", "ltc" }) {
+        for (const char* weight : { "brdf_centre", "ltc" }) {
             session.set("pt_light_weight", weight);
             EXPECT_NEAR(measure(session, 0).y, 0.5, 0.02) << *name << ' ' << weight;
         }
@@ -124,8 +124,8 @@ TEST_F(Suns, AreAddedByFiles)
     EXPECT_NEAR(measure(session, 100).y, 1, 0.01);
 }
 
-// A white spot on a dark sky, right above and a little to the side where x grows: with all of the sky's light in it, level ground that
-// sees it gets what it got from all of the sky, and what does not see it nothing.
+// A white spot on a dark sky, right above and a little to the side where x grows: with all of the sky's light in it,
+// level ground that sees it gets what it got from all of the sky, and what does not see it nothing.
 TEST_F(Suns, ArePaintedOnSkies)
 {
     for (const char* side : { "rt", "bk", "lf", "ft", "up", "dn" }) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The same rays by every trace backend, through the real module and its shaders: in our own map and in those of
 // $VKPT_TEST_MAPS. Whatever differs must be a close call: an edge within 1e-4 (in barycentric weights), or a tie.
-#include "client/host/scene.hpp"
+#include "client/host/client_map.hpp"
 #include "formats/bsp.hpp"
 #include "tests/module/session.hpp"
 
@@ -153,7 +153,7 @@ void expect_same_visibility(const std::vector<TracedRay>& rays, const std::vecto
 void compare_backends(Session& session, const std::string& map)
 {
     SCOPED_TRACE(map);
-    client::Scene scene(session.files(), client::parse_scene_name(map));
+    client::ClientMap scene(session.files(), client::parse_scene_name(map));
     scene.register_with(session.host());
     session.view = scene.view(session.view.width, session.view.height, 0); // its brush models move
     const auto bytes = session.files().read(map);

@@ -21,7 +21,8 @@ std::string read_text(const std::filesystem::path& path)
 // Draws some filtered frames of the map and returns the names of what was timed.
 std::vector<std::string> draw_passes(const GameFolder& folder)
 {
-    // How tables are read is measured at each start, and both ways may be as quick: the shaders of one way are asked for here.
+    // How tables are read is measured at each start, and both ways may be as quick: the shaders of one way are asked
+    // for here.
     Session session(folder, { { "flt_denoiser", "asvgf" }, { "flt_taa", "on" }, { "pt_table_reads", "address" } });
     session.load_map("room");
     session.look({ -100, 0, 50 }, { 100, 0, 50 });

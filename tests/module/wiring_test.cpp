@@ -54,8 +54,14 @@ struct Shown {
 
     const SceneMaterial& material(size_t triangle = 0) const { return materials.at(triangles.at(triangle).material); }
     std::string picture(size_t triangle = 0) const { return material(triangle).picture; }
-    glm::vec3 lowest() const { return extreme([](glm::vec3 a, glm::vec3 b) { return glm::min(a, b); }); }
-    glm::vec3 highest() const { return extreme([](glm::vec3 a, glm::vec3 b) { return glm::max(a, b); }); }
+    glm::vec3 lowest() const
+    {
+        return extreme([](glm::vec3 a, glm::vec3 b) { return glm::min(a, b); });
+    }
+    glm::vec3 highest() const
+    {
+        return extreme([](glm::vec3 a, glm::vec3 b) { return glm::max(a, b); });
+    }
 
 private:
     template <class Choose> glm::vec3 extreme(Choose choose) const
@@ -73,12 +79,12 @@ protected:
     static void SetUpTestSuite()
     {
         folder_ = std::make_unique<GameFolder>();
-        for (const char* wall : { "wall", "lamp", "first", "second", "third", "pane", "rack/floor_metal", "rack/mirror1",
-                 "rack/metal_tile", "rack/glasses" })
+        for (const char* wall : { "wall", "lamp", "first", "second", "third", "pane", "rack/floor_metal",
+                 "rack/mirror1", "rack/metal_tile", "rack/glasses" })
             folder_->add_wall(wall, white_index);
-        const std::pair<const char*, uint8_t> skins[] = { { "models/red.pcx", red_index },
-            { "models/green.pcx", green_index }, { "models/blue.pcx", blue_index }, { "sprites/small.pcx", red_index },
-            { "sprites/large.pcx", green_index } };
+        const std::pair<const char*, uint8_t> skins[]
+            = { { "models/red.pcx", red_index }, { "models/green.pcx", green_index }, { "models/blue.pcx", blue_index },
+                  { "sprites/small.pcx", red_index }, { "sprites/large.pcx", green_index } };
         for (const auto& [path, index] : skins)
             folder_->add_skin(path, index);
         folder_->add("models/thing.md2", formats::write_md2(make_model()));
@@ -216,12 +222,10 @@ TEST_F(Wiring, ModelsTurnByTheirAngles)
 {
     engine::Entity entity = make_entity(model_, { 40, 0, 8 });
     entity.angles[1] = 90; // counter-clockwise, from above
-    expect_corners(
-        show({ entity }), corners_of(0, [](glm::vec3 p) { return glm::vec3(40 - p.y, p.x, 8 + p.z); }));
+    expect_corners(show({ entity }), corners_of(0, [](glm::vec3 p) { return glm::vec3(40 - p.y, p.x, 8 + p.z); }));
     entity.angles[1] = 0;
     entity.angles[0] = 90; // looks down
-    expect_corners(
-        show({ entity }), corners_of(0, [](glm::vec3 p) { return glm::vec3(40 + p.z, p.y, 8 - p.x); }));
+    expect_corners(show({ entity }), corners_of(0, [](glm::vec3 p) { return glm::vec3(40 + p.z, p.y, 8 - p.x); }));
 }
 
 TEST_F(Wiring, AlphaCountsForTranslucentThingsAlone)
@@ -459,8 +463,8 @@ TEST_F(Wiring, LightsAreAsBrightAsTheMapsNumbersSay)
         }
         EXPECT_EQ(faces, 2);
         EXPECT_EQ(points, 1);
-        EXPECT_NEAR(
-            shown.materials.at(texinfos_.lamp).emission[1], scale * face * lamp_value, 0.05f * scale * face * lamp_value);
+        EXPECT_NEAR(shown.materials.at(texinfos_.lamp).emission[1], scale * face * lamp_value,
+            0.05f * scale * face * lamp_value);
     }
 }
 

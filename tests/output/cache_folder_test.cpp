@@ -48,7 +48,7 @@ TEST_F(CacheFolderTest, IsPrivateAndBelowTheUsersCaches)
 {
     set("HOME", folder.path());
     EXPECT_EQ(find_cache_folder().path, folder.path() / ".cache/ref_vkpt");
-    struct stat status {};
+    struct stat status { };
     ASSERT_EQ(stat((folder.path() / ".cache/ref_vkpt").c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777, 0700u);
     set("XDG_CACHE_HOME", folder.path() / "xdg");

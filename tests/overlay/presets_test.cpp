@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Presets name cvars that exist and values that these take; `auto` finds the one that a machine of given times can bear.
+// Presets name cvars that exist and values that these take; `auto` finds the one that a machine of given times can
+// bear.
 #include "ref_vkpt/cvars_rows.hpp"
 #include "ref_vkpt/presets.hpp"
 

@@ -5,7 +5,8 @@
 //   run_test NAME CPU-SECONDS RESULTS COMMAND...
 //
 // RESULTS/NAME.result gets a line "CPU-SECONDS PASSED FAILED SKIPPED NAME" and one line for each skipped case: its name
-// and its reason. A command that is no GoogleTest program counts as one case. Exit status: the command's; 124 over time.
+// and its reason. A command that is no GoogleTest program counts as one case. Exit status: the command's; 124 over
+// time.
 #include "tests/runner/process_tree.hpp"
 
 #include <cerrno>

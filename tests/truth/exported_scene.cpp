@@ -73,7 +73,7 @@ Material read_material(const Json& json)
 }
 
 // The pictures that scene.mtl names, by material.
-void read_pictures(const std::filesystem::path& folder, Scene& scene)
+void read_pictures(const std::filesystem::path& folder, ExportedScene& scene)
 {
     std::ifstream file = open(folder / "scene.mtl");
     std::map<std::string, int> known;
@@ -94,7 +94,7 @@ void read_pictures(const std::filesystem::path& folder, Scene& scene)
 }
 
 // The writer gives each corner a vertex of its own, in the triangles' order.
-void read_triangles(const std::filesystem::path& folder, const Json& json, Scene& scene)
+void read_triangles(const std::filesystem::path& folder, const Json& json, ExportedScene& scene)
 {
     scene.triangles.resize(json.at("triangles"));
     for (size_t i = 0; i < scene.triangles.size(); i++) {
@@ -104,7 +104,8 @@ void read_triangles(const std::filesystem::path& folder, const Json& json, Scene
     std::ifstream file = open(folder / "scene.obj");
     size_t positions = 0, uvs = 0, normals = 0;
     uint32_t material = 0;
-    const auto corner = [&](auto member, size_t& count) -> auto& {
+    const auto corner = [&](auto member, size_t& count) -> auto&
+    {
         const size_t i = count++;
         return (scene.triangles.at(i / 3).*member)[i % 3];
     };
@@ -135,11 +136,11 @@ void read_triangles(const std::filesystem::path& folder, const Json& json, Scene
 
 } // namespace
 
-Scene read_exported_scene(const std::filesystem::path& folder)
+ExportedScene read_exported_scene(const std::filesystem::path& folder)
 {
     std::ifstream file = open(folder / "scene.json");
     const Json json = Json::parse(file);
-    Scene scene;
+    ExportedScene scene;
     for (const Json& emitter : json.at("emitters"))
         scene.emitters.push_back(read_emitter(emitter));
     for (const Json& material : json.at("materials"))

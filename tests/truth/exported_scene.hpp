@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -24,7 +25,7 @@ struct Material {
     dvec3 base_colour { 1 }, emission { 0 }; // where there is no picture
     double roughness = 1, metallic = 0;
     bool is_sky = false, is_translucent = false;
-    int picture = -1; // index into Scene::pictures
+    int picture = -1; // index into ExportedScene::pictures
 };
 
 struct Triangle {
@@ -61,7 +62,7 @@ struct RayMasks {
     uint32_t opaque = 0, alpha_test = 0, own_body = 0, sky = 0, translucent = 0, view_weapon = 0;
 };
 
-struct Scene {
+struct ExportedScene {
     std::vector<Triangle> triangles;
     std::vector<Material> materials;
     std::vector<Emitter> emitters; // dark ones, too
@@ -72,6 +73,6 @@ struct Scene {
 };
 
 // Throws std::runtime_error or a JSON error where something is missing.
-Scene read_exported_scene(const std::filesystem::path& folder);
+ExportedScene read_exported_scene(const std::filesystem::path& folder);
 
 } // namespace vkpt::truth

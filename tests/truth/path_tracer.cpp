@@ -57,7 +57,7 @@ struct Met {
     const Material* material = nullptr;
 };
 
-Met make_met(const Scene& scene, const RayHit& hit, dvec3 direction)
+Met make_met(const ExportedScene& scene, const RayHit& hit, dvec3 direction)
 {
     Met met;
     met.triangle = &scene.triangles[size_t(hit.triangle)];
@@ -153,7 +153,7 @@ LightPoint sample_sphere(const Emitter& emitter, dvec3 receiver, dvec2 xi)
 
 class Tracer {
 public:
-    Tracer(const Scene& scene, const TraceSettings& settings)
+    Tracer(const ExportedScene& scene, const TraceSettings& settings)
         : scene_(scene)
         , settings_(settings)
         , tree_(scene.triangles)
@@ -272,7 +272,7 @@ private:
     }
 
     static constexpr double far_ = 1e6;
-    const Scene& scene_;
+    const ExportedScene& scene_;
     TraceSettings settings_;
     RayTree tree_;
     uint32_t camera_mask_ = 0, bounce_mask_ = 0;
@@ -281,7 +281,7 @@ private:
 
 } // namespace
 
-std::vector<dvec3> render(const Scene& scene, const TraceSettings& settings)
+std::vector<dvec3> render(const ExportedScene& scene, const TraceSettings& settings)
 {
     const Tracer tracer(scene, settings);
     const int width = scene.camera.width, height = scene.camera.height;

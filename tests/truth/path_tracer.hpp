@@ -17,6 +17,6 @@ struct TraceSettings {
 
 // Radiance of each pixel, row by row from the top left, by the scene's camera. Unlike the module's, its rays meet
 // neither water nor glass: throws std::runtime_error where a camera ray does.
-std::vector<dvec3> render(const Scene& scene, const TraceSettings& settings);
+std::vector<dvec3> render(const ExportedScene& scene, const TraceSettings& settings);
 
 } // namespace vkpt::truth

@@ -73,8 +73,7 @@ void RayTree::build(uint32_t first, uint32_t count)
 }
 
 // `visit` gets the triangles of leaves that the ray meets before t_max, which it may lower, and returns true to end.
-template <class Visit>
-void RayTree::visit_leaves(dvec3 origin, dvec3 direction, const double& t_max, Visit visit) const
+template <class Visit> void RayTree::visit_leaves(dvec3 origin, dvec3 direction, const double& t_max, Visit visit) const
 {
     const dvec3 inverse = 1.0 / direction;
     std::array<uint32_t, max_depth> stack;
@@ -85,7 +84,8 @@ void RayTree::visit_leaves(dvec3 origin, dvec3 direction, const double& t_max, V
         const Node& node = nodes_[index];
         const dvec3 a = (node.mins - origin) * inverse, b = (node.maxs - origin) * inverse;
         const dvec3 near = glm::min(a, b), far = glm::max(a, b);
-        const double enter = std::max({ near.x, near.y, near.z, 0.0 }), leave = std::min({ far.x, far.y, far.z, t_max });
+        const double enter = std::max({ near.x, near.y, near.z, 0.0 }),
+                     leave = std::min({ far.x, far.y, far.z, t_max });
         if (enter > leave * (1 + 1e-12))
             continue;
         for (uint32_t i = node.first; i < node.first + node.count; i++)

@@ -4,6 +4,7 @@
 
 #include "tests/truth/exported_scene.hpp"
 
+#include <cstdint>
 #include <limits>
 
 namespace vkpt::truth {

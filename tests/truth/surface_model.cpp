@@ -85,8 +85,7 @@ ScatteredRay scatter(const SurfacePoint& s, dvec3 xi)
         ray.direction = glm::normalize(half * (2 * glm::dot(s.view, half)) - s.view);
     } else {
         const double sine = std::sqrt(xi.x);
-        ray.direction
-            = turn_to(s.normal, { sine * std::cos(around), sine * std::sin(around), std::sqrt(1 - xi.x) });
+        ray.direction = turn_to(s.normal, { sine * std::cos(around), sine * std::sin(around), std::sqrt(1 - xi.x) });
     }
     if (glm::dot(ray.direction, s.normal) <= 0)
         return ray;

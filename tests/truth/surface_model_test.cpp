@@ -32,7 +32,8 @@ dvec3 integrate(const SurfacePoint& s)
     dvec3 sum(0);
     for (int row = 0; row < rows; row++)
         for (int column = 0; column < columns; column++) {
-            const double z = (row + 0.5) / rows, sine = std::sqrt(1 - z * z), around = 2 * pi * (column + 0.5) / columns;
+            const double z = (row + 0.5) / rows, sine = std::sqrt(1 - z * z),
+                         around = 2 * pi * (column + 0.5) / columns;
             sum += reflect_light(s, { sine * std::cos(around), sine * std::sin(around), z });
         }
     return sum * (2 * pi / (rows * columns));
@@ -65,18 +66,20 @@ TEST(SurfaceModel, ScatteredRaysEstimateTheIntegral)
 // Inside of a box that shines with 0.5 and reflects half of it, one bounce more adds half of the one before.
 TEST(PathTracer, FurnaceGrowsAsASeries)
 {
-    Scene scene;
+    ExportedScene scene;
     scene.masks = { 1, 2, 4, 8, 16, 32 };
     scene.camera = { { 0.1, 0.2, 0.3 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, 8, 8 };
     scene.materials.push_back({ dvec3(1), dvec3(0), dvec3(0.5), dvec3(0.5) });
     const auto corner = [](int bits) { return dvec3(bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1); };
     // Quads whose corners run around, seen from inside.
-    const int quads[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
+    const int quads[6][4]
+        = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 }, { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
     for (const auto& quad : quads)
         for (const int half : { 0, 1 }) {
             Triangle triangle;
             triangle.positions = { corner(quad[0]), corner(quad[half ? 2 : 1]), corner(quad[half ? 3 : 2]) };
-            dvec3 normal = glm::cross(triangle.positions[1] - triangle.positions[0], triangle.positions[2] - triangle.positions[0]);
+            dvec3 normal = glm::cross(
+                triangle.positions[1] - triangle.positions[0], triangle.positions[2] - triangle.positions[0]);
             if (glm::dot(normal, triangle.positions[0]) > 0) {
                 std::swap(triangle.positions[1], triangle.positions[2]);
                 normal = -normal;

@@ -58,7 +58,7 @@ protected:
         ASSERT_NO_FATAL_FAILURE(run("export", view, { "-o", "scene" }));
         ASSERT_NO_FATAL_FAILURE(run("render", view, { "--spp", std::to_string(view.samples), "-o", "module.pfm" }));
         const analysis::LinearImage module = analysis::read_image(folder_.path() / "module.pfm");
-        const truth::Scene scene = truth::read_exported_scene(folder_.path() / "scene");
+        const truth::ExportedScene scene = truth::read_exported_scene(folder_.path() / "scene");
         ASSERT_EQ(module.width, scene.camera.width);
         const std::vector<glm::dvec3> own = truth::render(scene, { view.bounces, view.own_samples, 1 });
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A window on a display of double density has four times the pixels that the engine asked for. A window that only the functions
-// of SDL know, which the module finds in this process, and a surface without a display.
+// A window on a display of double density has four times the pixels that the engine asked for. A window that only the
+// functions of SDL know, which the module finds in this process, and a surface without a display.
 #include "ref_vkpt/extension.hpp"
 #include "tests/contract/mock_engine.hpp"
 
@@ -39,8 +39,7 @@ int SDL_Vulkan_CreateSurface(void*, VkInstance instance, VkSurfaceKHR* surface)
     void* loader = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_NOLOAD);
     const auto find = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(loader, "vkGetInstanceProcAddr"));
     dlclose(loader);
-    const auto create
-        = reinterpret_cast<PFN_vkCreateHeadlessSurfaceEXT>(find(instance, "vkCreateHeadlessSurfaceEXT"));
+    const auto create = reinterpret_cast<PFN_vkCreateHeadlessSurfaceEXT>(find(instance, "vkCreateHeadlessSurfaceEXT"));
     const VkHeadlessSurfaceCreateInfoEXT info { VK_STRUCTURE_TYPE_HEADLESS_SURFACE_CREATE_INFO_EXT, nullptr, 0 };
     return create && create(instance, &info, nullptr, surface) == VK_SUCCESS;
 }

@@ -7,6 +7,7 @@
 #include "formats/model.hpp"
 #include "tools/asset_generator/output.hpp"
 
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <string>
 #include <vector>

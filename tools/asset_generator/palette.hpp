@@ -4,6 +4,7 @@
 
 #include "formats/image.hpp"
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>

@@ -8,7 +8,7 @@ namespace vkpt::tools {
 
 namespace {
 
-constexpr double least_ratio = 1e-3; // unlit luxels must not pull the mean of logarithms to minus infinity
+constexpr double min_ratio = 1e-3; // unlit luxels must not pull the mean of logarithms to minus infinity
 constexpr double spread_weight = 0.2;
 constexpr double present_share = 0.01; // of all traced light: a kind with less cannot be fitted
 
@@ -21,8 +21,8 @@ double measure_misfit(const std::vector<MapComparison>& maps, const Scales& fact
         const Quartiles ratio = measure_ratio(map, factors);
         double spread = 0;
         for (const Comparison& luxel : map.luxels)
-            spread += std::abs(std::log(std::max(luxel.traced_with(factors) / luxel.baked, least_ratio)));
-        misfit += std::abs(std::log(std::max(ratio.median, least_ratio)))
+            spread += std::abs(std::log(std::max(luxel.traced_with(factors) / luxel.baked, min_ratio)));
+        misfit += std::abs(std::log(std::max(ratio.median, min_ratio)))
             + spread_weight * spread / double(map.luxels.size());
     }
     return misfit;

@@ -21,7 +21,7 @@ using formats::Bsp;
 constexpr float luxel_size = 16; // texels
 constexpr float lightmap_unit = 128; // the value under which a white diffuse surface has radiance 1
 constexpr uint8_t clipped_value = 190; // compilers scale brighter samples down to 196: those say only "at least"
-constexpr float least_value = 6; // luminance; below, rounding to integers is more than 8 %
+constexpr float min_value = 6; // luminance; below, rounding to integers is more than 8 %
 constexpr float edge_margin = 1; // units inside of the face's edges
 constexpr float clearance = 1; // units in front of the face that must be open
 
@@ -103,7 +103,7 @@ std::optional<glm::vec3> read_baked(const Bsp& bsp, size_t offset, float ambient
 {
     const uint8_t* rgb = bsp.lighting.data() + offset;
     const glm::vec3 value = glm::vec3(rgb[0], rgb[1], rgb[2]) - ambient;
-    if (std::max({ rgb[0], rgb[1], rgb[2] }) >= clipped_value || luminance(value) < least_value)
+    if (std::max({ rgb[0], rgb[1], rgb[2] }) >= clipped_value || luminance(value) < min_value)
         return std::nullopt;
     return value / lightmap_unit;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tools/calibrate_light/measure.hpp"
 
+#include "client/host/client_map.hpp"
 #include "client/host/errors.hpp"
-#include "client/host/scene.hpp"
 #include "common/colour.hpp"
 
 #include <array>
@@ -66,7 +66,7 @@ client::HostOptions make_host_options(const MeasureOptions& options, LightKind k
 }
 
 // Only lightstyle 0 shines: the others' lightmaps are separate.
-engine::RefDef steady_view(client::Scene& scene, std::array<engine::Lightstyle, engine::max_lightstyles>& styles)
+engine::RefDef steady_view(client::ClientMap& scene, std::array<engine::Lightstyle, engine::max_lightstyles>& styles)
 {
     styles.fill({});
     styles[0] = { { 1, 1, 1 }, 3 };
@@ -92,7 +92,7 @@ std::vector<float> measure_kind(
     name.map = probe_map;
     name.file = file;
     name.camera = client::Camera {};
-    client::Scene scene(files, name);
+    client::ClientMap scene(files, name);
     client::Host host(make_host_options(options, kind), &files);
     scene.register_with(host);
     std::array<engine::Lightstyle, engine::max_lightstyles> styles;

@@ -5,6 +5,7 @@
 #include "tools/calibrate_light/fit.hpp"
 #include "tools/calibrate_light/luxels.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 

@@ -199,13 +199,13 @@ Entry fit_lobe(double roughness, double view_cosine)
 
 std::vector<Entry> fit_table()
 {
-    constexpr double last = LTC_SIZE - 1, least_cosine = 0.01; // at 0 there is no lobe
+    constexpr double last = LTC_SIZE - 1, min_cosine = 0.01; // at 0 there is no lobe
     std::vector<Entry> table;
     for (uint row = 0; row < LTC_SIZE; row++)
         for (uint column = 0; column < LTC_SIZE; column++) {
             const double x = column / last;
-            table.push_back(fit_lobe(LTC_LEAST_ROUGHNESS + (1 - double(LTC_LEAST_ROUGHNESS)) * row / last,
-                std::max(1 - x * x, least_cosine)));
+            table.push_back(fit_lobe(
+                LTC_LEAST_ROUGHNESS + (1 - double(LTC_LEAST_ROUGHNESS)) * row / last, std::max(1 - x * x, min_cosine)));
         }
     return table;
 }

@@ -48,10 +48,11 @@ std::array<dvec3, 2> rotated_classic_axes(const dvec3& normal, double degrees)
     return result;
 }
 
-// Beyond these a side's texture coordinates are no longer exact to the texel in the file's 32-bit numbers, and its lightmap
-// cannot be laid out. Editors write scales of 0.05 and shifts of some hundred.
+// Beyond these a side's texture coordinates are no longer exact to the texel in the file's 32-bit numbers, and its
+// lightmap cannot be laid out. Editors write scales of 0.05 and shifts of some hundred.
 constexpr double max_texels_per_unit = 1000, max_shift = 1 << 20;
-// What the file can hold, see BspWriter::finish; told as soon as it is passed, as each more is compared with all before.
+// What the file can hold, see BspWriter::finish; told as soon as it is passed, as each more is compared with all
+// before.
 constexpr size_t max_texinfos = 8192, max_planes = 65536;
 
 class WorldBuilder {
@@ -63,7 +64,7 @@ public:
         world_.source = std::move(source);
     }
 
-    World build()
+    SourceMap build()
     {
         world_.models.push_back({});
         for (size_t i = 0; i < world_.source.entities.size(); i++)
@@ -152,8 +153,7 @@ private:
         side.line = source.line;
         side.plane = world_.planes.find(normal, glm::dot(normal, a - origin));
         if (world_.planes.size() > max_planes)
-            world_.source.fail(
-                source.line, fmt::format("more than {} planes; remove brushes or sides", max_planes));
+            world_.source.fail(source.line, fmt::format("more than {} planes; remove brushes or sides", max_planes));
         for (const BrushSide& other : brush.sides) {
             if (other.plane == side.plane) {
                 warn_at(source.line, "this side repeats a plane of its brush; it is left out");
@@ -307,7 +307,8 @@ private:
             offset[i] = side.shift[i] + glm::dot(origin, axes[i]);
             if (!(glm::length(axes[i]) <= max_texels_per_unit))
                 world_.source.fail(side.line,
-                    fmt::format("the texture is scaled to more than {:.0f} texels per unit; give the side a larger scale",
+                    fmt::format(
+                        "the texture is scaled to more than {:.0f} texels per unit; give the side a larger scale",
                         max_texels_per_unit));
             if (!(std::abs(side.shift[i]) <= max_shift))
                 world_.source.fail(
@@ -340,7 +341,8 @@ private:
         const int index = int(world_.texinfos.size());
         if (world_.texinfos.size() >= max_texinfos)
             world_.source.fail(0,
-                fmt::format("more than {} texture placements; let sides share shift, rotation and scale", max_texinfos));
+                fmt::format(
+                    "more than {} texture placements; let sides share shift, rotation and scale", max_texinfos));
         const TextureInfo& texture = textures_.find(info.texture);
         world_.texinfos.push_back(info);
         world_.light_colour.push_back(texture.light_colour);
@@ -374,7 +376,7 @@ private:
 
     void warn_at(int line, std::string_view reason) { warn_(MapError(world_.source.file, line, reason).what()); }
 
-    World world_;
+    SourceMap world_;
     TextureLibrary& textures_;
     const WarningSink& warn_;
     int mixed_line_ = -1;
@@ -382,7 +384,7 @@ private:
 
 } // namespace
 
-std::string World::entity_text() const
+std::string SourceMap::entity_text() const
 {
     std::string text;
     for (const MapEntity& entity : source.entities) {
@@ -397,7 +399,7 @@ std::string World::entity_text() const
     return text;
 }
 
-World build_world(MapSource source, TextureLibrary& textures, const WarningSink& warn)
+SourceMap build_world(MapSource source, TextureLibrary& textures, const WarningSink& warn)
 {
     return WorldBuilder(std::move(source), textures, warn).build();
 }

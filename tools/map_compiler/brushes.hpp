@@ -7,6 +7,7 @@
 #include "tools/map_compiler/map_source.hpp"
 #include "tools/map_compiler/textures.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -52,7 +53,7 @@ struct BrushModel {
     std::vector<Brush> brushes;
 };
 
-struct World {
+struct SourceMap {
     MapSource source;
     PlaneSet planes;
     std::vector<formats::BspTexinfo> texinfos;
@@ -66,6 +67,6 @@ struct World {
 using WarningSink = std::function<void(const std::string&)>;
 
 // Throws MapError naming the brush's line.
-World build_world(MapSource source, TextureLibrary& textures, const WarningSink& warn);
+SourceMap build_world(MapSource source, TextureLibrary& textures, const WarningSink& warn);
 
 } // namespace vkpt::tools

@@ -13,7 +13,7 @@ namespace vkpt::tools {
 
 namespace {
 
-[[noreturn]] void fail_leak(const World& world, const Leak& leak)
+[[noreturn]] void fail_leak(const SourceMap& world, const Leak& leak)
 {
     const MapEntity& entity = world.source.entities[size_t(leak.entity)];
     throw LeakError(world.source.file, entity.line,
@@ -30,7 +30,7 @@ struct Compiled {
 };
 
 // Twice: the first tree tells which sides can be seen; the second is divided by those first.
-Compiled compile_world(World& world, AreaRecords& areas, const CompileOptions& options)
+Compiled compile_world(SourceMap& world, AreaRecords& areas, const CompileOptions& options)
 {
     BrushModel& model = world.models[0];
     Compiled result;
@@ -52,7 +52,7 @@ Compiled compile_world(World& world, AreaRecords& areas, const CompileOptions& o
     return result;
 }
 
-Compiled compile_brush_model(const World& world, BrushModel& model)
+Compiled compile_brush_model(const SourceMap& world, BrushModel& model)
 {
     Compiled result;
     result.tree = build_tree(world, model);
@@ -80,7 +80,7 @@ formats::Bsp compile_map(std::string_view text, std::string_view file, const Com
 {
     const unsigned threads = options.threads > 0 ? unsigned(options.threads) : core_count();
     TextureLibrary textures(options.textures);
-    World world = build_world(parse_map(text, file), textures, options.warn);
+    SourceMap world = build_world(parse_map(text, file), textures, options.warn);
     for (const std::string& name : textures.missing())
         options.warn(fmt::format(
             "{}: texture {} is not in {}; it is compiled without flags", file, name, options.textures.string()));

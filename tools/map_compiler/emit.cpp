@@ -28,7 +28,7 @@ size_t cell_key(const dvec3& p, const glm::ivec3& step)
 
 } // namespace
 
-BspWriter::BspWriter(World& world)
+BspWriter::BspWriter(SourceMap& world)
     : world_(world)
 {
     bsp_.name = world.source.file;

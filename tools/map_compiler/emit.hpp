@@ -4,11 +4,13 @@
 
 #include "tools/map_compiler/faces.hpp"
 
+#include <cstdint>
+
 namespace vkpt::tools {
 
 class BspWriter {
 public:
-    explicit BspWriter(World& world);
+    explicit BspWriter(SourceMap& world);
 
     // In the models' order, world first. Throws MapError when a limit of the format is passed.
     void add_model(const Tree& tree, const FaceSet& faces, const BrushModel& model);
@@ -23,7 +25,7 @@ private:
     void emit_brushes(const BrushModel& model);
     void check_limit(size_t count, size_t limit, std::string_view what) const;
 
-    World& world_;
+    SourceMap& world_;
     formats::Bsp bsp_;
     const FaceSet* faces_ = nullptr;
     std::vector<int> face_numbers_; // of the current model's faces; -1 not written

@@ -55,7 +55,7 @@ constexpr size_t max_faces = 65535, max_faces_with_replaced = 8 * max_faces;
 
 class FaceMaker {
 public:
-    FaceMaker(Tree& tree, const World& world)
+    FaceMaker(Tree& tree, const SourceMap& world)
         : tree_(tree)
         , world_(world)
     {
@@ -172,7 +172,8 @@ private:
     Extent find_extent(const Face& f, int i) const
     {
         const BspTexinfo& info = world_.texinfos[size_t(f.texinfo)];
-        Extent extent { dvec3(i == 0 ? info.s_axis : info.t_axis), i == 0 ? info.s_offset : info.t_offset, 1e30, -1e30 };
+        Extent extent { dvec3(i == 0 ? info.s_axis : info.t_axis), i == 0 ? info.s_offset : info.t_offset, 1e30,
+            -1e30 };
         for (const dvec3& p : f.winding) {
             const double texel = glm::dot(p, extent.axis) + extent.offset;
             extent.low = std::min(extent.low, texel);
@@ -188,7 +189,8 @@ private:
             const Extent extent = find_extent(f, i);
             if (!extent.is_full())
                 continue;
-            const double cut = 16.0 * std::floor((extent.low + max_face_texels) / 16.0), length = glm::length(extent.axis);
+            const double cut = 16.0 * std::floor((extent.low + max_face_texels) / 16.0),
+                         length = glm::length(extent.axis);
             return Plane { extent.axis / length, (cut - extent.offset) / length, 3 };
         }
         return {};
@@ -203,8 +205,9 @@ private:
                 pieces *= (extent.high - extent.low) / max_face_texels;
         if (!(pieces <= double(max_faces)) || set_.faces.size() > max_faces_with_replaced)
             world_.source.fail(f.line,
-                fmt::format("the lightmaps of this side, or of all together, need more than the format's {} faces; give the "
-                            "texture a larger scale",
+                fmt::format(
+                    "the lightmaps of this side, or of all together, need more than the format's {} faces; give the "
+                    "texture a larger scale",
                     max_faces));
     }
 
@@ -293,7 +296,7 @@ private:
     }
 
     Tree& tree_;
-    const World& world_;
+    const SourceMap& world_;
     FaceSet set_;
 };
 
@@ -311,6 +314,6 @@ void FaceSet::collect(int face, std::vector<int>& result) const
     }
 }
 
-FaceSet make_faces(Tree& tree, const World& world) { return FaceMaker(tree, world).make(); }
+FaceSet make_faces(Tree& tree, const SourceMap& world) { return FaceMaker(tree, world).make(); }
 
 } // namespace vkpt::tools

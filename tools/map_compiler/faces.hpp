@@ -4,6 +4,8 @@
 
 #include "tools/map_compiler/tree.hpp"
 
+#include <cstdint>
+
 namespace vkpt::tools {
 
 // Lightmaps have at most 16 x 16 luxels of 16 texels: a face may span this many texels.
@@ -26,6 +28,6 @@ struct FaceSet {
 };
 
 // Fills the portals' and the nodes' face lists of the tree.
-FaceSet make_faces(Tree& tree, const World& world);
+FaceSet make_faces(Tree& tree, const SourceMap& world);
 
 } // namespace vkpt::tools

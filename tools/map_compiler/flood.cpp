@@ -15,7 +15,7 @@ namespace {
 
 class Flood {
 public:
-    Flood(Tree& tree, const World& world)
+    Flood(Tree& tree, const SourceMap& world)
         : tree_(tree)
         , world_(world)
         , entity_(tree.nodes.size(), -1)
@@ -112,14 +112,14 @@ private:
     }
 
     Tree& tree_;
-    const World& world_;
+    const SourceMap& world_;
     std::vector<int> entity_;
     std::deque<int> queue_;
 };
 
 class AreaFinder {
 public:
-    AreaFinder(Tree& tree, const World& world)
+    AreaFinder(Tree& tree, const SourceMap& world)
         : tree_(tree)
         , sides_(size_t(world.area_portal_count) + 1)
     {
@@ -127,7 +127,7 @@ public:
             portal_of_brush_.push_back(brush.area_portal);
     }
 
-    AreaRecords run(const World& world, const WarningSink& warn)
+    AreaRecords run(const SourceMap& world, const WarningSink& warn)
     {
         int count = 0;
         for (size_t i = 0; i < tree_.nodes.size(); i++)
@@ -179,7 +179,7 @@ private:
         }
     }
 
-    AreaRecords make_records(int count, const World& world, const WarningSink& warn)
+    AreaRecords make_records(int count, const SourceMap& world, const WarningSink& warn)
     {
         AreaRecords records;
         records.areas.resize(size_t(count) + 1); // the engine counts areas from 1
@@ -206,9 +206,9 @@ private:
 
 } // namespace
 
-FloodResult fill_outside(Tree& tree, const World& world) { return Flood(tree, world).run(); }
+FloodResult fill_outside(Tree& tree, const SourceMap& world) { return Flood(tree, world).run(); }
 
-AreaRecords find_areas(Tree& tree, const World& world, const WarningSink& warn)
+AreaRecords find_areas(Tree& tree, const SourceMap& world, const WarningSink& warn)
 {
     return AreaFinder(tree, world).run(world, warn);
 }

@@ -49,7 +49,7 @@ bool Occlusion::is_blocked_below(int index, const glm::vec3& from, const glm::ve
     return index == -1;
 }
 
-LightScene::LightScene(const Bsp& map, const World& source_world)
+LightScene::LightScene(const Bsp& map, const SourceMap& source_world)
     : bsp(map)
     , world(source_world)
     , occlusion(map)

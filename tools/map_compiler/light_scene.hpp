@@ -22,7 +22,7 @@ inline constexpr double patch_size = 64;
 inline constexpr int bounce_count = 8;
 inline constexpr double brightest_luxel = 196;
 // Faces whose emission is below this are not worth a light source.
-inline constexpr double least_emission = 3;
+inline constexpr double min_emission = 3;
 
 // Sight through the world's tree; brush models cast no shadow.
 class Occlusion {
@@ -69,10 +69,10 @@ struct Patch {
 };
 
 struct LightScene {
-    LightScene(const formats::Bsp& map, const World& source_world);
+    LightScene(const formats::Bsp& map, const SourceMap& source_world);
 
     const formats::Bsp& bsp;
-    const World& world;
+    const SourceMap& world;
     Occlusion occlusion;
     std::vector<formats::ClusterSet> pvs; // per cluster
     std::vector<dvec3> face_origin; // what a brush model's faces are moved by

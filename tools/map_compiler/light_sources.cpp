@@ -62,7 +62,7 @@ void add_source(LightScene& scene, LightSource source)
 void add_surface_source(LightScene& scene, const Patch& patch)
 {
     const double strength = largest_part(patch.emission);
-    if (strength < least_emission)
+    if (strength < min_emission)
         return;
     LightSource source;
     source.kind = LightSource::Kind::surface;

@@ -19,7 +19,7 @@ using namespace formats;
 namespace {
 
 // Contributions below this (of 255) are not worth a ray.
-constexpr double least_contribution = 0.01;
+constexpr double min_contribution = 0.01;
 
 // Texel coordinates to points one unit in front of a face.
 class FaceSampler {
@@ -122,7 +122,7 @@ void gather_direct(const LightScene& scene, FaceLight& light, size_t luxel, cons
     for (const int index : scene.cluster_sources[size_t(cluster)]) {
         const LightSource& source = scene.sources[size_t(index)];
         const double amount = light_amount(source, point, normal);
-        if (amount < least_contribution || scene.occlusion.is_blocked(point, source.position))
+        if (amount < min_contribution || scene.occlusion.is_blocked(point, source.position))
             continue;
         auto& style = light.styles[source.style];
         if (style.empty())
@@ -167,7 +167,7 @@ FaceLight light_face(LightScene& scene, size_t face)
             patch.direct /= double(patch.sample_count);
     // What shines is itself bright.
     if (!patches.empty()
-        && std::max({ patches[0].emission.x, patches[0].emission.y, patches[0].emission.z }) >= least_emission)
+        && std::max({ patches[0].emission.x, patches[0].emission.y, patches[0].emission.z }) >= min_emission)
         for (dvec3& luxel : light.styles[0])
             luxel += patches[0].emission;
     return light;
@@ -240,7 +240,7 @@ void store_face(Bsp& bsp, size_t index, FaceLight& light, const PlanePatches& pl
 
 } // namespace
 
-void light_map(Bsp& bsp, const World& world, unsigned threads, const WarningSink& progress)
+void light_map(Bsp& bsp, const SourceMap& world, unsigned threads, const WarningSink& progress)
 {
     LightScene scene(bsp, world);
     make_patches(scene);

@@ -6,6 +6,6 @@
 namespace vkpt::tools {
 
 // Bakes the lightmaps of a compiled map: fills `lighting` and the faces' styles and offsets.
-void light_map(formats::Bsp& bsp, const World& world, unsigned threads, const WarningSink& progress);
+void light_map(formats::Bsp& bsp, const SourceMap& world, unsigned threads, const WarningSink& progress);
 
 } // namespace vkpt::tools

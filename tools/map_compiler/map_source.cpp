@@ -83,7 +83,8 @@ struct Token {
     bool quoted = false, end = false;
 };
 
-// More than any map has; each further one is compared with all before. The engine's own format allows 65,536 sides in all.
+// More than any map has; each further one is compared with all before. The engine's own format allows 65,536 sides in
+// all.
 constexpr size_t max_entity_keys = 512, max_brush_sides = 256;
 
 class Parser {

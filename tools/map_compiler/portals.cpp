@@ -164,7 +164,7 @@ private:
 
 // Which brush side is to be seen between the portal's two leaves: one on the portal's plane of a brush that has the
 // contents that show; else (the plane was merged or comes from elsewhere) the nearest in direction.
-BrushSide* find_side(const Tree& tree, const World& world, BrushModel& model, const Portal& portal)
+BrushSide* find_side(const Tree& tree, const SourceMap& world, BrushModel& model, const Portal& portal)
 {
     const Node& a = tree.nodes[size_t(portal.nodes[0])];
     const Node& b = tree.nodes[size_t(portal.nodes[1])];
@@ -198,7 +198,7 @@ BrushSide* find_side(const Tree& tree, const World& world, BrushModel& model, co
 
 void make_portals(Tree& tree, const PlaneSet& planes, PortalScope scope) { PortalMaker(tree, planes, scope).make(); }
 
-void mark_visible_sides(Tree& tree, const World& world, BrushModel& model)
+void mark_visible_sides(Tree& tree, const SourceMap& world, BrushModel& model)
 {
     for (Brush& brush : model.brushes)
         for (BrushSide& side : brush.sides)

@@ -16,7 +16,7 @@ struct Exchange {
 };
 
 // A smaller part of what leaves a patch is not followed (the classic tool stores transfers in 16 bits).
-constexpr double least_transfer = 3.14159265 / 65536;
+constexpr double min_transfer = 3.14159265 / 65536;
 
 std::vector<Exchange> find_exchanges(const LightScene& scene, size_t index)
 {
@@ -34,7 +34,7 @@ std::vector<Exchange> find_exchanges(const LightScene& scene, size_t index)
             continue;
         const double squared = glm::dot(way, way);
         const double geometry = from * to / (squared * squared);
-        if (geometry * std::max(a.area, b.area) < least_transfer || scene.occlusion.is_blocked(a.position, b.position))
+        if (geometry * std::max(a.area, b.area) < min_transfer || scene.occlusion.is_blocked(a.position, b.position))
             continue;
         result.push_back({ uint32_t(k), float(geometry) });
     }

@@ -5,6 +5,7 @@
 
 #include "formats/image.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <map>

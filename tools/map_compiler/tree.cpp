@@ -37,7 +37,7 @@ struct PlaneTally {
 
 class TreeBuilder {
 public:
-    TreeBuilder(const World& world, const BrushModel& model)
+    TreeBuilder(const SourceMap& world, const BrushModel& model)
         : world_(world)
         , model_(model)
     {
@@ -277,7 +277,7 @@ private:
         result.back.sides.push_back({ plane_index, nullptr, cut, true });
     }
 
-    const World& world_;
+    const SourceMap& world_;
     const BrushModel& model_;
     Tree tree_;
 };
@@ -294,6 +294,6 @@ int Tree::find_leaf(const PlaneSet& planes, const dvec3& p) const
     return index;
 }
 
-Tree build_tree(const World& world, const BrushModel& model) { return TreeBuilder(world, model).build(); }
+Tree build_tree(const SourceMap& world, const BrushModel& model) { return TreeBuilder(world, model).build(); }
 
 } // namespace vkpt::tools

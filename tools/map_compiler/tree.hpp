@@ -4,6 +4,7 @@
 
 #include "tools/map_compiler/brushes.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace vkpt::tools {
@@ -46,14 +47,14 @@ struct Tree {
 };
 
 // Divides space by the sides of the model's brushes: structural before detail, visible before invisible.
-Tree build_tree(const World& world, const BrushModel& model);
+Tree build_tree(const SourceMap& world, const BrushModel& model);
 
 enum class PortalScope { leaves, clusters };
 // Replaces the tree's portals. clusters: detail divisions are not entered.
 void make_portals(Tree& tree, const PlaneSet& planes, PortalScope scope);
 
 // Finds for every portal the side that shows in it and marks that side visible.
-void mark_visible_sides(Tree& tree, const World& world, BrushModel& model);
+void mark_visible_sides(Tree& tree, const SourceMap& world, BrushModel& model);
 
 struct Leak {
     int entity = 0; // the one from which the outside is reached
@@ -64,13 +65,13 @@ struct FloodResult {
     bool any_entity_inside = false;
     std::vector<Leak> leaks; // 0 or 1
 };
-FloodResult fill_outside(Tree& tree, const World& world);
+FloodResult fill_outside(Tree& tree, const SourceMap& world);
 
 // Numbers the areas that area portals divide (from 1) and fills the file's records.
 struct AreaRecords {
     std::vector<formats::BspArea> areas;
     std::vector<formats::BspAreaPortal> portals;
 };
-AreaRecords find_areas(Tree& tree, const World& world, const WarningSink& warn);
+AreaRecords find_areas(Tree& tree, const SourceMap& world, const WarningSink& warn);
 
 } // namespace vkpt::tools

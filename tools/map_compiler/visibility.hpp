@@ -4,6 +4,7 @@
 
 #include "tools/map_compiler/tree.hpp"
 
+#include <cstdint>
 #include <span>
 
 namespace vkpt::tools {

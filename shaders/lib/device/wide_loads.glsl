@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Entries of the scene's tables, by loads as wide as can be: as texels where frame.glsl has defined VKPT_SCENE_TEXELS (see
-// texels.glsl), else of 64 bits. The CPU driver makes gathers of eight lanes out of every load by address, and they
-// cost the same for 32 and 64 bits; on processors that are slowed down against data sampling that is about 10 ns each, and
-// most of the time of the passes that trace or light. GPUs merge loads of any width.
+// Entries of the scene's tables, by loads as wide as can be: as texels where frame.glsl has defined VKPT_SCENE_TEXELS
+// (see texels.glsl), else of 64 bits. The CPU driver makes gathers of eight lanes out of every load by address, and
+// they cost the same for 32 and 64 bits; on processors that are slowed down against data sampling that is about 10 ns
+// each, and most of the time of the passes that trace or light. GPUs merge loads of any width.
 #ifndef VKPT_LIB_WIDE_LOADS
 #define VKPT_LIB_WIDE_LOADS
 
@@ -20,7 +20,7 @@
 VKPT_TEXELS(triangle_texels, TEXELS_TRIANGLES)
 VKPT_TEXELS(material_texels, TEXELS_MATERIALS)
 VKPT_TEXELS(emitter_texels, TEXELS_EMITTERS)
-VKPT_TEXELS(outline_texels, TEXELS_OUTLINES)
+VKPT_TEXELS(packed_light_texels, TEXELS_PACKED_LIGHTS)
 VKPT_TEXELS(static_light_texels, TEXELS_STATIC_LIGHTS)
 #define VKPT_ENTRY_TEXEL(name, table, bytes, index, i) VKPT_TEXEL(name, 0u, table, bytes, index, i)
 #else
@@ -64,16 +64,19 @@ uint fetch_LightIndex(uint64_t table, uint index)
 
 Emitter fetch_Emitter(uint64_t table, uint index)
 {
-    uvec4 a = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 0u), b = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 1u),
-          c = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 2u), d = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 3u);
-    return Emitter(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), uintBitsToFloat(c.w),
-        uintBitsToFloat(d.xyz), uintBitsToFloat(d.w));
+    uvec4 a = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 0u),
+          b = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 1u),
+          c = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 2u),
+          d = VKPT_ENTRY_TEXEL(emitter_texels, table, 64u, index, 3u);
+    return Emitter(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz),
+        uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), uintBitsToFloat(d.w));
 }
 
-EmitterOutline fetch_EmitterOutline(uint64_t table, uint index)
+PackedLight fetch_PackedLight(uint64_t table, uint index)
 {
-    uvec4 a = VKPT_ENTRY_TEXEL(outline_texels, table, 32u, index, 0u), b = VKPT_ENTRY_TEXEL(outline_texels, table, 32u, index, 1u);
-    return EmitterOutline(uintBitsToFloat(a.xyz), a.w, uint[4](b.x, b.y, b.z, b.w));
+    uvec4 a = VKPT_ENTRY_TEXEL(packed_light_texels, table, 32u, index, 0u),
+          b = VKPT_ENTRY_TEXEL(packed_light_texels, table, 32u, index, 1u);
+    return PackedLight(uintBitsToFloat(a.xyz), a.w, uint[4](b.x, b.y, b.z, b.w));
 }
 
 Triangle fetch_Triangle(uint64_t table, uint index)
@@ -81,7 +84,8 @@ Triangle fetch_Triangle(uint64_t table, uint index)
     vec4 a = uintBitsToFloat(VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 0u));
     vec4 b = uintBitsToFloat(VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 1u));
     vec4 c = uintBitsToFloat(VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 2u));
-    uvec4 d = VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 3u), e = VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 4u);
+    uvec4 d = VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 3u),
+          e = VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 4u);
     uvec4 f = VKPT_ENTRY_TEXEL(triangle_texels, table, 96u, index, 5u);
     Triangle result;
     result.positions[0] = a.xyz;
@@ -103,8 +107,10 @@ Triangle fetch_Triangle(uint64_t table, uint index)
 
 Material fetch_Material(uint64_t table, uint index)
 {
-    uvec4 a = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 0u), b = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 1u),
-          c = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 2u), d = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 3u);
+    uvec4 a = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 0u),
+          b = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 1u),
+          c = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 2u),
+          d = VKPT_ENTRY_TEXEL(material_texels, table, 64u, index, 3u);
     Material result;
     result.tint = uintBitsToFloat(a.xyz);
     result.opacity = uintBitsToFloat(a.w);
