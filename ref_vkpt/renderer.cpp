@@ -19,8 +19,10 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <malloc.h>
 #include <memory>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace vkpt {
 
