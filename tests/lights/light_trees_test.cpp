@@ -155,7 +155,7 @@ TEST(LightTrees, ErrorIsLowerThanOfSubsetsWhereListsAreLong)
         scene.static_indices = tables.indices;
         scene.range = hall.lists.lists()[size_t(cluster)];
         scene.tables = tables;
-        scene.tables.tree_roots = { tables.tree_roots[size_t(cluster)] }; // the list's own
+        scene.tables.tree_roots.assign(1, tables.tree_roots[size_t(cluster)]); // the list's own
         const double truth = tree.integrate(scene, 2);
         for (int i = 0; i < draws; i++) {
             const Draw draw = make_draw(hall.rng);
