@@ -411,8 +411,7 @@ void begin_frame(float)
     if (m.trace_choice.wants_measurement() && m.view().snapshot && !m.graphics.is_recording())
         measure_trace_backends(m);
     m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
-    if (!m.graphics.is_recording()) // else the engine left a frame by its error exit
-    {
+    if (!m.graphics.is_recording()) { // else the engine left a frame by its error exit
         choose_light_sampler(m);
         take_edited_shaders(m);
     }

@@ -78,20 +78,22 @@ Pipelines::~Pipelines()
     vkDestroyPipelineCache(gpu_.device.handle, cache_, nullptr);
 }
 
-std::span<const uint32_t> Pipelines::code_of(std::string_view shader)
+std::vector<uint32_t> Pipelines::code_of(std::string_view shader)
 {
     const std::scoped_lock lock(mutex_);
-    const auto replaced = replaced_.find(shader);
-    return replaced != replaced_.end() ? std::span<const uint32_t>(replaced->second) : find_shader(shader);
+    if (const auto replaced = replaced_.find(shader); replaced != replaced_.end())
+        return replaced->second;
+    const std::span<const uint32_t> built = find_shader(shader);
+    return { built.begin(), built.end() };
 }
 
 VkShaderModule Pipelines::make_module(std::string_view shader)
 {
-    const std::span<const uint32_t> code = code_of(shader);
+    const std::vector<uint32_t> code = code_of(shader);
     if (code.empty())
         throw FatalError(fmt::format("shader {} is not part of this build", shader));
     VkShaderModuleCreateInfo info { VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO };
-    info.codeSize = code.size_bytes();
+    info.codeSize = code.size() * sizeof(uint32_t);
     info.pCode = code.data();
     VkShaderModule module = VK_NULL_HANDLE;
     VKPT_CHECK(vkCreateShaderModule(gpu_.device.handle, &info, nullptr, &module));
@@ -222,10 +224,9 @@ std::vector<std::string> Pipelines::used_shaders()
 bool Pipelines::replace(
     const std::string& shader, const std::vector<uint32_t>& code, const std::function<void()>& finish)
 {
-    const std::span<const uint32_t> known = code_of(shader);
-    if (std::ranges::equal(known, code))
+    const std::vector<uint32_t> before = code_of(shader);
+    if (before == code)
         return false;
-    const std::vector<uint32_t> before(known.begin(), known.end());
     std::unique_lock lock(mutex_);
     one_is_made_.wait(lock, [&] { return !compute_.contains(shader) || compute_[shader] != VK_NULL_HANDLE; });
     const bool is_computed = compute_.contains(shader), is_shared = std::ranges::count(shared_stages, shader) > 0;

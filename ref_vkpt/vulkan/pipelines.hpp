@@ -44,7 +44,7 @@ public:
 
 private:
     void save_cache() const;
-    std::span<const uint32_t> code_of(std::string_view shader);
+    std::vector<uint32_t> code_of(std::string_view shader);
     VkShaderModule make_module(std::string_view shader);
     VkPipeline make_compute_pipeline(std::string_view shader);
     VkPipeline make_ray_pipeline(std::string_view shader);

@@ -2,6 +2,7 @@
 #include "tools/calibrate_light/measure.hpp"
 
 #include "client/host/client_map.hpp"
+#include "client/host/temporary_folder.hpp"
 #include "client/host/errors.hpp"
 #include "common/colour.hpp"
 
@@ -32,28 +33,6 @@ std::vector<std::byte> read_file(const fs::path& path)
 }
 
 // A folder that goes with its last user.
-class TemporaryFolder {
-public:
-    TemporaryFolder()
-    {
-        std::string name = (fs::temp_directory_path() / "vkpt-calibrate-XXXXXX").string();
-        if (!mkdtemp(name.data()))
-            throw client::Failure(fmt::format("{} cannot be made: {}", name, std::strerror(errno)));
-        path_ = name;
-    }
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
-
 client::HostOptions make_host_options(const MeasureOptions& options, LightKind kind)
 {
     client::HostOptions host;
@@ -78,7 +57,7 @@ engine::RefDef steady_view(client::ClientMap& scene, std::array<engine::Lightsty
 std::vector<float> measure_kind(
     const formats::Bsp& bsp, const std::vector<Luxel>& luxels, LightKind kind, const MeasureOptions& options)
 {
-    const TemporaryFolder folder;
+    const client::TemporaryFolder folder("vkpt-calibrate-");
     const fs::path file = folder.path() / "variant.bsp";
     const std::vector<std::byte> bytes = formats::write_bsp(keep_lights_of(bsp, kind));
     std::ofstream output(file, std::ios::binary);
