@@ -2,8 +2,8 @@
 #include "tools/calibrate_light/measure.hpp"
 
 #include "client/host/client_map.hpp"
-#include "client/host/temporary_folder.hpp"
 #include "client/host/errors.hpp"
+#include "client/host/temporary_folder.hpp"
 #include "common/colour.hpp"
 
 #include <array>
