@@ -80,8 +80,10 @@ make_system() {
 inside() {
     local home=/root
     local -a compiler=()
-    [[ -z $cache ]] || compiler=(CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_DIR=/ccache CCACHE_UMASK=000)
     [[ $2 == root ]] || home=/home/$2
+    # Relative paths, so that what one user has compiled serves the other.
+    [[ -z $cache ]] || compiler=(CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_DIR=/ccache
+        CCACHE_UMASK=000 CCACHE_BASEDIR="$home" CCACHE_NOHASHDIR=1)
     # shellcheck disable=SC2016  # expanded within
     unshare --mount --propagation private bash -c '
         system=$1 user=$2 home=$3 command=$4 cache=$5
