@@ -104,11 +104,23 @@ has_raytracing_gpu() {
         END { exit !found }'
 }
 
+is_first_start() { [[ ! -e $home_dir/.yq2/$game_name/config.cfg ]]; }
+
 # The first start has no configuration yet: a size that the machine can keep up with.
 first_size() {
-    [[ -e $home_dir/.yq2/$game_name/config.cfg ]] && return 0
+    is_first_start || return 0
     if has_raytracing_gpu; then echo 1280x720; else echo 640x360; fi
 }
+
+# Where no GPU traces rays, the first start also sets a time that a frame may take: the engine keeps it with its settings.
+declare -a first_settings=()
+choose_first_settings() {
+    is_first_start && ! has_raytracing_gpu || return 0
+    first_settings=(+set pt_target_ms "$frame_ms_without_gpu")
+    note "no GPU that traces rays was found: the 3D view is rendered smaller where that is needed for 30 frames a second"
+    note "(console: pt_target_ms 0 turns that off; --set pt_target_ms=0 here)"
+}
+frame_ms_without_gpu=33
 
 # --- playing ------------------------------------------------------------------------------------------------------
 
@@ -138,7 +150,9 @@ play_in_window() {
     share_display
     use_game_module
     build_common_arguments "$(first_size)"
-    common_arguments+=(${module_arguments[@]+"${module_arguments[@]}"})
+    choose_first_settings
+    # What the caller sets comes later, and so holds.
+    common_arguments=(${first_settings[@]+"${first_settings[@]}"} "${common_arguments[@]}" ${module_arguments[@]+"${module_arguments[@]}"})
     # In a cooperative game the dead get up again by themselves.
     [[ $demo_mode == no ]] || common_arguments+=(+set coop 1 +set vkpt_start "walk explore 0")
     [[ -z $map_name && $find_data == no ]] && map_name=$own_map

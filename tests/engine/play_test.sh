@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# ./play without a display: pictures, a contact sheet and where ffmpeg is there a film, quickly a second time, and clear words for wrong use.
+# ./play without a display: pictures, a contact sheet and where ffmpeg is there a film, quickly a second time; its first start in a
+# window; and clear words for wrong use.
 #   play_test.sh BUILD_DIR
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/../.." && pwd)
@@ -46,6 +47,22 @@ expect 0 'Pass: +' play --size 96x54 --timedemo --set pt_bounces=0 --set pt_benc
 perl -MJSON::PP -e 'local $/; my $b = decode_json(<STDIN>); exit !($b->{schema} == 1 && $b->{scene} eq "maps/vkpt1.bsp"
     && $b->{frame_ms}{median} > 0 && @{$b->{passes}} > 3 && @{$b->{cpu}} > 3 && $b->{settings}{pt_bounces} eq "0"
     && $b->{start}{first_frame_s} > 0)' <"$folder/run/home/.yq2/baseq2/vkpt/bench/bench.json" || fail "bench.json is not what it should be"
+# In a window: where no GPU traces rays, the first start asks for 30 frames a second, and the engine keeps what it was told.
+# shellcheck disable=SC2119,SC2120  # of the function
+in_window() { xvfb-run -a -s '-screen 0 320x240x24' "$root/play" --no-setup --size 96x54 "$@" -- +set s_initsound 0 +quit; }
+config=$folder/run/home/.yq2/vkpt/config.cfg
+if bash -c 'root=$0; . "$root/scripts/lib/common.sh"; . "$root/scripts/lib/play.sh"; has_raytracing_gpu' "$root"; then
+    echo "a GPU traces rays here: the first start without one is not tried"
+else
+    expect 0 '30 frames a second' in_window
+    grep -qE '^set pt_target_ms "33' "$config" || fail "the first start did not keep its time of a frame"
+    output=$(in_window 2>&1 </dev/null) || fail "the second start ended with $?: $output"
+    grep -F '30 frames a second' <<<"$output" && fail "the second start was taken for the first"
+    rm -f "$config"
+    expect 0 '30 frames a second' in_window --set pt_target_ms=0
+    grep -qE '^set pt_target_ms "0' "$config" || fail "the first start did not take the caller's time of a frame"
+fi
+
 expect 1 'no demo .nothere' play --timedemo nothere
 expect 1 'no map .nothere' play --headless --map nothere
 expect 1 'no Quake II data in' play --data "$folder"
