@@ -5,6 +5,8 @@
 #include "ref_vkpt/frame/frame.hpp"
 #include "ref_vkpt/frame/frame_flags.hpp"
 #include "ref_vkpt/lights/guides.hpp"
+#include "ref_vkpt/vulkan/shaders.hpp"
+#include "shaders/shared/light_sampler.h"
 
 #include <algorithm>
 #include <cstring>
@@ -67,6 +69,12 @@ shared::LightCacheView GpuLightCache::addresses() const
     return view;
 }
 
+uint32_t light_cache_needs()
+{
+    // VKPT_ALWAYS_SUBSET_PPS of update_light_cache.comp
+    return uses_light_cache() ? find_light_sampler("subset_pps")->traits & shared::SAMPLER_NEEDS : 0;
+}
+
 GpuLightCache upload_light_cache(const LightCacheLayout& layout, Uploader& uploader)
 {
     GpuLightCache gpu;
@@ -85,6 +93,7 @@ bool LightCacheKeeper::wants_filling(const GpuWorld& gpu_world) const
 {
     const CvarValues& cvars = cvars::values();
     return uses_light_cache() && gpu_world.light_cache.cell_count > 0 && world_ != gpu_world.version
+        && !(light_cache_needs() & ~gpu_world.sampler_needs)
         && (cvars.pt_accumulate != 0 || cvars::shader_values().flt_denoiser != shared::DENOISER_OFF);
 }
 

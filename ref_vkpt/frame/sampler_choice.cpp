@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/sampler_choice.hpp"
 
 #include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/frame/light_cache.hpp"
 #include "shaders/shared/light_sampler.h"
 
 #include <chrono>
@@ -23,7 +24,10 @@ bool is_ready(const std::future<SamplerTables>& tables)
 
 } // namespace
 
-uint32_t SamplerChoice::wanted_needs() { return wanted_sampler().traits & shared::SAMPLER_NEEDS; }
+uint32_t SamplerChoice::wanted_needs()
+{
+    return (wanted_sampler().traits & shared::SAMPLER_NEEDS) | light_cache_needs();
+}
 
 void SamplerChoice::forget_world()
 {

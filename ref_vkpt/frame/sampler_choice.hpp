@@ -14,7 +14,7 @@ namespace vkpt {
 
 class SamplerChoice {
 public:
-    // SAMPLER_NEEDS_* of pt_light_sampler, for a map that is loaded.
+    // SAMPLER_NEEDS_* of pt_light_sampler and of the light cache, for a map that is loaded.
     static uint32_t wanted_needs();
     // Before the map goes.
     void forget_world();

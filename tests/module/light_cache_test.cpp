@@ -204,5 +204,24 @@ TEST_F(LightCache, LetsPhotoModeConvergeToTheSame)
     EXPECT_LT(error_between(session->accumulate(64), aimed), 0.5 * error_between(short_traced, traced));
 }
 
+// Its own samples read tables that other samplers do without: at the start of a map, and where it is switched on later.
+TEST_F(LightCache, HasItsTablesWithAnySampler)
+{
+    add_room(0);
+    for (const char* sampler : { "subset", "light_tree" }) {
+        const auto session = start({ { "flt_denoiser", "temporal" }, { "pt_light_sampler", sampler } });
+        session->draw(4);
+        const float cached = luminance(session->capture().mean());
+        EXPECT_GT(cached, 0) << sampler;
+        session->set("pt_indirect", "trace");
+        session->load_map("room");
+        session->look({ 240, -200, 120 }, { -180, 60, 40 });
+        session->draw(4);
+        session->set("pt_indirect", "cache");
+        session->draw(32);
+        EXPECT_NEAR(luminance(session->capture().mean()) / cached, 1, 0.5) << sampler;
+    }
+}
+
 } // namespace
 } // namespace vkpt::tests
