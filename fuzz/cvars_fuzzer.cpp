@@ -57,7 +57,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
     check_rows(engine);
     fuzz::use(cvars::shader_values());
     cvars::update();
-    fuzz::require(engine.console.size() <= changed.size(), "a wrong value is told once");
+    // A change of a variable that counts later may be told of, too.
+    fuzz::require(engine.console.size() <= 2 * changed.size(), "a wrong value is told once");
     for (const CvarRow* row : changed)
         engine.set(row->name, row->initial);
     cvars::update();

@@ -57,6 +57,15 @@ TEST_F(Faces, ArePlanarAndLookOutOfTheirPlane)
     }
 }
 
+// The format's unused edge 0 has a vertex, too: readers, ours and the engine's, look.
+TEST(FacesOfNothing, MakeAMapThatCanBeRead)
+{
+    const std::string brush = box_brush({ { -64, -64, -16 }, { 64, 64, 0 } }, "hint");
+    const Bsp bsp = compile(entity_text({ { "classname", "worldspawn" } }, brush));
+    EXPECT_TRUE(bsp.faces.empty());
+    EXPECT_EQ(bsp.vertices.size(), 1u);
+}
+
 TEST_F(Faces, SeparateOpenFromSolidOrLiquid)
 {
     for (size_t face = 0; face < size_t(bsp_->models[0].face_count); face++) {

@@ -200,6 +200,8 @@ Bsp BspWriter::finish(AreaRecords areas, std::vector<uint8_t> visibility, int cl
     bsp_.area_portals = std::move(areas.portals);
     bsp_.visibility = std::move(visibility);
     bsp_.cluster_count = bsp_.visibility.empty() ? 0 : cluster_count;
+    if (bsp_.vertices.empty())
+        bsp_.vertices.push_back({}); // of edge 0, where nothing is drawn
     // 16-bit fields; the engine's own arrays are no larger.
     check_limit(bsp_.planes.size(), 65536, "planes");
     check_limit(bsp_.vertices.size(), 65536, "vertices");
