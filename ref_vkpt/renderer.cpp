@@ -14,6 +14,7 @@
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/scene/camera.hpp"
 #include "ref_vkpt/scene/motion.hpp"
+#include "ref_vkpt/vulkan/pipeline_statistics.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -62,6 +63,7 @@ GraphicsSettings graphics_settings(void* sdl_window)
     settings.validation = cvars.pt_validation != 0;
     settings.ray_tracing = cvars.pt_device_rays != 0;
     settings.table_reads = TableReads(find_choice(find_cvar_row("pt_table_reads")->choices, cvars.pt_table_reads));
+    settings.pipeline_statistics = !wanted_statistics_file().empty();
     settings.vsync = vsync();
     return settings;
 }
@@ -188,7 +190,11 @@ void close_module()
             running = nullptr;
         }
     } const closing;
-    if (running && !running->pass_statistics.empty())
+    if (!running)
+        return;
+    if (const std::string file = wanted_statistics_file(); !file.empty())
+        write_pipeline_statistics(file, running->graphics.device, running->graphics.pipelines);
+    if (!running->pass_statistics.empty())
         print_pass_statistics(*running);
 }
 
@@ -317,6 +323,21 @@ void get_drawable_size(int* width, int* height)
     const VkExtent2D size = running ? running->graphics.size() : agreed_size;
     *width = int(size.width);
     *height = int(size.height);
+}
+
+std::string describe_lost_device()
+{
+    if (!running)
+        return {};
+    const Module& m = *running;
+    std::string settings = fmt::format("pt_trace {}", name_of(m.frame.trace_backend()));
+    for (const auto& [name, value] : changed_settings())
+        if (name != "pt_trace")
+            settings += fmt::format(", {} {}", name, value);
+    const VkExtent2D size = m.graphics.size();
+    return fmt::format("{} (pictures of {} x {}, map {}, {}); if it happens again, update the graphics driver, or try "
+                       "pt_trace software, and report these lines",
+        m.graphics.markers.describe_last(), size.width, size.height, m.scene.map_path(), settings);
 }
 
 // ---- registration
@@ -449,7 +470,7 @@ static void record_view(
 void render_view(const engine::RefDef& refdef)
 {
     Module& m = *running;
-    if (!m.graphics.is_recording())
+    if (!m.graphics.is_recording() || m.graphics.is_hidden())
         return;
     const bool has_world = !(refdef.flags & engine::RDF_NOWORLDMODEL);
     if (has_world && !m.scene.world())

@@ -41,6 +41,11 @@ const VkSpecializationInfo* table_access(const Device& device)
     return device.reads_texels() ? nullptr : &by_address;
 }
 
+VkPipelineCreateFlags pipeline_flags(const Device& device)
+{
+    return device.has_pipeline_statistics ? VkPipelineCreateFlags(VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR) : 0;
+}
+
 VkRayTracingShaderGroupCreateInfoKHR make_group(uint32_t general, uint32_t closest_hit, uint32_t any_hit)
 {
     VkRayTracingShaderGroupCreateInfoKHR group { VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR };
@@ -105,6 +110,7 @@ VkPipeline Pipelines::make_compute_pipeline(std::string_view shader)
     const VkShaderModule module = make_module(shader);
     VkComputePipelineCreateInfo info { VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO };
     info.layout = bindings_.pipeline_layout();
+    info.flags = pipeline_flags(gpu_.device);
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;
@@ -162,6 +168,7 @@ VkPipeline Pipelines::make_ray_pipeline(std::string_view shader)
     groups[group_miss] = make_group(stage_miss, VK_SHADER_UNUSED_KHR, VK_SHADER_UNUSED_KHR);
     groups[group_hit] = make_group(VK_SHADER_UNUSED_KHR, stage_closest_hit, stage_any_hit);
     VkRayTracingPipelineCreateInfoKHR info { VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR };
+    info.flags = pipeline_flags(gpu_.device);
     info.stageCount = stage_count;
     info.pStages = stages;
     info.groupCount = group_count;
@@ -206,6 +213,18 @@ const RayPipeline& Pipelines::ray(std::string_view shader)
     RayPipeline& kept = ray_.emplace(shader, std::move(pipeline)).first->second;
     fill_table(kept);
     return kept;
+}
+
+std::vector<std::pair<std::string, VkPipeline>> Pipelines::all()
+{
+    const std::scoped_lock lock(mutex_);
+    std::vector<std::pair<std::string, VkPipeline>> pipelines;
+    for (const auto& [shader, pipeline] : compute_)
+        if (pipeline)
+            pipelines.emplace_back(shader, pipeline);
+    for (const auto& [shader, pipeline] : ray_)
+        pipelines.emplace_back(shader, pipeline.handle);
+    return pipelines;
 }
 
 std::vector<std::string> Pipelines::used_shaders()

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vkpt {
@@ -35,6 +36,8 @@ public:
     VkPipeline compute(std::string_view shader);
     // `shader`: the ray generation one.
     const RayPipeline& ray(std::string_view shader);
+    // All that there are, by shader.
+    std::vector<std::pair<std::string, VkPipeline>> all();
     // The shaders of all pipelines that there are.
     std::vector<std::string> used_shaders();
     // From now on `shader` has this code. `finish` waits for the device and is called where a pipeline is made anew.

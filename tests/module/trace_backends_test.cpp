@@ -186,7 +186,7 @@ TEST_F(TraceBackends, KeepToTheDistances)
         float t_min, t_max;
         bool meets;
     } cases[] = { { 0, 7.999f, false }, { 0, 8.001f, true }, { 7.999f, 100, true }, { 8.001f, 100, false },
-        { 0, 1e6f, true }, { 0, 1e30f, true } };
+        { 0, 1e6f, true }, { 0, 1e30f, true }, { 9, 8, false }, { 5, 3, false } };
     with_each([&] {
         for (const auto& c : cases)
             for (const bool visibility : { false, true }) {
