@@ -342,6 +342,22 @@ std::string describe_lost_device()
 
 // ---- registration
 
+// Pictures that are compared, and times, are of the sampler and the shaders that were asked for.
+static bool wants_settled_frames()
+{
+    const CvarValues& cvars = cvars::values();
+    return cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
+}
+
+// GPUs' shaders are compiled for settings that change rarely. The CPU driver takes seconds to compile, and reading them
+// costs it little. Shaders that are edited are compiled often enough.
+static void fix_choices(Module& m)
+{
+    const shared::ShaderCvars cvars = cvars::shader_values();
+    if (!m.graphics.device.is_cpu && !m.shader_reload.is_on())
+        m.graphics.pipelines.fix({ cvars.pt_light_weight, cvars.pt_light_point }, wants_settled_frames());
+}
+
 void begin_registration(std::string_view map)
 {
     Module& m = *running;
@@ -356,6 +372,7 @@ void begin_registration(std::string_view map)
     m.gpu_world = {};
     m.sampler_choice.forget_world();
     m.frame.forget_world();
+    fix_choices(m);
     if (!m.warm_up)
         m.warm_up.emplace(m.graphics.device, m.graphics.pipelines, frame_shaders(m.frame.trace_backend()));
     m.scene.begin_registration(map);
@@ -393,13 +410,6 @@ void end_registration()
 
 // ---- the frame
 
-// Pictures that are compared, and times, are of the sampler and the shaders that were asked for.
-static bool wants_settled_frames()
-{
-    const CvarValues& cvars = cvars::values();
-    return cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
-}
-
 static void choose_light_sampler(Module& m)
 {
     const LightSampler& sampler = m.sampler_choice.choose(
@@ -434,6 +444,7 @@ void begin_frame(float)
     m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
     if (!m.graphics.is_recording()) { // else the engine left a frame by its error exit
         choose_light_sampler(m);
+        fix_choices(m);
         take_edited_shaders(m);
     }
     if (m.view().snapshot && !m.graphics.is_recording() && m.frame.light_cache.wants_filling(m.gpu_world))
