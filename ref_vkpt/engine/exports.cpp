@@ -377,6 +377,7 @@ public:
     explicit ReturnedTable(const engine::Imports& imports)
     {
         engine::attach(imports);
+        awaits_restart = false; // the library may have stayed in memory
         const int api = guard_or("GetRefAPI", 0, detect_api);
         // Until it hears of restarts, the engine itself watches vid_fullscreen, and restarts once right after the start
         // because the variable is new. From here on vid_restart works, and a change of the variable waits for it, as

@@ -38,7 +38,8 @@ enum RayGroup : uint32_t { group_generation, group_miss, group_hit, group_count 
 class Specialization {
 public:
     Specialization(const Device& device, const FixedChoices& choices)
-        : values_ { device.reads_texels() ? VK_TRUE : VK_FALSE, choices.light_weight, choices.light_point }
+        : values_ { device.reads_texels() ? VK_TRUE : VK_FALSE, choices.light_weight, choices.light_point,
+            choices.bounces }
     {
     }
     Specialization(const Specialization&) = delete;
@@ -47,12 +48,13 @@ public:
 private:
     struct Values {
         VkBool32 as_texels;
-        int32_t light_weight, light_point;
+        int32_t light_weight, light_point, bounces;
     } const values_;
     static constexpr VkSpecializationMapEntry entries_[] = {
         { shared::TEXELS_CONSTANT, offsetof(Values, as_texels), sizeof(VkBool32) },
         { shared::LIGHT_WEIGHT_CONSTANT, offsetof(Values, light_weight), sizeof(int32_t) },
         { shared::LIGHT_POINT_CONSTANT, offsetof(Values, light_point), sizeof(int32_t) },
+        { shared::BOUNCES_CONSTANT, offsetof(Values, bounces), sizeof(int32_t) },
     };
     const VkSpecializationInfo info_ { uint32_t(std::size(entries_)), entries_, sizeof values_, &values_ };
 };
@@ -168,7 +170,8 @@ bool Pipelines::knows_choices(std::string_view shader)
     return knows_choices_
         .emplace(shader,
             declares_constant(code, shared::LIGHT_WEIGHT_CONSTANT)
-                || declares_constant(code, shared::LIGHT_POINT_CONSTANT))
+                || declares_constant(code, shared::LIGHT_POINT_CONSTANT)
+                || declares_constant(code, shared::BOUNCES_CONSTANT))
         .first->second;
 }
 
@@ -177,7 +180,7 @@ std::string Pipelines::key_of(std::string_view shader, const FixedChoices& choic
 {
     if (choices == FixedChoices {} || !knows_choices(shader))
         return std::string(shader);
-    return fmt::format("{}#{},{}", shader, choices.light_weight, choices.light_point);
+    return fmt::format("{}#{},{},{}", shader, choices.light_weight, choices.light_point, choices.bounces);
 }
 
 // With the lock. What goes on in the place of `key` while that is under way, which it is from here on. nullptr: it is

@@ -11,6 +11,8 @@ VKPT_SHARED_BEGIN
 VKPT_CONST uint LIGHT_WEIGHT_CONSTANT = 2u; // pt_light_weight
 VKPT_CONST uint LIGHT_POINT_CONSTANT = 3u; // pt_light_point
 
+VKPT_CONST uint BOUNCES_CONSTANT = 4u; // pt_bounces
+
 VKPT_CONST int NOT_FIXED = -1; // read from the frame's settings
 
 VKPT_SHARED_END
