@@ -14,6 +14,7 @@
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/scene/camera.hpp"
 #include "ref_vkpt/scene/motion.hpp"
+#include "ref_vkpt/vulkan/pipeline_statistics.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -62,6 +63,7 @@ GraphicsSettings graphics_settings(void* sdl_window)
     settings.validation = cvars.pt_validation != 0;
     settings.ray_tracing = cvars.pt_device_rays != 0;
     settings.table_reads = TableReads(find_choice(find_cvar_row("pt_table_reads")->choices, cvars.pt_table_reads));
+    settings.pipeline_statistics = !wanted_statistics_file().empty();
     settings.vsync = vsync();
     return settings;
 }
@@ -188,7 +190,11 @@ void close_module()
             running = nullptr;
         }
     } const closing;
-    if (running && !running->pass_statistics.empty())
+    if (!running)
+        return;
+    if (const std::string file = wanted_statistics_file(); !file.empty())
+        write_pipeline_statistics(file, running->graphics.device, running->graphics.pipelines);
+    if (!running->pass_statistics.empty())
         print_pass_statistics(*running);
 }
 
@@ -319,7 +325,39 @@ void get_drawable_size(int* width, int* height)
     *height = int(size.height);
 }
 
+std::string describe_lost_device()
+{
+    if (!running)
+        return {};
+    const Module& m = *running;
+    std::string settings = fmt::format("pt_trace {}", name_of(m.frame.trace_backend()));
+    for (const auto& [name, value] : changed_settings())
+        if (name != "pt_trace")
+            settings += fmt::format(", {} {}", name, value);
+    const VkExtent2D size = m.graphics.size();
+    return fmt::format("{} (pictures of {} x {}, map {}, {}); if it happens again, update the graphics driver, or try "
+                       "pt_trace software, and report these lines",
+        m.graphics.markers.describe_last(), size.width, size.height, m.scene.map_path(), settings);
+}
+
 // ---- registration
+
+// Pictures that are compared, and times, are of the sampler and the shaders that were asked for.
+static bool wants_settled_frames()
+{
+    const CvarValues& cvars = cvars::values();
+    return cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
+}
+
+// GPUs' shaders are compiled for settings that change rarely. The CPU driver takes seconds to compile, and reading them
+// costs it little. Shaders that are edited are compiled often enough.
+static void fix_choices(Module& m)
+{
+    const shared::ShaderCvars cvars = cvars::shader_values();
+    if (!m.graphics.device.is_cpu && !m.shader_reload.is_on())
+        m.graphics.pipelines.fix(
+            { cvars.pt_light_weight, cvars.pt_light_point, cvars.pt_bounces }, wants_settled_frames());
+}
 
 void begin_registration(std::string_view map)
 {
@@ -335,6 +373,7 @@ void begin_registration(std::string_view map)
     m.gpu_world = {};
     m.sampler_choice.forget_world();
     m.frame.forget_world();
+    fix_choices(m);
     if (!m.warm_up)
         m.warm_up.emplace(m.graphics.device, m.graphics.pipelines, frame_shaders(m.frame.trace_backend()));
     m.scene.begin_registration(map);
@@ -372,13 +411,6 @@ void end_registration()
 
 // ---- the frame
 
-// Pictures that are compared, and times, are of the sampler and the shaders that were asked for.
-static bool wants_settled_frames()
-{
-    const CvarValues& cvars = cvars::values();
-    return cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
-}
-
 static void choose_light_sampler(Module& m)
 {
     const LightSampler& sampler = m.sampler_choice.choose(
@@ -413,6 +445,7 @@ void begin_frame(float)
     m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
     if (!m.graphics.is_recording()) { // else the engine left a frame by its error exit
         choose_light_sampler(m);
+        fix_choices(m);
         take_edited_shaders(m);
     }
     if (m.view().snapshot && !m.graphics.is_recording() && m.frame.light_cache.wants_filling(m.gpu_world))
@@ -449,7 +482,7 @@ static void record_view(
 void render_view(const engine::RefDef& refdef)
 {
     Module& m = *running;
-    if (!m.graphics.is_recording())
+    if (!m.graphics.is_recording() || m.graphics.is_hidden())
         return;
     const bool has_world = !(refdef.flags & engine::RDF_NOWORLDMODEL);
     if (has_world && !m.scene.world())

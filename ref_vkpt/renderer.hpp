@@ -7,6 +7,7 @@
 #include "ref_vkpt/engine/contract.hpp"
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace vkpt::renderer {
@@ -24,6 +25,8 @@ bool init();
 void shutdown();
 bool is_vsync_active();
 void get_drawable_size(int* width, int* height);
+// Where the device was when it was lost, with which settings, and what to do about it.
+std::string describe_lost_device();
 
 void begin_registration(std::string_view map);
 void* register_model(std::string_view name);

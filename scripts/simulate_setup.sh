@@ -14,7 +14,7 @@ export VKPT_APT_DIR=$folder/apt VKPT_RECORD_DIR=$folder/record
 . "$root/scripts/lib/common.sh"
 . "$root/scripts/lib/setup.sh"
 needed_for=${1:-test}
-log_dir=$folder/log plan_dir=$folder/plan apt_lists=$folder/lists dpkg_dir=$folder/dpkg dev_dir=$folder/dev no_mesa_stamp=$folder/stamp
+log_dir=$folder/log plan_dir=$folder/plan apt_lists=$folder/lists dpkg_dir=$folder/dpkg dev_dir=$folder/dev no_mesa_stamp=$folder/stamp no_shim_stamp=$folder/shim-stamp
 is_debian() { true; }
 has_agreed() { false; }
 has_terminal() { false; }

@@ -44,7 +44,7 @@ vec3 count_emission(BouncePath path, BsdfSample bsdf, HitSurface hit, Random pix
         return vec3(0.0);
     if (hit.emitter < 0) {
         // Not in the lists, so that only a bounce finds it.
-        if (path.vertex >= uint(frame.cvars.pt_bounces))
+        if (path.vertex >= bounce_count())
             return vec3(0.0);
         return is_sky ? sky_radiance(bsdf.direction) : hit.emission;
     }
@@ -98,7 +98,7 @@ bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
     path.ray_length = raw.t;
     HitSurface hit = fetch_surface(raw, ray, raw.t * bounce_cone_spread, PICTURE_TEXEL);
     path.radiance += path.throughput * count_emission(path, bsdf, hit, pixel_random);
-    if ((hit.flags & MATERIAL_SKY) != 0u || path.vertex >= uint(frame.cvars.pt_bounces))
+    if ((hit.flags & MATERIAL_SKY) != 0u || path.vertex >= bounce_count())
         return false;
     path.surface = hit.surface;
     path.met = hit.surface.position;
@@ -201,7 +201,8 @@ FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary)
             if (bsdf.lobe == BSDF_LOBE_SPECULAR)
                 found.specular_hit_distance = path.ray_length;
         }
-        if (!goes_on || share == 0.0)
+        // The last says nothing new: compilers that know the number drop the loop.
+        if (!goes_on || share == 0.0 || bsdf_ray_count() == 1u)
             break;
     }
     store_traced_rays(index, load_ray_count(index));

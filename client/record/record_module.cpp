@@ -105,6 +105,8 @@ void shutdown()
 
 bool is_vsync_active() { return false; }
 
+std::string describe_lost_device() { return {}; } // it has none
+
 void get_drawable_size(int* width, int* height)
 {
     *width = screen.width;

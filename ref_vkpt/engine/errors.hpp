@@ -21,4 +21,11 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+// The device was lost: everything on it has gone, another device may serve. The engine is asked to start the renderer
+// anew, once; after that it stops with the text.
+class DeviceLost : public FatalError {
+public:
+    using FatalError::FatalError;
+};
+
 } // namespace vkpt

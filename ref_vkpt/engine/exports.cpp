@@ -21,10 +21,14 @@ namespace vkpt {
 
 namespace {
 
-enum class Failure { none, level, fatal };
+enum class Failure { none, level, lost, fatal };
 
 // Static, because it must outlive the stack that failed.
-char failure_text[1024];
+char failure_text[2048];
+
+// The engine has been asked to start the module anew, which it does before its next frame. What it calls until then
+// does nothing.
+bool awaits_restart = false;
 
 // Files the exception in flight. Says what kind of failure it is.
 Failure note_failure(const char* entry)
@@ -39,6 +43,8 @@ Failure note_failure(const char* entry)
         return note(Failure::level, VKPT_MODULE_NAME ": %s%s", error.what(), "");
     } catch (const LevelError& error) {
         return note(Failure::level, VKPT_MODULE_NAME ": %s%s", error.what(), "");
+    } catch (const DeviceLost& error) {
+        return note(Failure::lost, VKPT_MODULE_NAME ": %s%s", error.what(), "");
     } catch (const FatalError& error) {
         return note(Failure::fatal, VKPT_MODULE_NAME ": %s%s", error.what(), "");
     } catch (const std::bad_alloc&) {
@@ -51,6 +57,32 @@ Failure note_failure(const char* entry)
     }
 }
 
+// A lost device: adds to failure_text what is known of it. True: the engine was asked for a new start, which it gets
+// once as long as it runs; a card that is lost again would be lost for ever.
+bool restart_instead(Failure failure)
+{
+    constexpr const char* counter
+        = "vkpt_lost_devices"; // a cvar, because the module's own memory goes with the restart
+    if (failure != Failure::lost)
+        return false;
+    try {
+        const std::string what = renderer::describe_lost_device();
+        const size_t length = std::strlen(failure_text);
+        std::snprintf(failure_text + length, sizeof failure_text - length, " %s", what.c_str());
+    } catch (const std::exception&) {
+        // Said without.
+    }
+    const engine::Cvar* losses = engine::get_cvar(counter, "0", engine::CVAR_NONE);
+    if (!losses || losses->number > 0)
+        return false;
+    engine::set_cvar(counter, 1);
+    engine::print(std::string_view(failure_text));
+    engine::print(VKPT_MODULE_NAME ": starting the renderer anew");
+    engine::request_restart(engine::Restart::full);
+    awaits_restart = true;
+    return true;
+}
+
 [[noreturn]] void leave(Failure failure)
 {
     if (failure == Failure::level)
@@ -61,12 +93,17 @@ Failure note_failure(const char* entry)
 // Runs `call`. An exception drops the level or stops the engine, after its handler has been left: the engine jumps.
 template <class Call> auto guard(const char* entry, Call call)
 {
+    using Result = decltype(call());
+    if (awaits_restart)
+        return Result();
     Failure failure = Failure::none;
     try {
         return call();
     } catch (...) {
         failure = note_failure(entry);
     }
+    if (restart_instead(failure))
+        return Result();
     leave(failure);
 }
 
@@ -75,12 +112,16 @@ template <class Call> void guard_frame(const char* entry, Call call)
 {
     constexpr int max_failures = 10;
     static int failures = 0;
+    if (awaits_restart)
+        return;
     Failure failure = Failure::none;
     try {
         call();
     } catch (...) {
         failure = note_failure(entry);
     }
+    if (restart_instead(failure))
+        return;
     failures = failure == Failure::none ? 0 : failures + 1;
     if (failure != Failure::none)
         leave(failures < max_failures ? failure : Failure::fatal);
@@ -130,6 +171,7 @@ int init_context(void* window)
 
 void get_drawable_size(int* width, int* height)
 {
+    *width = *height = 0;
     guard("GetDrawableSize", [=] { renderer::get_drawable_size(width, height); });
 }
 
@@ -183,6 +225,7 @@ void* draw_find_pic(const char* name)
 
 void draw_get_pic_size(int* width, int* height, const char* name)
 {
+    *width = *height = -1;
     guard("DrawGetPicSize", [=] { renderer::get_picture_size(view(name), width, height); });
 }
 
@@ -334,6 +377,7 @@ public:
     explicit ReturnedTable(const engine::Imports& imports)
     {
         engine::attach(imports);
+        awaits_restart = false; // the library may have stayed in memory
         const int api = guard_or("GetRefAPI", 0, detect_api);
         // Until it hears of restarts, the engine itself watches vid_fullscreen, and restarts once right after the start
         // because the variable is new. From here on vid_restart works, and a change of the variable waits for it, as

@@ -109,10 +109,11 @@ glm::uvec2 Frame::scaled_size(glm::uvec2 size) const
 
 void Frame::reserve(View& view, glm::uvec2 size)
 {
-    if (!view.buffers.must_grow(size))
+    const bool with_stacks = trace_backend() == TraceBackend::software;
+    if (!view.buffers.must_grow(size, with_stacks))
         return;
     graphics_.finish();
-    view.buffers.reserve_pixels(graphics_.gpu, graphics_.bindings, size);
+    view.buffers.reserve_pixels(graphics_.gpu, graphics_.bindings, size, with_stacks);
     view.radiance = nullptr;
     view.accumulated_frames = 0;
     view.history.forget();

@@ -22,7 +22,8 @@ FrameTimer::FrameTimer(const Device& device)
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = max_marks;
     for (Slot& slot : slots_)
-        VKPT_CHECK(vkCreateQueryPool(device.handle, &info, nullptr, &slot.pool));
+        if (can_time())
+            VKPT_CHECK(vkCreateQueryPool(device.handle, &info, nullptr, &slot.pool));
 }
 
 FrameTimer::~FrameTimer()
@@ -31,9 +32,9 @@ FrameTimer::~FrameTimer()
         vkDestroyQueryPool(device_.handle, slot.pool, nullptr);
 }
 
-double FrameTimer::to_milliseconds(uint64_t ticks) const
+double FrameTimer::milliseconds_between(uint64_t begin, uint64_t end) const
 {
-    return double(ticks) * double(device_.properties.limits.timestampPeriod) * 1e-6;
+    return device_.nanoseconds_between(begin, end) * 1e-6;
 }
 
 void FrameTimer::read_back(uint32_t frame_slot)
@@ -45,7 +46,7 @@ void FrameTimer::read_back(uint32_t frame_slot)
     const VkResult result = vkGetQueryPoolResults(device_.handle, slot.pool, 0, uint32_t(stamps.size()),
         stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
     if (result == VK_SUCCESS) {
-        frame_milliseconds_ = to_milliseconds(stamps.back() - stamps.front());
+        frame_milliseconds_ = milliseconds_between(stamps.front(), stamps.back());
         if (slot.times_passes)
             add_up_passes(slot, stamps);
         collect(slot, stamps);
@@ -58,7 +59,7 @@ void FrameTimer::add_up_passes(const Slot& slot, const std::vector<uint64_t>& st
     times_.clear();
     for (size_t i = 0; i < slot.names.size(); i++) {
         const std::string_view name = slot.names[i];
-        const double milliseconds = to_milliseconds(stamps[i + 1] - stamps[i]);
+        const double milliseconds = milliseconds_between(stamps[i], stamps[i + 1]);
         const auto row = std::ranges::find_if(times_, [&](const PassTime& time) { return name == time.name; });
         if (row != times_.end())
             row->milliseconds += milliseconds;
@@ -75,7 +76,7 @@ void FrameTimer::collect(const Slot& slot, const std::vector<uint64_t>& stamps)
         for (const PassTime& time : times_)
             statistics_->add(time.name, time.milliseconds);
     else if (statistics_ && slot.has_view)
-        statistics_->add(whole_frame, to_milliseconds(stamps.back() - last_end_.value_or(stamps.front())));
+        statistics_->add(whole_frame, milliseconds_between(last_end_.value_or(stamps.front()), stamps.back()));
     last_end_ = slot.has_view ? std::optional(stamps.back()) : std::nullopt;
 }
 
@@ -86,6 +87,8 @@ void FrameTimer::begin_frame(VkCommandBuffer commands, uint32_t frame_slot)
     slots_[slot_].has_view = false;
     const uint32_t turn = statistics_ ? 2 : frames_a_glance;
     slots_[slot_].times_passes = times_every_pass_ || frame_number_++ % turn == 0;
+    if (!can_time())
+        return;
     vkCmdResetQueryPool(commands, slots_[slot_].pool, 0, max_marks);
     vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, slots_[slot_].pool, 0);
 }
@@ -109,6 +112,8 @@ void FrameTimer::end_frame(VkCommandBuffer commands, const char* name) { stamp(c
 
 void FrameTimer::stamp(VkCommandBuffer commands, const char* name)
 {
+    if (!can_time())
+        return;
     Slot& slot = slots_[slot_];
     slot.names.push_back(name);
     vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, slot.pool, uint32_t(slot.names.size()));

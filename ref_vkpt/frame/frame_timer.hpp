@@ -32,7 +32,7 @@ public:
     void end_frame(VkCommandBuffer commands, const char* name);
     // The frame shows a view: the time from the last one's completion to its own counts.
     void note_view() { slots_[slot_].has_view = true; }
-    // Of the newest frame that has been read back; 0: there is none.
+    // Of the newest frame that has been read back; 0: there is none, or the queue has no timestamps.
     double frame_milliseconds() const { return frame_milliseconds_; }
     // Of the newest one whose passes were timed; a name marked several times is one row.
     const std::vector<PassTime>& times() const { return times_; }
@@ -61,7 +61,8 @@ private:
     void add_up_passes(const Slot& slot, const std::vector<uint64_t>& stamps);
     void collect(const Slot& slot, const std::vector<uint64_t>& stamps);
     void stamp(VkCommandBuffer commands, const char* name);
-    double to_milliseconds(uint64_t ticks) const;
+    double milliseconds_between(uint64_t begin, uint64_t end) const;
+    bool can_time() const { return device_.timestamp_bits > 0; }
 
     const Device& device_;
     std::array<Slot, frames_in_flight> slots_;

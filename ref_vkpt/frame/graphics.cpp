@@ -5,10 +5,15 @@
 #include "shaders/shared/present.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 namespace vkpt {
 
 namespace {
+
+// Of frames that are not shown: a server goes on, and nothing runs as fast as it can.
+constexpr std::chrono::milliseconds unseen_frame_time { 10 };
 
 DeviceSettings device_settings(const GraphicsSettings& settings, const Window& window)
 {
@@ -17,7 +22,8 @@ DeviceSettings device_settings(const GraphicsSettings& settings, const Window& w
     result.validation = settings.validation;
     result.ray_tracing = settings.ray_tracing;
     result.table_reads = settings.table_reads;
-    result.instance_extensions = window.instance_extensions();
+    result.window = &window;
+    result.pipeline_statistics = settings.pipeline_statistics;
     result.cache_directory = settings.cache_directory;
     return result;
 }
@@ -42,6 +48,7 @@ Graphics::~Graphics()
     vkDeviceWaitIdle(device.handle);
     for (Slot& slot : slots_) {
         vkDestroyFence(device.handle, slot.finished, nullptr);
+        vkDestroyFence(device.handle, slot.shown, nullptr);
         vkDestroyCommandPool(device.handle, slot.pool, nullptr);
     }
 }
@@ -56,16 +63,28 @@ void Graphics::create_slot(Slot& slot)
     commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     commands.commandBufferCount = 1;
     VKPT_CHECK(vkAllocateCommandBuffers(device.handle, &commands, &slot.commands));
-    renew_fence(slot);
+    VKPT_CHECK(vkAllocateCommandBuffers(device.handle, &commands, &slot.show_commands));
+    renew_fence(slot.finished);
+    renew_fence(slot.shown);
 }
 
-void Graphics::renew_fence(Slot& slot)
+void Graphics::renew_fence(VkFence& fence)
 {
-    vkDestroyFence(device.handle, slot.finished, nullptr);
-    slot.finished = VK_NULL_HANDLE;
-    VkFenceCreateInfo fence { VK_STRUCTURE_TYPE_FENCE_CREATE_INFO };
-    fence.flags = VK_FENCE_CREATE_SIGNALED_BIT;
-    VKPT_CHECK(vkCreateFence(device.handle, &fence, nullptr, &slot.finished));
+    vkDestroyFence(device.handle, fence, nullptr);
+    fence = VK_NULL_HANDLE;
+    VkFenceCreateInfo info { VK_STRUCTURE_TYPE_FENCE_CREATE_INFO };
+    info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+    VKPT_CHECK(vkCreateFence(device.handle, &info, nullptr, &fence));
+}
+
+void Graphics::submit(const VkSubmitInfo& info, VkFence& fence)
+{
+    VKPT_CHECK(vkResetFences(device.handle, 1, &fence));
+    if (const VkResult result = vkQueueSubmit(device.queue, 1, &info, fence); result < 0) {
+        renew_fence(fence); // which nothing signals now
+        swapchain_outdated_ = true; // nor is its picture given back
+        check_vulkan(result, "vkQueueSubmit");
+    }
 }
 
 VkExtent2D Graphics::size() const
@@ -132,7 +151,7 @@ void Graphics::clear_output()
         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT);
 }
 
-void Graphics::record_present()
+void Graphics::record_present_words()
 {
     const VkExtent2D extent = swapchain_->extent();
     const shared::PresentPush push { output.words.address(), present_words_.address(),
@@ -148,7 +167,6 @@ void Graphics::record_present()
     vkCmdDispatch(commands(), pixel_groups({ extent.width, extent.height }), 1, 1);
     record_memory_barrier(
         commands(), compute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
-    swapchain_->record_copy(commands(), present_words_);
 }
 
 bool Graphics::begin_frame()
@@ -156,13 +174,9 @@ bool Graphics::begin_frame()
     if (recording_) // the engine left a frame by its error exit
         end_frame();
     Slot& slot = slots_[slot_];
-    VKPT_CHECK(vkWaitForFences(device.handle, 1, &slot.finished, VK_TRUE, UINT64_MAX));
+    const VkFence fences[] = { slot.finished, slot.shown };
+    VKPT_CHECK(vkWaitForFences(device.handle, 2, fences, VK_TRUE, UINT64_MAX));
     const bool is_new = follow_window();
-    acquired_ = false;
-    if (swapchain_ && swapchain_->is_usable() && !swapchain_outdated_) {
-        acquired_ = swapchain_->acquire(slot_);
-        swapchain_outdated_ |= !acquired_;
-    }
     VKPT_CHECK(vkResetCommandPool(device.handle, slot.pool, 0));
     VkCommandBufferBeginInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -170,7 +184,15 @@ bool Graphics::begin_frame()
     recording_ = true;
     timer.begin_frame(slot.commands, slot_);
     clear_output();
+    markers.begin_frame(slot_, frame_number_);
     return is_new;
+}
+
+bool Graphics::is_hidden() const { return swapchain_ && window_.is_minimised(); }
+
+bool Graphics::can_show() const
+{
+    return swapchain_ && swapchain_->is_usable() && !swapchain_outdated_ && !window_.is_minimised();
 }
 
 void Graphics::end_frame()
@@ -179,33 +201,48 @@ void Graphics::end_frame()
         return;
     Slot& slot = slots_[slot_];
     recording_ = false;
-    if (acquired_)
-        record_present();
-    timer.end_frame(slot.commands, acquired_ ? "present" : "2d");
+    const bool shows = can_show();
+    if (shows)
+        record_present_words();
+    timer.end_frame(slot.commands, shows ? "present" : "2d");
+    markers.end_frame();
     VKPT_CHECK(vkEndCommandBuffer(slot.commands));
-    VKPT_CHECK(vkResetFences(device.handle, 1, &slot.finished));
-    const VkPipelineStageFlags copies = VK_PIPELINE_STAGE_TRANSFER_BIT;
-    VkSubmitInfo submit { VK_STRUCTURE_TYPE_SUBMIT_INFO };
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &slot.commands;
-    VkSemaphore acquired = VK_NULL_HANDLE, finished = VK_NULL_HANDLE;
-    if (acquired_) {
-        acquired = swapchain_->acquired(slot_);
-        finished = swapchain_->finished();
-        submit.waitSemaphoreCount = submit.signalSemaphoreCount = 1;
-        submit.pWaitSemaphores = &acquired;
-        submit.pWaitDstStageMask = &copies;
-        submit.pSignalSemaphores = &finished;
-    }
-    if (const VkResult result = vkQueueSubmit(device.queue, 1, &submit, slot.finished); result < 0) {
-        renew_fence(slot); // which nothing signals now
-        swapchain_outdated_ = true; // nor is its picture given back
-        check_vulkan(result, "vkQueueSubmit");
-    }
-    if (acquired_)
-        swapchain_outdated_ |= !swapchain_->present();
+    VkSubmitInfo info { VK_STRUCTURE_TYPE_SUBMIT_INFO };
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &slot.commands;
+    submit(info, slot.finished);
+    if (shows)
+        show(slot);
+    else if (swapchain_) // no display paces the frames now
+        std::this_thread::sleep_for(unseen_frame_time);
     slot_ = (slot_ + 1) % frames_in_flight;
     frame_number_++;
+}
+
+// Only now is a picture taken: waiting for one keeps neither the CPU from recording nor the device from the frame, and
+// is no part of the frame's time.
+void Graphics::show(Slot& slot)
+{
+    const Acquired taken = swapchain_->acquire(slot_);
+    swapchain_outdated_ |= taken == Acquired::outdated;
+    if (taken != Acquired::picture)
+        return;
+    VkCommandBufferBeginInfo begin { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    VKPT_CHECK(vkBeginCommandBuffer(slot.show_commands, &begin));
+    swapchain_->record_copy(slot.show_commands, present_words_);
+    VKPT_CHECK(vkEndCommandBuffer(slot.show_commands));
+    const VkPipelineStageFlags copies = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    const VkSemaphore acquired = swapchain_->acquired(slot_), finished = swapchain_->finished();
+    VkSubmitInfo info { VK_STRUCTURE_TYPE_SUBMIT_INFO };
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &slot.show_commands;
+    info.waitSemaphoreCount = info.signalSemaphoreCount = 1;
+    info.pWaitSemaphores = &acquired;
+    info.pWaitDstStageMask = &copies;
+    info.pSignalSemaphores = &finished;
+    submit(info, slot.shown);
+    swapchain_outdated_ |= !swapchain_->present();
 }
 
 void Graphics::run_once(const std::function<void(VkCommandBuffer)>& record)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "ref_vkpt/frame/frame_timer.hpp"
+#include "ref_vkpt/frame/pass_markers.hpp"
 #include "ref_vkpt/frame/view_buffers.hpp"
 #include "ref_vkpt/vulkan/pipelines.hpp"
 #include "ref_vkpt/vulkan/swapchain.hpp"
@@ -31,6 +32,7 @@ struct GraphicsSettings {
     std::string cache_directory;
     bool validation = false;
     bool ray_tracing = true; // use the device's own where it has it
+    bool pipeline_statistics = false; // registers and the like of what is compiled
     TableReads table_reads = TableReads::automatic;
     VSync vsync = VSync::on;
 };
@@ -45,9 +47,11 @@ public:
     // Waits for the slot's last frame, follows the window's size, and starts recording. The output picture is cleared.
     // True: it is another one than before.
     bool begin_frame();
-    // Submits and shows. Nothing happens without a begun frame.
+    // Submits, then takes a picture of the window and shows. Nothing happens without a begun frame.
     void end_frame();
     bool is_recording() const { return recording_; }
+    // Whether nobody can see what is drawn now: the window is minimised.
+    bool is_hidden() const;
     VkCommandBuffer commands() const { return slots_[slot_].commands; }
     uint32_t slot() const { return slot_; }
     // Frames submitted since the start.
@@ -79,26 +83,30 @@ public:
     Pipelines pipelines;
     OutputPicture output;
     FrameTimer timer { device };
+    PassMarkers markers { gpu };
 
 private:
     struct Slot {
         VkCommandPool pool = VK_NULL_HANDLE;
         VkCommandBuffer commands = VK_NULL_HANDLE;
-        VkFence finished = VK_NULL_HANDLE;
+        VkCommandBuffer show_commands = VK_NULL_HANDLE; // the copy into the window's picture
+        VkFence finished = VK_NULL_HANDLE, shown = VK_NULL_HANDLE;
     };
     void create_slot(Slot& slot);
-    void renew_fence(Slot& slot);
+    void renew_fence(VkFence& fence);
+    void submit(const VkSubmitInfo& info, VkFence& fence);
+    bool can_show() const;
+    void show(Slot& slot);
     bool follow_window();
     void resize_output(VkExtent2D size);
     void clear_output();
-    void record_present();
+    void record_present_words();
 
     std::optional<Swapchain> swapchain_;
     Buffer present_words_; // the picture in the window's format
     VkExtent2D headless_size_;
     VSync vsync_;
     bool swapchain_outdated_ = true;
-    bool acquired_ = false;
     bool recording_ = false;
     Slot slots_[frames_in_flight];
     uint32_t slot_ = 0;

@@ -46,6 +46,7 @@ void PassRecorder::record(const Pass& pass, const PassStep& step)
     if (step.push_bytes > 0)
         vkCmdPushConstants(
             commands_, graphics_.bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, step.push_bytes, step.push.data());
+    graphics_.markers.begin_pass(commands_, pass.name);
     dispatch(pass, step.work);
     graphics_.timer.mark(commands_, pass.name);
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/scene_queries.hpp"
 
+#include "ref_vkpt/frame/device_stopwatch.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 namespace vkpt {
@@ -53,9 +56,16 @@ void SceneQueries::measure_irradiance(std::span<const IrradianceProbe> probes, u
     view.accumulated_frames = 0;
 }
 
+uint32_t SceneQueries::rays_at_once() const
+{
+    constexpr uint32_t least = 1u << 18, most = 1u << 20;
+    const VkExtent2D window = graphics.size();
+    return std::clamp(window.width * window.height, least, most);
+}
+
 double SceneQueries::trace_rays(std::span<const TracedRay> rays, const TraceRequest& request, TracedHit* hits) const
 {
-    constexpr uint32_t pixels_at_once = 1u << 18; // screen buffers are made for as many
+    const uint32_t pixels_at_once = rays_at_once();
     const uint32_t row = std::clamp(request.row_length, 1u, pixels_at_once);
     const size_t chunk = size_t(pixels_at_once / row) * row;
     double seconds = 0;
@@ -85,12 +95,20 @@ void SceneQueries::trace_chunk(
             = (uniforms.flags & shared::FRAME_ALPHA_TEST) | (request.visibility ? shared::FRAME_PROBE_VISIBILITY : 0);
         offset = frame.write_uniforms(uniforms);
     });
+    // On GPUs by their own clock: the way there and back takes as long as some thousand rays.
+    std::optional<DeviceStopwatch> stopwatch;
+    if (!graphics.device.is_cpu && graphics.device.timestamp_bits > 0)
+        stopwatch.emplace(graphics.device);
     const auto run = [&](uint32_t rounds) {
         graphics.run_once([&](VkCommandBuffer commands) {
             graphics.timer.begin_untimed(graphics.slot());
             frame.bind(commands, view, offset);
+            if (stopwatch)
+                stopwatch->begin(commands);
             for (uint32_t round = 0; round < rounds; round++)
                 frame.recorder().record(find_pass(PassId::probe_rays), { pixel_work(from.size), 0, {} });
+            if (stopwatch)
+                stopwatch->end(commands);
             record_memory_barrier(commands, graphics.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT,
                 VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
         });
@@ -99,7 +117,8 @@ void SceneQueries::trace_chunk(
         run(1);
     const auto start = std::chrono::steady_clock::now();
     run(std::max(request.rounds, 1u));
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds += stopwatch ? stopwatch->seconds()
+                         : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::memcpy(static_cast<void*>(hits), result.mapped(), rays.size() * sizeof(TracedHit));
 }
 

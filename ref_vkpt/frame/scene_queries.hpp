@@ -21,6 +21,9 @@ struct SceneQueries {
     void measure_irradiance(std::span<const IrradianceProbe> probes, uint32_t samples, float* rgb) const;
     // By the backend in use, see Extension. Returns the seconds of one round.
     double trace_rays(std::span<const TracedRay> rays, const TraceRequest& request, TracedHit* hits) const;
+    // So many are traced by one dispatch; screen buffers are made for as many. At least as many as the window's pixels,
+    // up to a million.
+    uint32_t rays_at_once() const;
     // See Extension. False: the pixel is outside of the view.
     bool inspect_pixel(glm::uvec2 pixel, InspectedSurface& surface, std::span<InspectedLight> lights) const;
 

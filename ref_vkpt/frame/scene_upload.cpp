@@ -79,7 +79,18 @@ VkDescriptorSet SceneUpload::fill(
     if (graphics_.device.reads_texels())
         bind_texels(job);
     fill_light_lists(job);
+    if (!graphics_.device.maps_all_memory)
+        record_copies(job);
     return job.kept.texels.set(slot);
+}
+
+void SceneUpload::record_copies(const Job& job)
+{
+    for (PrefixedUpload* upload :
+        { &job.kept.triangles, &job.kept.emitters, &job.kept.tree_nodes, &job.kept.tree_triangles })
+        upload->record_copies(job.use.commands, graphics_.slot());
+    record_memory_barrier(job.use.commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+        graphics_.device.shader_stages(), VK_ACCESS_SHADER_READ_BIT);
 }
 
 // The map's triangles, and room for what moves.

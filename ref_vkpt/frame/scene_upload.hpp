@@ -63,6 +63,7 @@ private:
     void write_trees(const Job& job, MovingTarget target);
     void write_structures(const Job& job, const MovingTarget& target);
     void bind_texels(const Job& job);
+    void record_copies(const Job& job);
 
     Graphics& graphics_;
     FrameUploads uploads_;

@@ -9,17 +9,30 @@ namespace vkpt {
 
 namespace {
 
-constexpr uint32_t width = 320, height = 184; // whole tiles of 8 x 8
-constexpr uint32_t rounds = 5;
+// Of rays, in whole tiles of 8 x 8.
+struct Grid {
+    uint32_t width, height, rounds;
+};
+// A CPU does one tile after the other. GPUs need many to be busy: a million rays, as long as the screen buffers that
+// there are have room for them.
+constexpr Grid cpu_grid { 320, 184, 5 }, gpu_grid { 1280, 800, 2 }, small_gpu_grid { 640, 400, 4 };
+
+Grid choose_grid(const SceneQueries& queries)
+{
+    if (queries.graphics.device.is_cpu)
+        return cpu_grid;
+    return queries.rays_at_once() >= gpu_grid.width * gpu_grid.height ? gpu_grid : small_gpu_grid;
+}
+
 constexpr float ray_far = 1e6f;
 constexpr uint32_t ray_mask = shared::MASK_OPAQUE | shared::MASK_ALPHA_TEST | shared::MASK_SKY;
 
-std::vector<TracedRay> camera_rays(const shared::Camera& camera)
+std::vector<TracedRay> camera_rays(const shared::Camera& camera, const Grid& grid)
 {
     std::vector<TracedRay> rays;
-    for (uint32_t y = 0; y < height; y++)
-        for (uint32_t x = 0; x < width; x++) {
-            const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / glm::vec2(width, height) * 2.0f - 1.0f;
+    for (uint32_t y = 0; y < grid.height; y++)
+        for (uint32_t x = 0; x < grid.width; x++) {
+            const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / glm::vec2(grid.width, grid.height) * 2.0f - 1.0f;
             rays.push_back(
                 { camera.eye, 0, glm::normalize(camera.forward + camera.right * at.x - camera.up * at.y), ray_far });
         }
@@ -56,21 +69,22 @@ double measure_trace_backend(const SceneQueries& queries, TraceBackend backend)
     queries.frame.set_trace_backend(backend);
     TraceRequest request;
     request.ray_mask = ray_mask;
-    request.row_length = width;
-    request.rounds = rounds;
+    const Grid grid = choose_grid(queries);
+    request.row_length = grid.width;
+    request.rounds = grid.rounds;
     double seconds = 0;
     const auto trace = [&](const std::vector<TracedRay>& rays) {
         std::vector<TracedHit> hits(rays.size());
         seconds += queries.trace_rays(rays, request, hits.data());
         return hits;
     };
-    const std::vector<TracedRay> primary = camera_rays(queries.view.viewpoint.camera);
+    const std::vector<TracedRay> primary = camera_rays(queries.view.viewpoint.camera, grid);
     const std::vector<TracedHit> hits = trace(primary);
     trace(next_rays(primary, hits, false));
     request.visibility = true;
     trace(next_rays(primary, hits, true));
     queries.frame.set_trace_backend(before);
-    return seconds * 1e9 / (3.0 * width * height);
+    return seconds * 1e9 / (3.0 * grid.width * grid.height);
 }
 
 } // namespace vkpt

@@ -56,13 +56,13 @@ VkDeviceAddress FrameUploads::push(std::span<const std::byte> bytes)
     return upload.address;
 }
 
-bool make_room(Buffer& buffer, const Gpu& gpu, VkDeviceSize bytes, MemoryKind kind, const char* name)
+bool make_room(Buffer& buffer, const Gpu& gpu, VkDeviceSize bytes, MemoryKind kind, const char* name, BufferHome home)
 {
     constexpr VkDeviceSize min_spare = 16384;
     if (buffer && bytes <= buffer.size())
         return false;
     buffer = Buffer(); // first, so that both need not fit
-    buffer = Buffer(gpu, bytes + bytes / 4 + min_spare, BufferHome::upload, kind, name);
+    buffer = Buffer(gpu, bytes + bytes / 4 + min_spare, home, kind, name);
     return true;
 }
 
@@ -70,6 +70,8 @@ Upload PrefixedUpload::reserve(
     uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version, size_t rest_bytes)
 {
     Slot& slot = slots_[frame_slot];
+    if (!gpu_.device.maps_all_memory)
+        return reserve_staged(slot, prefix, prefix_version, rest_bytes);
     const VkDeviceSize bytes = prefix.size() + rest_bytes;
     if (make_room(slot.buffer, gpu_, bytes, kind_, name_))
         slot.version = 0;
@@ -78,6 +80,39 @@ Upload PrefixedUpload::reserve(
         slot.version = prefix_version;
     }
     return { slot.buffer.mapped() + prefix.size(), slot.buffer.address() };
+}
+
+Upload PrefixedUpload::reserve_staged(
+    Slot& slot, std::span<const std::byte> prefix, uint64_t prefix_version, VkDeviceSize rest_bytes)
+{
+    slot.prefix_bytes = 0;
+    slot.prefix_staging = Buffer(); // the device has finished with it
+    if (make_room(slot.buffer, gpu_, prefix.size() + rest_bytes, kind_, name_, BufferHome::device))
+        slot.version = 0;
+    if (slot.version != prefix_version && !prefix.empty()) {
+        slot.prefix_staging
+            = Buffer(gpu_, prefix.size(), BufferHome::staging, MemoryKind::staging, "staged for the device");
+        copy(slot.prefix_staging.mapped(), prefix);
+        slot.prefix_bytes = prefix.size();
+    }
+    slot.version = prefix_version;
+    make_room(slot.rest_staging, gpu_, rest_bytes, MemoryKind::staging, name_, BufferHome::staging);
+    slot.rest_bytes = rest_bytes;
+    slot.rest_start = prefix.size();
+    return { slot.rest_staging.mapped(), slot.buffer.address() };
+}
+
+void PrefixedUpload::record_copies(VkCommandBuffer commands, uint32_t frame_slot)
+{
+    Slot& slot = slots_[frame_slot];
+    const auto record = [&](const Buffer& from, VkDeviceSize start, VkDeviceSize& bytes) {
+        const VkBufferCopy region { 0, start, bytes };
+        if (bytes > 0)
+            vkCmdCopyBuffer(commands, from.handle(), slot.buffer.handle(), 1, &region);
+        bytes = 0;
+    };
+    record(slot.prefix_staging, 0, slot.prefix_bytes);
+    record(slot.rest_staging, slot.rest_start, slot.rest_bytes);
 }
 
 VkDeviceAddress KeptUpload::write(uint32_t frame_slot, std::span<const std::byte> bytes)

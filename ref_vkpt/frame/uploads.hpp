@@ -51,10 +51,12 @@ private:
 };
 
 // Room for `bytes`, and for some more to come. True: it is new memory, and empty.
-bool make_room(Buffer& buffer, const Gpu& gpu, VkDeviceSize bytes, MemoryKind kind, const char* name);
+bool make_room(Buffer& buffer, const Gpu& gpu, VkDeviceSize bytes, MemoryKind kind, const char* name,
+    BufferHome home = BufferHome::upload);
 
 // An array whose front part changes only with the map and whose rest changes every frame: the front is copied once per
-// frame in flight.
+// frame in flight. Where the CPU sees little of the device's memory (Device::maps_all_memory), the array lies out of
+// its sight, and both parts are copied there.
 class PrefixedUpload {
 public:
     PrefixedUpload(const Gpu& gpu, MemoryKind kind, const char* name)
@@ -65,20 +67,27 @@ public:
     }
 
     // `prefix_version`: another number whenever the prefix changes. The device has finished with this slot.
-    // The result's address is the prefix's, its memory is for the rest.
+    // The result's address is the prefix's, its memory is for the rest, which is to be written, not read.
     Upload reserve(uint32_t frame_slot, std::span<const std::byte> prefix, uint64_t prefix_version, size_t rest_bytes);
     template <class T>
     Upload reserve(uint32_t frame_slot, const std::vector<T>& prefix, uint64_t prefix_version, size_t rest_count)
     {
         return reserve(frame_slot, std::as_bytes(std::span(prefix)), prefix_version, rest_count * sizeof(T));
     }
+    // Records the copies of what was reserved since the last call, if any are needed. They need a barrier behind them.
+    void record_copies(VkCommandBuffer commands, uint32_t frame_slot);
     const Buffer& buffer(uint32_t frame_slot) const { return slots_[frame_slot].buffer; }
 
 private:
     struct Slot {
         Buffer buffer;
         uint64_t version = 0;
+        Buffer prefix_staging, rest_staging; // where it is copied; the first while its copy may be under way
+        VkDeviceSize prefix_bytes = 0, rest_bytes = 0; // of the copies to be recorded
+        VkDeviceSize rest_start = 0; // in the buffer
     };
+    Upload reserve_staged(
+        Slot& slot, std::span<const std::byte> prefix, uint64_t prefix_version, VkDeviceSize rest_bytes);
     Gpu gpu_;
     MemoryKind kind_;
     const char* name_;

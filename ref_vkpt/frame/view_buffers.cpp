@@ -30,14 +30,14 @@ TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings)
     return TexelSet(gpu, bindings.screen_layout(), TexelShape::array, shared::SCREEN_BUFFER_COUNT);
 }
 
-bool ViewBuffers::must_grow(glm::uvec2 size) const
+bool ViewBuffers::must_grow(glm::uvec2 size, bool with_stacks) const
 {
-    return pixel_count(size) > pixels_ || pixel_groups(size) > groups_;
+    return pixel_count(size) > pixels_ || (with_stacks && pixel_groups(size) > groups_);
 }
 
-void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size)
+void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size, bool with_stacks)
 {
-    if (!must_grow(size))
+    if (!must_grow(size, with_stacks))
         return;
     const size_t pixels = std::max(pixels_, pixel_count(size));
     const uint32_t groups = std::max(groups_, pixel_groups(size));
@@ -66,9 +66,11 @@ void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::
     // Updates of the light cache may be more lanes than a small picture's pixels.
     const uint32_t cache_groups = pixel_groups({ CACHE_ROW, CACHE_MOST_UPDATED / CACHE_ROW });
     const size_t lanes = size_t(std::max(groups, cache_groups)) * PIXEL_GROUP_SIZE;
-    renew(trace_stack_, lanes * TRACE_STACK_BYTES_PER_LANE, "trace stack");
+    trace_stack_ = Buffer();
+    if (with_stacks)
+        renew(trace_stack_, lanes * TRACE_STACK_BYTES_PER_LANE, "trace stack");
     pixels_ = pixels;
-    groups_ = groups;
+    groups_ = with_stacks ? groups : 0;
 }
 
 void ViewBuffers::exchange_history()

@@ -21,9 +21,10 @@ class ViewBuffers {
     };
 
 public:
-    // Room for a view of this many pixels; contents are lost if they have to grow. The device must be idle then.
-    void reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size);
-    bool must_grow(glm::uvec2 size) const;
+    // Room for a view of this many pixels, with stacks for the software backend's traversal if they are needed;
+    // contents are lost if they have to grow. The device must be idle then.
+    void reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size, bool with_stacks);
+    bool must_grow(glm::uvec2 size, bool with_stacks) const;
     // A new frame of the view begins: what was stored as NAME is from now on read as previous_NAME.
     void exchange_history();
 
@@ -35,7 +36,7 @@ public:
 
 private:
     size_t pixels_ = 0; // that every buffer has room for
-    uint32_t groups_ = 0; // that the trace stack has room for
+    uint32_t groups_ = 0; // that the trace stack has room for; 0: there is none
     std::array<Buffer, shared::SCREEN_BUFFER_COUNT> buffers_;
     // Descriptor set 3, for the drivers that read tables so (Device::reads_texels). Others find empty buffers here.
     TexelSet texels_;

@@ -3,12 +3,12 @@
 #include "ref_vkpt/rays/trace_choice.hpp"
 
 #include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/rays/trace_ranking.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <limits>
 #include <unistd.h>
 
 namespace vkpt {
@@ -87,19 +87,26 @@ TraceBackend TraceChoice::choose_automatically()
 void TraceChoice::measure(const Measure& measure)
 {
     wants_measurement_ = false;
-    Measured measured;
-    double best = std::numeric_limits<double>::max();
-    for (const TraceBackend backend : offered_) {
-        const double nanoseconds = measure(backend);
-        measured.figures
-            += fmt::format("{}{} {:.3g} ns", measured.figures.empty() ? "" : ", ", name_of(backend), nanoseconds);
-        if (nanoseconds < best) {
-            best = nanoseconds;
-            measured.fastest = backend;
-        }
+    const int turns = device_.is_cpu ? 1 : 5; // whose measurements take seconds
+    std::vector<std::vector<double>> times(offered_.size());
+    for (int turn = 0; turn < turns; turn++)
+        for (size_t i = 0; i < offered_.size(); i++)
+            times[i].push_back(measure(offered_[i]));
+    const std::optional<TraceRanking> ranking = rank_traces(times);
+    if (!ranking) {
+        engine::print("ref_vkpt: {} measures no times: rays go on by {}", device_.properties.deviceName,
+            name_of(current_.value_or(TraceBackend::software)));
+        return;
     }
+    Measured measured;
+    measured.fastest = offered_[ranking->fastest];
+    for (size_t i = 0; i < offered_.size(); i++)
+        measured.figures += fmt::format("{}{} {:.3g} ns", i > 0 ? ", " : "", name_of(offered_[i]), ranking->medians[i]);
     measured.figures += " a ray";
-    remember(measured);
+    if (ranking->is_clear)
+        remember(measured);
+    else
+        measured.figures += "; too close to be remembered";
     if (last_wanted_ != wanted_auto) {
         engine::print("ref_vkpt: fastest on this device: {} ({}); pt_trace auto uses it", name_of(measured.fastest),
             measured.figures);

@@ -20,9 +20,9 @@ public:
     // "auto" has not been decided yet: the next chance to measure should be taken.
     bool wants_measurement() const { return wants_measurement_; }
 
-    // Nanoseconds per ray by a backend, on this device now.
+    // Nanoseconds per ray by a backend, on this device now. Asked several times on GPUs.
     using Measure = std::function<double(TraceBackend)>;
-    // Measures what the device offers, remembers and says the result.
+    // Measures what the device offers, says the result, and remembers it if it is clear (trace_ranking.hpp).
     void measure(const Measure& measure);
 
 private:

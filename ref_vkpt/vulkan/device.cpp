@@ -97,18 +97,42 @@ std::vector<VkExtensionProperties> device_extensions(VkPhysicalDevice device)
     return extensions;
 }
 
-std::optional<uint32_t> find_queue_family(VkPhysicalDevice device)
+std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice device)
 {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    for (uint32_t i = 0; i < count; i++)
-        if ((families[i].queueFlags & wanted) == wanted)
-            return i;
-    return std::nullopt;
+    return families;
 }
+
+// A surface of the window while a device is chosen, which may have no window to present to.
+class ProbedSurface {
+public:
+    ProbedSurface(VkInstance instance, const Window* window)
+        : instance_(instance)
+        , surface_(window && *window ? window->create_surface(instance) : VK_NULL_HANDLE)
+    {
+    }
+    ProbedSurface(const ProbedSurface&) = delete;
+    ~ProbedSurface()
+    {
+        if (surface_)
+            vkDestroySurfaceKHR(instance_, surface_, nullptr);
+    }
+
+    // Whether this family's queues can present to it; without a window they need not.
+    bool serves(VkPhysicalDevice device, uint32_t family) const
+    {
+        VkBool32 supported = VK_FALSE;
+        return !surface_
+            || (vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface_, &supported) >= 0 && supported);
+    }
+
+private:
+    VkInstance instance_;
+    VkSurfaceKHR surface_;
+};
 
 // The features every pass relies on, asked of a device in one chain.
 struct Features {
@@ -162,6 +186,9 @@ DriverIdentity identify_driver(VkPhysicalDevice device)
     return identity;
 }
 
+// Its name stands in a header of beta extensions.
+constexpr const char* portability_subset = "VK_KHR_portability_subset";
+
 // What the device's own ray tracing needs, asked for only where its extensions are.
 struct RayTracingFeatures {
     VkPhysicalDeviceAccelerationStructureFeaturesKHR structures {
@@ -173,11 +200,50 @@ struct RayTracingFeatures {
     };
 };
 
+// What a logical device is made with.
+struct Enabled {
+    Features& features;
+    RayTracingFeatures& rays;
+    std::vector<const char*>& extensions;
+};
+
 // Links a feature or property struct into the chain behind `head`.
 template <class Head, class Link> void chain(Head& head, Link& link)
 {
     link.pNext = head.pNext;
     head.pNext = &link;
+}
+
+// A physical device, and what keeps us from it.
+struct Candidate {
+    VkPhysicalDevice device;
+    std::string name, why_not; // empty: nothing
+    VkPhysicalDeviceType type;
+    std::vector<uint32_t> families; // of queues that serve, the best first
+    uint32_t family = 0;
+};
+
+// `name_part`: pt_device
+Candidate examine(VkPhysicalDevice device, const std::string& name_part)
+{
+    VkPhysicalDeviceProperties2 about { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2 };
+    vkGetPhysicalDeviceProperties2(device, &about);
+    const VkPhysicalDeviceProperties& properties = about.properties;
+    Candidate candidate { device, properties.deviceName, "", properties.deviceType,
+        rank_queue_families(queue_families(device)) };
+    Features has, use;
+    if (candidate.name.find(name_part) == std::string::npos)
+        candidate.why_not = fmt::format("is not pt_device \"{}\"", name_part);
+    else if (properties.apiVersion < VK_API_VERSION_1_2)
+        candidate.why_not = "has only Vulkan " + describe_api_version(properties.apiVersion) + ", 1.2 is required";
+    else if (candidate.families.empty())
+        candidate.why_not = "has no queue for compute";
+    else {
+        vkGetPhysicalDeviceFeatures2(device, &has.core);
+        if (const char* missing = require_features(has, use))
+            candidate.why_not = fmt::format("lacks the feature {}", missing);
+    }
+    return candidate;
 }
 
 // With less, the CPU driver's compiler crashes instead of reporting an error.
@@ -191,22 +257,6 @@ void check_address_space()
             fmt::format("this process may take {} MiB of address space, and Vulkan drivers need {}: lift the "
                         "limit with \"ulimit -v unlimited\" and start again",
                 limit.rlim_cur >> 20, min_address_space >> 20));
-}
-
-int rank_device_type(VkPhysicalDeviceType type)
-{
-    switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-        return 4;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-        return 3;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-        return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-        return 1;
-    default:
-        return 0;
-    }
 }
 
 // Sets an environment variable unless the user did, until the end of life.
@@ -268,6 +318,8 @@ void check_vulkan(VkResult result, const char* call)
         "{} failed: {} ({})", name.substr(0, name.find('(')), result_name(result), static_cast<int>(result));
     if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
         throw LevelError(fmt::format("{}; {}", text, memory_remedy));
+    if (result == VK_ERROR_DEVICE_LOST)
+        throw DeviceLost(text);
     throw FatalError(text);
 }
 
@@ -281,8 +333,9 @@ uint32_t Device::validation_messages() { return validation_message_count; }
 
 Device::Device(const DeviceSettings& settings)
     : cpu_driver_(std::make_unique<CpuDriverSettings>(settings.cache_directory))
-    , windowed_(!settings.instance_extensions.empty())
+    , windowed_(settings.window && *settings.window)
     , uses_rays_(settings.ray_tracing)
+    , wants_statistics_(settings.pipeline_statistics)
 {
     check_address_space();
     load_vulkan_library();
@@ -307,6 +360,8 @@ Device::Device(Twin, const Device& original)
     , driver(original.driver)
     , identity(original.identity)
     , is_cpu(original.is_cpu)
+    , maps_all_memory(original.maps_all_memory)
+    , timestamp_bits(original.timestamp_bits)
     , has_debug_utils(original.has_debug_utils)
     , max_textures(original.max_textures)
     , windowed_(false)
@@ -348,13 +403,20 @@ void Device::create_instance(const DeviceSettings& settings)
 
     constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
     std::vector<const char*> layers;
-    std::vector<const char*> extensions = settings.instance_extensions;
+    std::vector<const char*> extensions;
+    if (windowed_)
+        extensions = settings.window->instance_extensions();
+    const std::vector<VkExtensionProperties> offered = instance_extensions(nullptr);
+    // Devices that lack parts of Vulkan, such as Apple's by MoltenVK, are named only to who asks for them.
+    const bool lists_portable = contains(offered, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    if (lists_portable)
+        extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
     const bool validate = settings.validation && has_layer(validation_layer);
     if (settings.validation && !validate)
         throw FatalError("pt_validation 1 needs the Vulkan validation layers: install vulkan-validationlayers");
     if (validate)
         layers.push_back(validation_layer);
-    has_debug_utils = contains(instance_extensions(nullptr), VK_EXT_DEBUG_UTILS_EXTENSION_NAME)
+    has_debug_utils = contains(offered, VK_EXT_DEBUG_UTILS_EXTENSION_NAME)
         || (validate && contains(instance_extensions(validation_layer), VK_EXT_DEBUG_UTILS_EXTENSION_NAME));
     if (has_debug_utils)
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
@@ -372,6 +434,7 @@ void Device::create_instance(const DeviceSettings& settings)
 
     VkInstanceCreateInfo info { VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO };
     info.pNext = validate ? &features : nullptr;
+    info.flags = lists_portable ? VkInstanceCreateFlags(VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR) : 0;
     info.pApplicationInfo = &application;
     info.enabledLayerCount = uint32_t(layers.size());
     info.ppEnabledLayerNames = layers.data();
@@ -396,48 +459,44 @@ void Device::choose_physical_device(const DeviceSettings& settings)
         throw FatalError(
             "no Vulkan device on this machine: install your card's driver, or mesa-vulkan-drivers for the CPU");
 
+    const ProbedSurface surface(instance, settings.window);
     std::string reasons;
-    int best = -1;
+    std::vector<Candidate> candidates;
+    std::vector<DeviceFacts> facts;
     for (VkPhysicalDevice device : devices) {
-        VkPhysicalDeviceVulkan12Properties v12 { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES };
-        VkPhysicalDeviceProperties2 about { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &v12 };
-        vkGetPhysicalDeviceProperties2(device, &about);
-        const std::string device_name = about.properties.deviceName;
-        const auto reject = [&](std::string_view why) { reasons += fmt::format("; {} {}", device_name, why); };
-        if (device_name.find(settings.name_part) == std::string::npos) {
-            reject(fmt::format("is not pt_device \"{}\"", settings.name_part));
+        Candidate candidate = examine(device, settings.name_part);
+        if (!candidate.why_not.empty()) {
+            reasons += fmt::format("; {} {}", candidate.name, candidate.why_not);
             continue;
         }
-        if (about.properties.apiVersion < VK_API_VERSION_1_2) {
-            reject("has only Vulkan " + describe_api_version(about.properties.apiVersion) + ", 1.2 is required");
-            continue;
-        }
-        Features has, use;
-        vkGetPhysicalDeviceFeatures2(device, &has.core);
-        if (const char* missing = require_features(has, use)) {
-            reject(fmt::format("lacks the feature {}", missing));
-            continue;
-        }
-        const std::optional<uint32_t> family = find_queue_family(device);
-        if (!family) {
-            reject("has no queue for graphics and compute");
-            continue;
-        }
-        const int rank = rank_device_type(about.properties.deviceType);
-        if (rank <= best)
-            continue;
-        best = rank;
-        physical = device;
-        properties = about.properties;
-        queue_family = *family;
-        driver = fmt::format("{} {}", v12.driverName, v12.driverInfo);
-        max_textures = std::min(
-            v12.maxPerStageDescriptorUpdateAfterBindSampledImages, v12.maxDescriptorSetUpdateAfterBindSampledImages);
+        const auto presenting
+            = std::ranges::find_if(candidate.families, [&](uint32_t family) { return surface.serves(device, family); });
+        const bool can_present = presenting != candidate.families.end();
+        candidate.family = can_present ? *presenting : candidate.families.front();
+        facts.push_back({ candidate.type, can_present });
+        candidates.push_back(std::move(candidate));
     }
-    if (!physical)
+    const std::optional<size_t> chosen = choose_device(facts);
+    if (!chosen)
         throw FatalError("no usable Vulkan device" + reasons);
+    physical = candidates[*chosen].device;
+    queue_family = candidates[*chosen].family;
+    read_queue_and_memory();
+}
+
+void Device::read_queue_and_memory()
+{
+    VkPhysicalDeviceVulkan12Properties v12 { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES };
+    VkPhysicalDeviceProperties2 about { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &v12 };
+    vkGetPhysicalDeviceProperties2(physical, &about);
+    properties = about.properties;
+    driver = fmt::format("{} {}", v12.driverName, v12.driverInfo);
+    max_textures = std::min(
+        v12.maxPerStageDescriptorUpdateAfterBindSampledImages, v12.maxDescriptorSetUpdateAfterBindSampledImages);
     is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    timestamp_bits = queue_families(physical)[queue_family].timestampValidBits;
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+    maps_all_memory = vkpt::maps_all_memory(memory);
     identity = identify_driver(physical);
 }
 
@@ -452,6 +511,41 @@ bool Device::choose_texels(TableReads wanted) const
     return wanted == TableReads::automatic ? measure_gathers() > slow_gathers : wanted == TableReads::texels;
 }
 
+// Asks for the device's own ray tracing where it has it, and notes that in it.
+static void enable_rays(Device& device, const std::vector<VkExtensionProperties>& offered, const Enabled& use)
+{
+    const bool structures = contains(offered, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME)
+        && contains(offered, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
+    VkPhysicalDeviceFeatures2 features { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2 };
+    RayTracingFeatures has;
+    if (structures)
+        chain(features, has.structures);
+    if (structures && contains(offered, VK_KHR_RAY_QUERY_EXTENSION_NAME))
+        chain(features, has.query);
+    if (structures && contains(offered, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME))
+        chain(features, has.pipeline);
+    vkGetPhysicalDeviceFeatures2(device.physical, &features);
+
+    device.has_ray_query = has.structures.accelerationStructure && has.query.rayQuery;
+    device.has_ray_pipeline = has.structures.accelerationStructure && has.pipeline.rayTracingPipeline;
+    if (device.has_acceleration_structures()) {
+        use.extensions.push_back(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME);
+        use.extensions.push_back(VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
+        use.rays.structures.accelerationStructure = VK_TRUE;
+        chain(use.features.core, use.rays.structures);
+    }
+    if (device.has_ray_query) {
+        use.extensions.push_back(VK_KHR_RAY_QUERY_EXTENSION_NAME);
+        use.rays.query.rayQuery = VK_TRUE;
+        chain(use.features.core, use.rays.query);
+    }
+    if (device.has_ray_pipeline) {
+        use.extensions.push_back(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+        use.rays.pipeline.rayTracingPipeline = VK_TRUE;
+        chain(use.features.core, use.rays.pipeline);
+    }
+}
+
 void Device::create_logical_device()
 {
     const std::vector<VkExtensionProperties> offered = device_extensions(physical);
@@ -459,40 +553,23 @@ void Device::create_logical_device()
     has_swapchain = windowed_ && contains(offered, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     if (has_swapchain)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
-
-    const bool structures = uses_rays_ && contains(offered, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME)
-        && contains(offered, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
-    const bool query = structures && contains(offered, VK_KHR_RAY_QUERY_EXTENSION_NAME);
-    const bool pipeline = structures && contains(offered, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+    if (contains(offered, portability_subset)) // a device that has it wants it enabled
+        extensions.push_back(portability_subset);
 
     Features has, use;
-    RayTracingFeatures has_rays, use_rays;
-    if (structures)
-        chain(has.core, has_rays.structures);
-    if (query)
-        chain(has.core, has_rays.query);
-    if (pipeline)
-        chain(has.core, has_rays.pipeline);
     vkGetPhysicalDeviceFeatures2(physical, &has.core);
     require_features(has, use);
-
-    has_ray_query = has_rays.structures.accelerationStructure && has_rays.query.rayQuery;
-    has_ray_pipeline = has_rays.structures.accelerationStructure && has_rays.pipeline.rayTracingPipeline;
-    if (has_acceleration_structures()) {
-        extensions.push_back(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME);
-        extensions.push_back(VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
-        use_rays.structures.accelerationStructure = VK_TRUE;
-        chain(use.core, use_rays.structures);
-    }
-    if (has_ray_query) {
-        extensions.push_back(VK_KHR_RAY_QUERY_EXTENSION_NAME);
-        use_rays.query.rayQuery = VK_TRUE;
-        chain(use.core, use_rays.query);
-    }
-    if (has_ray_pipeline) {
-        extensions.push_back(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
-        use_rays.pipeline.rayTracingPipeline = VK_TRUE;
-        chain(use.core, use_rays.pipeline);
+    RayTracingFeatures rays;
+    if (uses_rays_)
+        enable_rays(*this, offered, { use, rays, extensions });
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics {
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR, nullptr, VK_TRUE
+    };
+    has_pipeline_statistics
+        = wants_statistics_ && contains(offered, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+    if (has_pipeline_statistics) {
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+        chain(use.core, statistics);
     }
     read_ray_tracing_limits();
 
@@ -536,23 +613,18 @@ void Device::read_ray_tracing_limits()
 
 void Device::wait_idle() const { VKPT_CHECK(vkDeviceWaitIdle(handle)); }
 
-uint32_t Device::find_memory_type(
-    uint32_t type_bits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const
+std::vector<uint32_t> Device::find_memory_types(uint32_t type_bits, const MemoryWish& wish) const
 {
-    std::optional<uint32_t> found;
-    for (uint32_t i = 0; i < memory.memoryTypeCount; i++) {
-        const VkMemoryPropertyFlags flags = memory.memoryTypes[i].propertyFlags;
-        if (!(type_bits >> i & 1) || (flags & required) != required)
-            continue;
-        if ((flags & preferred) == preferred)
-            return i;
-        if (!found)
-            found = i;
-    }
-    if (!found)
+    std::vector<uint32_t> types = rank_memory_types(memory, type_bits, wish);
+    if (types.empty())
         throw FatalError(
-            fmt::format("{} has no memory of the required type (flags {:#x})", properties.deviceName, required));
-    return *found;
+            fmt::format("{} has no memory of the required type (flags {:#x})", properties.deviceName, wish.required));
+    return types;
+}
+
+double Device::nanoseconds_between(uint64_t begin, uint64_t end) const
+{
+    return double(ticks_between(begin, end, timestamp_bits)) * double(properties.limits.timestampPeriod);
 }
 
 void Device::name_object(VkObjectType type, uint64_t object, std::string_view name) const

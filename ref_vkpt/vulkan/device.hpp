@@ -3,7 +3,9 @@
 #pragma once
 
 #include "ref_vkpt/files/pipeline_cache_file.hpp"
+#include "ref_vkpt/vulkan/device_choice.hpp"
 #include "ref_vkpt/vulkan/functions.hpp"
+#include "ref_vkpt/vulkan/window.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -16,7 +18,7 @@ namespace vkpt {
 // What helps where memory does not suffice.
 inline constexpr const char* memory_remedy
     = "lower pt_render_scale or the window's size (r_mode), set r_retexturing 0, or close other programs";
-// Throws with the call's text unless the call succeeded: LevelError where memory ran out, else FatalError.
+// Throws with the call's text unless the call succeeded: LevelError where memory ran out, DeviceLost, else FatalError.
 void check_vulkan(VkResult result, const char* call);
 #define VKPT_CHECK(call) ::vkpt::check_vulkan((call), #call)
 
@@ -27,7 +29,8 @@ enum class TableReads { automatic, texels, address };
 struct DeviceSettings {
     std::string name_part; // empty: the best device
     bool validation = false;
-    std::vector<const char*> instance_extensions; // what the window asks for
+    const Window* window = nullptr; // what is to be presented to, if it is one
+    bool pipeline_statistics = false; // for Pipelines::statistics()
     bool ray_tracing = true; // enable the device's own ray tracing where it has it
     TableReads table_reads = TableReads::automatic;
     std::string cache_directory; // for the driver's shader cache; empty: the driver's own place
@@ -60,6 +63,12 @@ public:
     // Whether shaders read tables and screen buffers as texels (lib/device/texels.glsl) or by address.
     bool reads_texels() const { return reads_texels_; }
     const char* table_reads() const { return reads_texels_ ? "texels" : "address"; }
+    // A discrete GPU without a resizable BAR lets the CPU see a small part of its memory (256 MiB): there what is large
+    // is copied to the device instead of written right into its memory.
+    bool maps_all_memory = true;
+    // Of timestamps on our queue; 0: it has none.
+    uint32_t timestamp_bits = 0;
+    bool has_pipeline_statistics = false; // VK_KHR_pipeline_executable_properties, where it was asked for
     bool has_swapchain = false;
     bool has_debug_utils = false;
     uint32_t max_textures = 0;
@@ -84,9 +93,10 @@ public:
     static uint32_t validation_messages();
 
     void wait_idle() const;
-    // A memory type among `type_bits` with all of `required` and, if there is one, `preferred`.
-    uint32_t find_memory_type(
-        uint32_t type_bits, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
+    // The memory types among `type_bits` with all that is required, the best first. Throws FatalError: there is none.
+    std::vector<uint32_t> find_memory_types(uint32_t type_bits, const MemoryWish& wish) const;
+    // Nanoseconds between two timestamps of our queue, which may have wrapped around once.
+    double nanoseconds_between(uint64_t begin, uint64_t end) const;
     void name_object(VkObjectType type, uint64_t object, std::string_view name) const;
 
 private:
@@ -94,6 +104,7 @@ private:
     Device(Twin, const Device& original);
     void create_instance(const DeviceSettings& settings);
     void choose_physical_device(const DeviceSettings& settings);
+    void read_queue_and_memory();
     void create_logical_device();
     bool choose_texels(TableReads wanted) const;
     void read_ray_tracing_limits();
@@ -102,6 +113,7 @@ private:
     std::unique_ptr<CpuDriverSettings> cpu_driver_;
     bool windowed_;
     bool uses_rays_; // the device's own, where it has them
+    bool wants_statistics_ = false;
     bool owns_instance_ = true;
     bool reads_texels_ = false;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;

@@ -4,6 +4,7 @@
 #include "ref_vkpt/engine/errors.hpp"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <string>
 
 #define VKPT_DEFINE(name) PFN_##name name = nullptr;
@@ -19,6 +20,15 @@ namespace vkpt {
 
 namespace {
 
+#ifdef __APPLE__
+constexpr const char* library_names[]
+    = { "libvulkan.1.dylib", "libvulkan.dylib", "/usr/local/lib/libvulkan.1.dylib", "libMoltenVK.dylib" };
+constexpr const char* library_remedy = "install the Vulkan SDK or MoltenVK";
+#else
+constexpr const char* library_names[] = { "libvulkan.so.1", "libvulkan.so" };
+constexpr const char* library_remedy = "install libvulkan1 and mesa-vulkan-drivers or your card's driver";
+#endif
+
 template <class Function> void require(Function function, const char* name)
 {
     if (!function)
@@ -32,10 +42,13 @@ void load_vulkan_library()
     if (vkGetInstanceProcAddr)
         return;
     // Never closed: drivers leave threads and exit handlers behind.
-    void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+    void* library = nullptr;
+    for (const char* name : library_names)
+        if (!library)
+            library = dlopen(name, RTLD_NOW | RTLD_LOCAL);
     if (!library)
-        throw FatalError("no Vulkan on this machine (libvulkan.so.1 is missing): install libvulkan1 and "
-                         "mesa-vulkan-drivers or your card's driver");
+        throw FatalError(
+            fmt::format("no Vulkan on this machine ({} is missing): {}", library_names[0], library_remedy));
     vkGetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
     require(vkGetInstanceProcAddr, "vkGetInstanceProcAddr");
 #define VKPT_LOAD(name)                                                                                                \

@@ -101,6 +101,7 @@
     X(vkCmdPushConstants)                                                                                              \
     X(vkCmdDispatch)                                                                                                   \
     X(vkCmdFillBuffer)                                                                                                 \
+    X(vkCmdUpdateBuffer)                                                                                               \
     X(vkCmdCopyBuffer)                                                                                                 \
     X(vkCmdCopyBufferToImage)                                                                                          \
     X(vkCmdCopyImageToBuffer)                                                                                          \
@@ -128,7 +129,9 @@
     X(vkCmdBuildAccelerationStructuresKHR)                                                                             \
     X(vkCreateRayTracingPipelinesKHR)                                                                                  \
     X(vkGetRayTracingShaderGroupHandlesKHR)                                                                            \
-    X(vkCmdTraceRaysKHR)
+    X(vkCmdTraceRaysKHR)                                                                                               \
+    X(vkGetPipelineExecutablePropertiesKHR)                                                                            \
+    X(vkGetPipelineExecutableStatisticsKHR)
 
 #define VKPT_DECLARE(name) extern PFN_##name name;
 VKPT_DECLARE(vkGetInstanceProcAddr)

@@ -77,37 +77,47 @@ MemoryAllocator::~MemoryAllocator()
         vkFreeMemory(device_.handle, block.memory, nullptr);
 }
 
-Allocation MemoryAllocator::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
-    VkMemoryPropertyFlags preferred, bool linear, MemoryKind kind)
+bool MemoryAllocator::find_place(Allocation& allocation, VkDeviceSize alignment, uint32_t type, bool linear)
 {
-    const uint32_t type = device_.find_memory_type(requirements.memoryTypeBits, required, preferred);
+    for (MemoryBlock& block : blocks_)
+        if (block.type == type && block.linear == linear)
+            if (const std::optional<VkDeviceSize> offset = cut(block, allocation.size_, alignment)) {
+                allocation.block_ = &block;
+                allocation.offset_ = *offset;
+                return true;
+            }
+    return false;
+}
+
+bool MemoryAllocator::add_place(Allocation& allocation, VkDeviceSize block_bytes, uint32_t type, bool linear)
+{
+    MemoryBlock* block = add_block(block_bytes, type, linear);
+    if (!block)
+        return false;
+    allocation.block_ = block;
+    allocation.offset_ = *cut(*block, allocation.size_, 1); // the begin of a block suits everything
+    return true;
+}
+
+Allocation MemoryAllocator::allocate(
+    const VkMemoryRequirements& requirements, const MemoryWish& wish, bool linear, MemoryKind kind)
+{
+    const std::vector<uint32_t> types = device_.find_memory_types(requirements.memoryTypeBits, wish);
     Allocation allocation;
     allocation.size_ = align_up(requirements.size, 256);
     allocation.kind_ = kind;
-    const auto place = [&](MemoryBlock& block) {
-        const std::optional<VkDeviceSize> offset = cut(block, allocation.size_, requirements.alignment);
-        if (!offset)
-            return false;
-        allocation.block_ = &block;
-        allocation.offset_ = *offset;
-        return true;
-    };
-    const auto find_place = [&] {
-        return std::ranges::any_of(
-            blocks_, [&](MemoryBlock& block) { return block.type == type && block.linear == linear && place(block); });
-    };
-    const auto add_place = [&](VkDeviceSize size) {
-        MemoryBlock* block = add_block(size, type, linear);
-        return block && place(*block);
-    };
-    bool found = find_place() || add_place(std::max(block_size, allocation.size_));
+    const auto find = [&](uint32_t type) { return find_place(allocation, requirements.alignment, type, linear); };
+    const auto add = [&](uint32_t type, VkDeviceSize bytes) { return add_place(allocation, bytes, type, linear); };
+    const VkDeviceSize bytes = allocation.size_, roomy = std::max(block_size, bytes);
+    bool found = std::ranges::any_of(
+        types, [&](uint32_t type) { return find(type) || add(type, roomy) || (types.size() > 1 && add(type, bytes)); });
     if (!found && relief_) {
         relief_();
-        found = find_place();
+        found = std::ranges::any_of(types, find);
     }
-    if (!found && !add_place(allocation.size_))
+    if (!found && !std::ranges::any_of(types, [&](uint32_t type) { return add(type, bytes); }))
         throw LevelError(fmt::format("out of memory on {}: cannot allocate {} MiB for {}; {}",
-            device_.properties.deviceName, (allocation.size_ >> 20) + 1, describe(kind), memory_remedy));
+            device_.properties.deviceName, (bytes >> 20) + 1, describe(kind), memory_remedy));
     allocation.allocator_ = this;
     in_use_[size_t(kind)] += allocation.size_;
     if (fill_ && allocation.mapped())

@@ -68,12 +68,14 @@ public:
     // recorded that uses what the failure is going to destroy.
     void set_relief(std::function<void()> relief) { relief_ = std::move(relief); }
     // Throws LevelError: out of memory, naming kind and size.
-    Allocation allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
-        VkMemoryPropertyFlags preferred, bool linear, MemoryKind kind);
+    // Where one type of memory is full, the next that serves is taken.
+    Allocation allocate(const VkMemoryRequirements& requirements, const MemoryWish& wish, bool linear, MemoryKind kind);
     uint64_t bytes_in_use(MemoryKind kind) const { return in_use_[size_t(kind)]; }
 
 private:
     friend class Allocation;
+    bool find_place(Allocation& allocation, VkDeviceSize alignment, uint32_t type, bool linear);
+    bool add_place(Allocation& allocation, VkDeviceSize block_bytes, uint32_t type, bool linear);
     MemoryBlock* add_block(VkDeviceSize size, uint32_t type, bool linear); // nullptr: not to be had
     void release(Allocation& allocation);
 

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -32,13 +34,58 @@ enum RayStage : uint32_t { stage_generation, stage_miss, stage_closest_hit, stag
 constexpr std::string_view shared_stages[] = { "trace.rmiss", "trace.rchit", "trace.rahit" };
 enum RayGroup : uint32_t { group_generation, group_miss, group_hit, group_count };
 
-// Of lib/device/texels.glsl: whether tables are read as texels, which is its default.
-const VkSpecializationInfo* table_access(const Device& device)
+// Of lib/device/texels.glsl: whether tables are read as texels, which is its default; and the fixed choices.
+class Specialization {
+public:
+    Specialization(const Device& device, const FixedChoices& choices)
+        : values_ { device.reads_texels() ? VK_TRUE : VK_FALSE, choices.light_weight, choices.light_point,
+            choices.bounces }
+    {
+    }
+    Specialization(const Specialization&) = delete;
+    const VkSpecializationInfo* info() const { return &info_; }
+
+private:
+    struct Values {
+        VkBool32 as_texels;
+        int32_t light_weight, light_point, bounces;
+    } const values_;
+    static constexpr VkSpecializationMapEntry entries_[] = {
+        { shared::TEXELS_CONSTANT, offsetof(Values, as_texels), sizeof(VkBool32) },
+        { shared::LIGHT_WEIGHT_CONSTANT, offsetof(Values, light_weight), sizeof(int32_t) },
+        { shared::LIGHT_POINT_CONSTANT, offsetof(Values, light_point), sizeof(int32_t) },
+        { shared::BOUNCES_CONSTANT, offsetof(Values, bounces), sizeof(int32_t) },
+    };
+    const VkSpecializationInfo info_ { uint32_t(std::size(entries_)), entries_, sizeof values_, &values_ };
+};
+
+// Whether SPIR-V declares the specialization constant: OpDecorate with SpecId.
+bool declares_constant(std::span<const uint32_t> code, uint32_t constant)
 {
-    static constexpr VkBool32 as_texels = VK_FALSE;
-    static constexpr VkSpecializationMapEntry entry { shared::TEXELS_CONSTANT, 0, sizeof as_texels };
-    static constexpr VkSpecializationInfo by_address { 1, &entry, sizeof as_texels, &as_texels };
-    return device.reads_texels() ? nullptr : &by_address;
+    constexpr uint32_t header_words = 5, op_decorate = 71, decoration_spec_id = 1;
+    for (size_t at = header_words; at < code.size() && code[at] >> 16 > 0; at += code[at] >> 16)
+        if ((code[at] & 0xffff) == op_decorate && code[at] >> 16 == 4 && at + 3 < code.size()
+            && code[at + 2] == decoration_spec_id && code[at + 3] == constant)
+            return true;
+    return false;
+}
+
+std::string shader_of_key(std::string_view key) { return std::string(key.substr(0, key.find('#'))); }
+
+bool is_ready(VkPipeline pipeline) { return pipeline != VK_NULL_HANDLE; }
+bool is_ready(const RayPipeline& pipeline) { return pipeline.handle != VK_NULL_HANDLE; }
+void take_finished(std::map<std::string, VkPipeline, std::less<>>& made, const std::string& key, VkPipeline pipeline)
+{
+    made[key] = pipeline;
+}
+void take_finished(std::map<std::string, RayPipeline, std::less<>>& made, const std::string& key, VkPipeline pipeline)
+{
+    made[key].handle = pipeline; // its table is filled where it is first used
+}
+
+VkPipelineCreateFlags pipeline_flags(const Device& device)
+{
+    return device.has_pipeline_statistics ? VkPipelineCreateFlags(VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR) : 0;
 }
 
 VkRayTracingShaderGroupCreateInfoKHR make_group(uint32_t general, uint32_t closest_hit, uint32_t any_hit)
@@ -71,6 +118,12 @@ Pipelines::Pipelines(const Gpu& gpu, const Bindings& bindings, std::string cache
 Pipelines::~Pipelines()
 {
     save_cache();
+    for (auto& [key, pipeline] : under_way_)
+        try {
+            vkDestroyPipeline(gpu_.device.handle, pipeline.get(), nullptr);
+        } catch (const std::exception&) {
+            // Nobody wants it any more.
+        }
     for (auto& [name, pipeline] : compute_)
         vkDestroyPipeline(gpu_.device.handle, pipeline, nullptr);
     for (auto& [name, pipeline] : ray_)
@@ -100,16 +153,78 @@ VkShaderModule Pipelines::make_module(std::string_view shader)
     return module;
 }
 
-VkPipeline Pipelines::make_compute_pipeline(std::string_view shader)
+void Pipelines::fix(const FixedChoices& choices, bool at_once)
 {
+    const std::scoped_lock lock(mutex_);
+    choices_ = choices;
+    at_once_ = at_once;
+}
+
+// With the lock.
+bool Pipelines::knows_choices(std::string_view shader)
+{
+    const auto known = knows_choices_.find(shader);
+    if (known != knows_choices_.end())
+        return known->second;
+    const std::span<const uint32_t> code = find_shader(shader);
+    return knows_choices_
+        .emplace(shader,
+            declares_constant(code, shared::LIGHT_WEIGHT_CONSTANT)
+                || declares_constant(code, shared::LIGHT_POINT_CONSTANT)
+                || declares_constant(code, shared::BOUNCES_CONSTANT))
+        .first->second;
+}
+
+// With the lock.
+std::string Pipelines::key_of(std::string_view shader, const FixedChoices& choices)
+{
+    if (choices == FixedChoices {} || !knows_choices(shader))
+        return std::string(shader);
+    return fmt::format("{}#{},{},{}", shader, choices.light_weight, choices.light_point, choices.bounces);
+}
+
+// With the lock. What goes on in the place of `key` while that is under way, which it is from here on. nullptr: it is
+// there, or has to be made now.
+template <class Made, class Make>
+const Made* Pipelines::find_older(std::unique_lock<std::mutex>& lock, std::map<std::string, Made, std::less<>>& made,
+    std::string_view shader, const std::string& key, const Make& make)
+{
+    std::string& latest = latest_.try_emplace(std::string(shader), key).first->second;
+    const auto older = made.find(latest);
+    const bool is_there = made.contains(key), goes_on = older != made.end() && is_ready(older->second) && !at_once_;
+    const auto under_way = under_way_.find(key);
+    if (is_there || (!goes_on && under_way == under_way_.end())) {
+        latest = key;
+        return nullptr;
+    }
+    if (under_way == under_way_.end()) {
+        under_way_.emplace(key, std::async(std::launch::async, make));
+        return &older->second;
+    }
+    if (goes_on && under_way->second.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return &older->second;
+    std::future<VkPipeline> finished = std::move(under_way->second);
+    under_way_.erase(under_way);
+    lock.unlock(); // which making it needs
+    const VkPipeline pipeline = finished.get();
+    lock.lock();
+    take_finished(made, key, pipeline);
+    latest = key;
+    return nullptr;
+}
+
+VkPipeline Pipelines::make_compute_pipeline(std::string_view shader, const FixedChoices& choices)
+{
+    const Specialization specialization(gpu_.device, choices);
     const VkShaderModule module = make_module(shader);
     VkComputePipelineCreateInfo info { VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO };
     info.layout = bindings_.pipeline_layout();
+    info.flags = pipeline_flags(gpu_.device);
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;
     info.stage.pName = "main";
-    info.stage.pSpecializationInfo = table_access(gpu_.device);
+    info.stage.pSpecializationInfo = specialization.info();
     VkPipeline pipeline = VK_NULL_HANDLE;
     const VkResult result = vkCreateComputePipelines(gpu_.device.handle, cache_, 1, &info, nullptr, &pipeline);
     vkDestroyShaderModule(gpu_.device.handle, module, nullptr);
@@ -121,17 +236,22 @@ VkPipeline Pipelines::make_compute_pipeline(std::string_view shader)
 VkPipeline Pipelines::compute(std::string_view shader)
 {
     std::unique_lock lock(mutex_);
+    const FixedChoices choices = choices_;
+    const std::string key = key_of(shader, choices);
+    const auto make = [this, name = std::string(shader), choices] { return make_compute_pipeline(name, choices); };
+    if (const VkPipeline* older = find_older(lock, compute_, shader, key, make))
+        return *older;
     one_is_made_.wait(lock, [&] {
-        const auto found = compute_.find(shader);
+        const auto found = compute_.find(key);
         return found == compute_.end() || found->second != VK_NULL_HANDLE;
     });
-    if (const auto found = compute_.find(shader); found != compute_.end())
+    if (const auto found = compute_.find(key); found != compute_.end())
         return found->second;
-    const auto entry = compute_.emplace(shader, VK_NULL_HANDLE).first;
+    const auto entry = compute_.emplace(key, VK_NULL_HANDLE).first;
     lock.unlock();
     VkPipeline pipeline = VK_NULL_HANDLE;
     try {
-        pipeline = make_compute_pipeline(shader);
+        pipeline = make();
     } catch (...) {
         lock.lock();
         compute_.erase(entry); // whoever waits tries it, too
@@ -144,8 +264,9 @@ VkPipeline Pipelines::compute(std::string_view shader)
     return pipeline;
 }
 
-VkPipeline Pipelines::make_ray_pipeline(std::string_view shader)
+VkPipeline Pipelines::make_ray_pipeline(std::string_view shader, const FixedChoices& choices)
 {
+    const Specialization specialization(gpu_.device, choices);
     const std::string_view names[stage_count] = { shader, shared_stages[0], shared_stages[1], shared_stages[2] };
     constexpr VkShaderStageFlagBits kinds[stage_count] = { VK_SHADER_STAGE_RAYGEN_BIT_KHR, VK_SHADER_STAGE_MISS_BIT_KHR,
         VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, VK_SHADER_STAGE_ANY_HIT_BIT_KHR };
@@ -155,13 +276,14 @@ VkPipeline Pipelines::make_ray_pipeline(std::string_view shader)
         stages[i].stage = kinds[i];
         stages[i].module = make_module(names[i]);
         stages[i].pName = "main";
-        stages[i].pSpecializationInfo = table_access(gpu_.device);
+        stages[i].pSpecializationInfo = specialization.info();
     }
     VkRayTracingShaderGroupCreateInfoKHR groups[group_count];
     groups[group_generation] = make_group(stage_generation, VK_SHADER_UNUSED_KHR, VK_SHADER_UNUSED_KHR);
     groups[group_miss] = make_group(stage_miss, VK_SHADER_UNUSED_KHR, VK_SHADER_UNUSED_KHR);
     groups[group_hit] = make_group(VK_SHADER_UNUSED_KHR, stage_closest_hit, stage_any_hit);
     VkRayTracingPipelineCreateInfoKHR info { VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR };
+    info.flags = pipeline_flags(gpu_.device);
     info.stageCount = stage_count;
     info.pStages = stages;
     info.groupCount = group_count;
@@ -199,23 +321,45 @@ void Pipelines::fill_table(RayPipeline& pipeline) const
 
 const RayPipeline& Pipelines::ray(std::string_view shader)
 {
-    if (auto found = ray_.find(shader); found != ray_.end())
+    std::unique_lock lock(mutex_);
+    const FixedChoices choices = choices_;
+    const std::string key = key_of(shader, choices);
+    const auto make = [this, name = std::string(shader), choices] { return make_ray_pipeline(name, choices); };
+    if (const RayPipeline* older = find_older(lock, ray_, shader, key, make))
+        return *older;
+    lock.unlock();
+    if (const auto found = ray_.find(key); found != ray_.end()) {
+        if (!found->second.table)
+            fill_table(found->second);
         return found->second;
+    }
     RayPipeline pipeline;
-    pipeline.handle = make_ray_pipeline(shader);
-    RayPipeline& kept = ray_.emplace(shader, std::move(pipeline)).first->second;
+    pipeline.handle = make();
+    RayPipeline& kept = ray_.emplace(key, std::move(pipeline)).first->second;
     fill_table(kept);
     return kept;
+}
+
+std::vector<std::pair<std::string, VkPipeline>> Pipelines::all()
+{
+    const std::scoped_lock lock(mutex_);
+    std::vector<std::pair<std::string, VkPipeline>> pipelines;
+    for (const auto& [shader, pipeline] : compute_)
+        if (pipeline)
+            pipelines.emplace_back(shader_of_key(shader), pipeline);
+    for (const auto& [shader, pipeline] : ray_)
+        pipelines.emplace_back(shader_of_key(shader), pipeline.handle);
+    return pipelines;
 }
 
 std::vector<std::string> Pipelines::used_shaders()
 {
     const std::scoped_lock lock(mutex_);
     std::vector<std::string> shaders;
-    for (const auto& [shader, pipeline] : compute_)
-        shaders.push_back(shader);
-    for (const auto& [shader, pipeline] : ray_)
-        shaders.push_back(shader);
+    for (const auto& [key, pipeline] : compute_)
+        shaders.push_back(shader_of_key(key));
+    for (const auto& [key, pipeline] : ray_)
+        shaders.push_back(shader_of_key(key));
     if (!ray_.empty())
         shaders.insert(shaders.end(), std::begin(shared_stages), std::end(shared_stages));
     return shaders;
@@ -236,10 +380,10 @@ bool Pipelines::replace(
     std::map<std::string, RayPipeline> traced;
     try {
         if (is_computed)
-            computed = make_compute_pipeline(shader);
+            computed = make_compute_pipeline(shader, {});
         for (const auto& [name, pipeline] : ray_)
             if (is_shared || name == shader) {
-                traced[name].handle = make_ray_pipeline(name);
+                traced[name].handle = make_ray_pipeline(name, {});
                 fill_table(traced[name]);
             }
     } catch (...) {

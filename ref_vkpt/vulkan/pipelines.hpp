@@ -4,14 +4,17 @@
 
 #include "ref_vkpt/vulkan/bindings.hpp"
 #include "ref_vkpt/vulkan/shaders.hpp"
+#include "shaders/shared/specialization.h"
 
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vkpt {
@@ -23,6 +26,12 @@ struct RayPipeline {
     VkStridedDeviceAddressRegionKHR generation {}, miss {}, hit {}, callable {};
 };
 
+// Settings that shaders are compiled for (shared/specialization.h); NOT_FIXED: they read them in every frame.
+struct FixedChoices {
+    int light_weight = shared::NOT_FIXED, light_point = shared::NOT_FIXED, bounces = shared::NOT_FIXED;
+    bool operator==(const FixedChoices&) const = default;
+};
+
 class Pipelines {
 public:
     // `cache_file`: where the pipeline cache lives; empty: nowhere.
@@ -31,10 +40,16 @@ public:
     Pipelines(const Pipelines&) = delete;
     Pipelines& operator=(const Pipelines&) = delete;
 
+    // From now on the shaders that know these settings are compiled for them. A pipeline for other settings goes on
+    // until the new one is ready, which is made beside the frames; with `at_once` it is waited for. None of them may
+    // have been replaced.
+    void fix(const FixedChoices& choices, bool at_once);
     // From any thread. Waits where another one is making it.
     VkPipeline compute(std::string_view shader);
     // `shader`: the ray generation one.
     const RayPipeline& ray(std::string_view shader);
+    // All that there are, by shader.
+    std::vector<std::pair<std::string, VkPipeline>> all();
     // The shaders of all pipelines that there are.
     std::vector<std::string> used_shaders();
     // From now on `shader` has this code. `finish` waits for the device and is called where a pipeline is made anew.
@@ -46,15 +61,26 @@ private:
     void save_cache() const;
     std::vector<uint32_t> code_of(std::string_view shader);
     VkShaderModule make_module(std::string_view shader);
-    VkPipeline make_compute_pipeline(std::string_view shader);
-    VkPipeline make_ray_pipeline(std::string_view shader);
+    bool knows_choices(std::string_view shader);
+    std::string key_of(std::string_view shader, const FixedChoices& choices);
+    template <class Made, class Make>
+    const Made* find_older(std::unique_lock<std::mutex>& lock, std::map<std::string, Made, std::less<>>& made,
+        std::string_view shader, const std::string& key, const Make& make);
+    VkPipeline make_compute_pipeline(std::string_view shader, const FixedChoices& choices);
+    VkPipeline make_ray_pipeline(std::string_view shader, const FixedChoices& choices);
     void fill_table(RayPipeline& pipeline) const;
 
     Gpu gpu_;
     const Bindings& bindings_;
     std::string cache_file_;
     VkPipelineCache cache_ = VK_NULL_HANDLE;
-    std::mutex mutex_; // of the three below
+    std::mutex mutex_; // of all below
+    FixedChoices choices_;
+    bool at_once_ = true;
+    std::map<std::string, bool, std::less<>> knows_choices_; // by shader
+    std::map<std::string, std::string, std::less<>> latest_; // the key that a shader was last used by
+    std::map<std::string, std::future<VkPipeline>, std::less<>> under_way_; // by key
+    // By key: the shader's name, and behind a # the settings that it is compiled for.
     std::map<std::string, std::vector<uint32_t>, std::less<>> replaced_; // shaders with other code than the build's
     std::condition_variable one_is_made_;
     std::map<std::string, VkPipeline, std::less<>> compute_; // VK_NULL_HANDLE: a thread is making it

@@ -10,6 +10,24 @@ namespace {
 
 constexpr VkDeviceSize min_buffer_bytes = 16;
 
+MemoryWish memory_wish(const Device& device, BufferHome home)
+{
+    constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                    mappable
+        = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    switch (home) {
+    case BufferHome::device: // what can be mapped is left to what has to be, where it is little
+        return { local, 0, device.maps_all_memory ? 0 : VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) };
+    case BufferHome::upload:
+        return { mappable, local, 0 };
+    case BufferHome::staging:
+        return { mappable, 0, local };
+    case BufferHome::readback:
+        return { mappable, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, local };
+    }
+    return {};
+}
+
 VkFormat texel_format(uint32_t words)
 {
     return words == 1 ? VK_FORMAT_R32_UINT : words == 2 ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT;
@@ -35,16 +53,7 @@ Buffer::Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind k
     try {
         VkMemoryRequirements requirements;
         vkGetBufferMemoryRequirements(device_, handle_, &requirements);
-        constexpr VkMemoryPropertyFlags mappable
-            = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-        const VkMemoryPropertyFlags required
-            = home == BufferHome::device ? VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) : mappable;
-        VkMemoryPropertyFlags preferred = 0;
-        if (home == BufferHome::upload)
-            preferred = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-        else if (home == BufferHome::readback)
-            preferred = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-        allocation_ = gpu.memory.allocate(requirements, required, required | preferred, true, kind);
+        allocation_ = gpu.memory.allocate(requirements, memory_wish(gpu.device, home), true, kind);
         VKPT_CHECK(vkBindBufferMemory(device_, handle_, allocation_.memory(), allocation_.offset()));
     } catch (...) {
         vkDestroyBuffer(device_, handle_, nullptr);
@@ -115,8 +124,8 @@ Image::Image(const Gpu& gpu, const ImageSettings& settings, std::string_view nam
     try {
         VkMemoryRequirements requirements;
         vkGetImageMemoryRequirements(device_, handle_, &requirements);
-        constexpr VkMemoryPropertyFlags home = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-        allocation_ = gpu.memory.allocate(requirements, home, home, false, settings.kind);
+        allocation_
+            = gpu.memory.allocate(requirements, memory_wish(gpu.device, BufferHome::device), false, settings.kind);
         VKPT_CHECK(vkBindImageMemory(device_, handle_, allocation_.memory(), allocation_.offset()));
         VkImageViewCreateInfo view { VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO };
         view.image = handle_;

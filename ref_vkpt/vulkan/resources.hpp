@@ -20,6 +20,7 @@ struct Gpu {
 enum class BufferHome {
     device, // filled by copies or shaders
     upload, // written by the CPU, read by shaders: on the device where it can be mapped there
+    staging, // written by the CPU, copied: not on the device, whose memory that can be mapped may be little
     readback, // written by the device, read by the CPU
 };
 

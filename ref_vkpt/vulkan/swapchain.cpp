@@ -9,6 +9,9 @@ namespace vkpt {
 
 namespace {
 
+// Compositors may keep all pictures of a window that nobody sees; the game goes on without.
+constexpr uint64_t acquire_nanoseconds = 1'000'000'000;
+
 VkSemaphore make_semaphore(VkDevice device)
 {
     VkSemaphoreCreateInfo info { VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO };
@@ -111,6 +114,26 @@ bool Swapchain::recreate(VSync vsync)
     return make_pictures();
 }
 
+VkExtent2D Swapchain::extent_for(const VkSurfaceCapabilitiesKHR& surface) const
+{
+    if (surface.currentExtent.width != UINT32_MAX)
+        return surface.currentExtent;
+    const VkExtent2D wanted = window_.drawable_size(); // the window takes the pictures' size
+    return { std::clamp(wanted.width, surface.minImageExtent.width, surface.maxImageExtent.width),
+        std::clamp(wanted.height, surface.minImageExtent.height, surface.maxImageExtent.height) };
+}
+
+// Whether new pictures would be others than those that there are.
+bool Swapchain::has_changed()
+{
+    VkSurfaceCapabilitiesKHR surface;
+    if (!check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu_.device.physical, surface_, &surface),
+            "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"))
+        return true;
+    const VkExtent2D extent = extent_for(surface);
+    return extent.width != extent_.width || extent.height != extent_.height || surface.currentTransform != transform_;
+}
+
 bool Swapchain::make_pictures()
 {
     destroy_pictures();
@@ -124,12 +147,8 @@ bool Swapchain::make_pictures()
     if (!check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu_.device.physical, surface_, &surface),
             "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"))
         return false;
-    extent_ = surface.currentExtent;
-    if (extent_.width == UINT32_MAX) { // the window takes the pictures' size
-        const VkExtent2D wanted = window_.drawable_size();
-        extent_.width = std::clamp(wanted.width, surface.minImageExtent.width, surface.maxImageExtent.width);
-        extent_.height = std::clamp(wanted.height, surface.minImageExtent.height, surface.maxImageExtent.height);
-    }
+    extent_ = extent_for(surface);
+    transform_ = surface.currentTransform;
     const VkSwapchainKHR old = swapchain_;
     swapchain_ = VK_NULL_HANDLE;
     if (extent_.width > 0 && extent_.height > 0) {
@@ -168,11 +187,14 @@ bool Swapchain::make_pictures()
     return is_usable();
 }
 
-bool Swapchain::acquire(uint32_t frame_slot)
+Acquired Swapchain::acquire(uint32_t frame_slot)
 {
     const VkResult result = vkAcquireNextImageKHR(
-        gpu_.device.handle, swapchain_, UINT64_MAX, acquired_[frame_slot], VK_NULL_HANDLE, &picture_);
-    return result != VK_ERROR_OUT_OF_DATE_KHR && check(result, "vkAcquireNextImageKHR");
+        gpu_.device.handle, swapchain_, acquire_nanoseconds, acquired_[frame_slot], VK_NULL_HANDLE, &picture_);
+    if (result == VK_TIMEOUT || result == VK_NOT_READY)
+        return Acquired::none;
+    return result != VK_ERROR_OUT_OF_DATE_KHR && check(result, "vkAcquireNextImageKHR") ? Acquired::picture
+                                                                                        : Acquired::outdated;
 }
 
 void Swapchain::record_copy(VkCommandBuffer commands, const Buffer& words)
@@ -200,9 +222,9 @@ bool Swapchain::present()
     info.pSwapchains = &swapchain_;
     info.pImageIndices = &picture_;
     const VkResult result = vkQueuePresentKHR(gpu_.device.queue, &info);
-    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
-        return false;
-    return check(result, "vkQueuePresentKHR");
+    if (result == VK_SUBOPTIMAL_KHR)
+        return !has_changed();
+    return result != VK_ERROR_OUT_OF_DATE_KHR && check(result, "vkQueuePresentKHR");
 }
 
 } // namespace vkpt

@@ -14,6 +14,9 @@ namespace vkpt {
 
 inline constexpr uint32_t frames_in_flight = 2;
 
+// A picture was taken; none was free in time, this frame is not shown; the window changed, recreate.
+enum class Acquired { picture, none, outdated };
+
 class Swapchain {
 public:
     Swapchain(const Gpu& gpu, const Window& window);
@@ -27,15 +30,15 @@ public:
     bool is_usable() const { return swapchain_ != VK_NULL_HANDLE; }
     VSync vsync() const { return vsync_; }
 
-    // Takes a picture; false: the window changed, recreate and try with the next frame.
-    bool acquire(uint32_t frame_slot);
+    Acquired acquire(uint32_t frame_slot);
     // Copies words in the window's format, row by row, written by the passes before, into the picture taken.
     void record_copy(VkCommandBuffer commands, const Buffer& words);
     VkExtent2D extent() const { return extent_; }
     const WindowFormat& format() const { return format_; }
     VkSemaphore acquired(uint32_t frame_slot) const { return acquired_[frame_slot]; }
     VkSemaphore finished() const { return finished_[picture_]; }
-    // False: the window changed, recreate.
+    // False: the window changed, recreate. Pictures that are merely not the best for the window (VK_SUBOPTIMAL_KHR) are
+    // kept as long as new ones would be made the same way: some drivers say so of every picture.
     bool present();
 
 private:
@@ -44,6 +47,8 @@ private:
     bool make_pictures();
     // Whether the surface still is. Throws for other failures.
     bool check(VkResult result, const char* call);
+    VkExtent2D extent_for(const VkSurfaceCapabilitiesKHR& surface) const;
+    bool has_changed();
     void destroy_pictures();
     std::vector<VkSurfaceFormatKHR> offered_formats() const;
     std::vector<VkPresentModeKHR> offered_modes() const;
@@ -53,6 +58,7 @@ private:
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
     VkExtent2D extent_ {};
+    VkSurfaceTransformFlagBitsKHR transform_ = VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR;
     bool surface_lost_ = false;
     WindowFormat format_;
     VSync vsync_ = VSync::on;

@@ -50,7 +50,7 @@ Buffer& Uploader::stage(std::span<const std::byte> bytes)
 {
     if (staged_bytes_ + bytes.size() > staging_limit)
         flush();
-    Buffer staging(gpu_, bytes.size(), BufferHome::upload, MemoryKind::staging, "staging"); // may flush
+    Buffer staging(gpu_, bytes.size(), BufferHome::staging, MemoryKind::staging, "staging"); // may flush
     if (!bytes.empty())
         std::memcpy(staging.mapped(), bytes.data(), bytes.size());
     staged_bytes_ += bytes.size();

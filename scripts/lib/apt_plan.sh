@@ -101,6 +101,17 @@ print_mesa_arguments() {
     fi
 }
 
+# The stand-in for GPUs, which needs nothing else; from where Mesa's drivers are.
+print_shim_argument() {
+    local suite
+    suite=$(release_codename)-backports
+    if plan_has_suite mesa-drm-shim "$suite"; then
+        echo "mesa-drm-shim/$suite"
+    elif [[ -n $(plan_candidate mesa-drm-shim) ]]; then
+        echo mesa-drm-shim
+    fi
+}
+
 # --- the simulated run --------------------------------------------------------------------------------------------
 
 # Reads `apt-get -s` and prints "new NAME VERSION", "upgrade NAME VERSION OLD ORIGIN" and "remove NAME VERSION".
@@ -116,17 +127,17 @@ read_simulation() {
         }' | sort
 }
 
-# plan_installation WITH_MESA PACKAGE...: sets plan_sources (stanzas), plan_arguments (of apt-get install) and plan_changes (lines of
+# plan_installation WITH_MESA WITH_SHIM PACKAGE...: sets plan_sources (stanzas), plan_arguments (of apt-get install) and plan_changes (lines of
 # read_simulation). Ends the script where apt cannot do it.
 plan_sources='' plan_changes='' plan_download=''
 declare -a plan_arguments=()
 plan_installation() {
-    local with_mesa=$1 with_backports=no with_contrib=no release
-    shift
+    local with_mesa=$1 with_shim=$2 with_backports=no with_contrib=no release
+    shift 2
     plan_sources=
     if is_debian; then
         release=$(release_number)
-        [[ $with_mesa == yes && -n $release && ${release%%.*} -lt 13 ]] && with_backports=yes
+        [[ $with_mesa$with_shim == *yes* && -n $release && ${release%%.*} -lt 13 ]] && with_backports=yes
         [[ " $* " == *" yamagi-quake2"* ]] && with_contrib=yes
         plan_sources=$(missing_sources "$with_backports" "$with_contrib")
         check_own_key "$plan_sources"
@@ -136,13 +147,15 @@ plan_installation() {
         || warn "apt could not read all package lists ($log_dir/apt-plan.log); continuing with those that are there"
     mapfile -t plan_arguments < <(
         [[ $with_mesa == no ]] || print_mesa_arguments
-        printf '%s\n' "$@"
+        [[ $with_shim == no ]] || print_shim_argument
+        (($# == 0)) || printf '%s\n' "$@"
         [[ " $* " != *" libsdl2-dev "* && " $* " != *" libvulkan-dev "* ]] || print_companions)
-    if [[ $with_backports == yes && " ${plan_arguments[*]} " != *" mesa-vulkan-drivers/"* ]]; then
-        warn "no newer Mesa in $(release_codename)-backports: the release's Mesa $(plan_candidate mesa-vulkan-drivers) has no ray tracing; ref_vkpt will trace in compute shaders"
+    if [[ $with_backports == yes && " ${plan_arguments[*]} " != *" mesa-"*/* ]]; then
+        [[ $with_mesa == no ]] || warn "no newer Mesa in $(release_codename)-backports: the release's Mesa $(plan_candidate mesa-vulkan-drivers) has no ray tracing; ref_vkpt will trace in compute shaders"
         plan_sources=$(missing_sources no "$with_contrib")
     fi
-    simulate_plan
+    plan_changes=
+    ((${#plan_arguments[@]} == 0)) || simulate_plan
     rm -rf "$plan_dir"
 }
 

@@ -49,6 +49,13 @@ needs_mesa() {
     [[ ! -e $no_mesa_stamp || -z $(installed_version mesa-vulkan-drivers) ]]
 }
 
+# Mesa's stand-in for the kernel's part of GPU drivers, for scripts/check_gpu_drivers.sh. The tests do without it where it cannot be
+# had; the question comes once.
+no_shim_stamp=$root/build/log/no-drm-shim
+needs_shim() {
+    [[ $needed_for == test && ! -e $no_shim_stamp ]] && ! has_gpu && [[ -z $(installed_version mesa-drm-shim) ]]
+}
+
 # A GPU whose driver has no Vulkan is its owner's business; what helps is said.
 warn_of_missing_driver() {
     local file
@@ -125,7 +132,7 @@ write_record() {
 # Naming a package marks it as wanted for its own sake. libdrm's are not: what apt held for a mere dependency stays one.
 restore_auto_marks() {
     local -a libraries
-    mapfile -t libraries < <(printf '%s\n' "${plan_arguments[@]%%[/=]*}" | grep -vxF -e mesa-vulkan-drivers -f <(read_package_list) \
+    mapfile -t libraries < <(printf '%s\n' "${plan_arguments[@]%%[/=]*}" | grep -vxF -e mesa-vulkan-drivers -e mesa-drm-shim -f <(read_package_list) \
         | grep -vxF -f <(printf '%s\n' "$manual_before") | sort -u)
     ((${#libraries[@]} == 0)) || as_root apt-mark auto "${libraries[@]}" >/dev/null 2>&1 || true
 }
@@ -157,7 +164,7 @@ install_plan() {
 # Installs what is missing. Quick (no apt, no network) where nothing is.
 set_up_machine() {
     local -a missing
-    local mesa=no
+    local mesa=no shim=no
     if ! has dpkg-query; then
         warn "not a Debian system: the packages are not checked (scripts/packages.txt lists them)"
         return 0
@@ -165,12 +172,13 @@ set_up_machine() {
     warn_of_missing_driver
     mapfile -t missing < <(find_missing_packages)
     needs_mesa && mesa=yes
-    ((${#missing[@]} == 0)) && [[ $mesa == no ]] && return 0
+    needs_shim && shim=yes
+    ((${#missing[@]} == 0)) && [[ $mesa == no && $shim == no ]] && return 0
 
     [[ $mesa == no ]] || say "ref_vkpt needs Mesa's Vulkan driver for the CPU, in a version that traces rays."
     ((${#missing[@]} == 0)) || say "ref_vkpt needs ${#missing[@]} packages that are not installed."
     has apt-get || die "this system has no apt. Install the equivalents of: $(read_package_list | tr '\n' ' ')"
-    plan_installation "$mesa" ${missing[@]+"${missing[@]}"}
+    plan_installation "$mesa" "$shim" ${missing[@]+"${missing[@]}"}
     if [[ -n $plan_changes ]]; then
         check_plan
         print_plan
@@ -179,6 +187,7 @@ set_up_machine() {
         install_plan
     fi
     [[ $mesa == no ]] || mesa_traces_rays || touch "$no_mesa_stamp"
+    [[ $shim == no ]] || ! needs_shim || touch "$no_shim_stamp"
     mapfile -t missing < <(find_missing_packages)
     ((${#missing[@]} == 0)) || die "still missing: ${missing[*]}"
 }

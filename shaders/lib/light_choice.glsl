@@ -3,6 +3,7 @@
 #ifndef VKPT_LIB_LIGHT_CHOICE
 #define VKPT_LIB_LIGHT_CHOICE
 
+#include "../shared/specialization.h"
 #include "surfaces.glsl"
 #include "emitters.glsl"
 #include "random.glsl"
@@ -19,10 +20,14 @@
 
 const bool light_sampler_mis = (light_sampler_traits & SAMPLER_MIS) != 0u;
 
+layout(constant_id = LIGHT_WEIGHT_CONSTANT) const int fixed_light_weight = NOT_FIXED;
+layout(constant_id = LIGHT_POINT_CONSTANT) const int fixed_light_point = NOT_FIXED;
+
 LightOptions light_options()
 {
-    return LightOptions(uint(frame.cvars.pt_light_subset), frame.cvars.pt_light_weight, frame.cvars.pt_light_point,
-        LtcBuffer(frame.ltc));
+    int weight = fixed_light_weight == NOT_FIXED ? frame.cvars.pt_light_weight : fixed_light_weight;
+    int point = fixed_light_point == NOT_FIXED ? frame.cvars.pt_light_point : fixed_light_point;
+    return LightOptions(uint(frame.cvars.pt_light_subset), weight, point, LtcBuffer(frame.ltc));
 }
 
 #endif

@@ -27,13 +27,14 @@ LightListView open_light_list_for(LightRandom random, int cluster)
     return open_repeated_list(tables, cluster, LightIndexBuffer(frame.scene.previous_list_lengths));
 }
 
+layout(constant_id = BOUNCES_CONSTANT) const int fixed_bounces = NOT_FIXED;
+
+// pt_bounces
+uint bounce_count() { return uint(fixed_bounces == NOT_FIXED ? frame.cvars.pt_bounces : fixed_bounces); }
+
 // How many of a path's surfaces send out a BSDF ray. With MIS the first one always does: without bounces, for emission
 // alone.
-uint bsdf_ray_count()
-{
-    uint bounces = uint(frame.cvars.pt_bounces);
-    return light_sampler_mis ? max(bounces, 1u) : bounces;
-}
+uint bsdf_ray_count() { return light_sampler_mis ? max(bounce_count(), 1u) : bounce_count(); }
 
 // Whether light gets to the ray's origin. A sun's does where the first thing on the ray is the sky, not beyond: maps
 // are closed, and behind their skies stand other rooms.

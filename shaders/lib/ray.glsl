@@ -15,6 +15,17 @@ struct Ray {
 
 const float ray_far = 1e6;
 
+// Vulkan's own ray tracing knows neither intervals that end before they begin nor what is no number; both come from
+// places that lie on each other. Of such rays this makes some that meet nothing, as the software backend has them.
+Ray legal_ray(Ray ray)
+{
+    // Written so that what is no number fails the test.
+    float sum = dot(abs(ray.origin), vec3(1.0)) + dot(abs(ray.direction), vec3(1.0));
+    if (sum < ray_far * ray_far && ray.t_max >= ray.t_min)
+        return ray;
+    return Ray(vec3(ray_far), vec3(0.0, 0.0, 1.0), 0.0, 0.0); // outside of every map
+}
+
 struct RawHit {
     uint triangle; // id, or TRACE_MISS
     float t; // distance in lengths of `direction`; of a miss: the distance up to which nothing was met

@@ -12,9 +12,12 @@ RawHit search_ray(Ray ray, uint mask, bool any_hit)
 {
     // Stands where the first hit ends the search and no closest-hit shader runs; trace.rmiss says otherwise.
     traced_hit = RawHit(0u, ray.t_max, vec2(0.0), 0u);
+    Ray legal = legal_ray(ray);
     traceRayEXT(accelerationStructureEXT(frame.scene.structure),
         any_hit ? gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT : gl_RayFlagsNoneEXT, mask, 0u,
-        0u, 0u, ray.origin, ray.t_min, ray.direction, ray.t_max, 0);
+        0u, 0u, legal.origin, legal.t_min, legal.direction, legal.t_max, 0);
+    if (traced_hit.triangle == TRACE_MISS)
+        traced_hit.t = ray.t_max;
     return traced_hit;
 }
 

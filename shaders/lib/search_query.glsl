@@ -12,9 +12,10 @@
 RawHit search_ray(Ray ray, uint mask, bool any_hit)
 {
     rayQueryEXT query;
+    Ray legal = legal_ray(ray);
     rayQueryInitializeEXT(query, accelerationStructureEXT(frame.scene.structure),
-        any_hit ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT, mask, ray.origin, ray.t_min, ray.direction,
-        ray.t_max);
+        any_hit ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT, mask, legal.origin, legal.t_min,
+        legal.direction, legal.t_max);
     while (rayQueryProceedEXT(query)) {
         uint id = triangle_id(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false),
             rayQueryGetIntersectionPrimitiveIndexEXT(query, false));

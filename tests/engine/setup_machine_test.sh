@@ -85,6 +85,8 @@ for version in 22.3.6-1 22.3.5-1; do
     add_package old main libgl1-mesa-dri $version
     add_package old main libgbm1 $version "libgl1-mesa-dri (= $version)"
 done
+add_package bookworm-backports main mesa-drm-shim 25.0.7-2~bpo12+1 libc6
+add_package trixie main mesa-drm-shim 25.0.7-2 libc6
 finish_suite bookworm 12.12 Debian
 finish_suite bookworm-backports '' 'Debian Backports' 'NotAutomatic: yes
 ButAutomaticUpgrades: yes'
@@ -94,7 +96,7 @@ listed=$(read_package_list | grep -cv '^libsdl2-dev$')
 # --- machines -----------------------------------------------------------------------------------------------------
 
 log_dir=$folder/log
-no_mesa_stamp=$log_dir/no-newer-mesa
+no_mesa_stamp=$log_dir/no-newer-mesa no_shim_stamp=$log_dir/no-drm-shim
 plan_dir=$folder/plan
 apt_lists=$machine/lists dpkg_dir=$machine/dpkg apt_marks=$machine/extended_states dev_dir=$machine/dev proc_dir=$machine/proc vulkan_dir=$machine/vulkan
 is_root() { true; }
@@ -148,6 +150,7 @@ set_up || expect_equal "plain Debian 12: status" 0 1
 expect_equal "plain Debian 12" "new libc6-dev 2.36-9+deb12u13
 $mesa_from_backports
 $of_the_release
+new mesa-drm-shim 25.0.7-2~bpo12+1
 new mesa-vulkan-drivers 25.0.7-2~bpo12+1
 $listed of the list" "$(print_changes | sort | sed '/of the list/d'; print_changes | tail -n 1)"
 expect_equal "plain Debian 12: sources" 'Suites: bookworm Components: contrib Suites: bookworm-backports Components: main' "$(print_sources)"
@@ -265,6 +268,19 @@ finish_suite trixie 13.2 Debian
 start_machine trixie old-init
 set_up && expect_equal "a removal: refused" 1 0
 expect_says "a removal" 'remove old-init 1'
+
+# What only the tests need.
+start_machine bookworm
+needed_for=play
+set_up || expect_equal "to play: status" 0 1
+expect_equal "to play: no stand-in for GPUs" '' "$(has_fake mesa-drm-shim)"
+needed_for=test
+set_up || expect_equal "to test behind that: status" 0 "$(cat "$folder/output")"
+expect_equal "to test behind that: nothing but the rest of the list and the stand-in" 'mesa-drm-shim' \
+    "$(print_changes | sed -n 's/^new \([^ ]*\).*/\1/p' | paste -sd' ')"
+: >"$machine/calls"
+set_up
+expect_equal "to test behind that: a second time" '' "$(cat "$machine/calls")"
 
 # Nobody there to ask.
 start_machine bookworm

@@ -97,4 +97,27 @@ TEST(Engine, LostSurfacesAreMadeAnew)
     expect_captured(run, grabbed);
 }
 
+// The engine loads the module anew, which goes on with the level.
+TEST(Engine, LostDevicesAreReplaced)
+{
+    const ScratchFolder folder;
+    const Faults faults;
+    EngineOptions options;
+    faults.add_to(options);
+    const std::string grabbed = (folder.path() / "window.png").string();
+    options.script = std::string("wait_25\n") + display_mark + "wait_25\nset pt_capture_every 1\nwait_5\n"
+        + display_mark + "set pt_capture_every 0\nwait\nquit\n";
+    options.display_commands = { faults.begin("lost"),
+        VKPT_GRAB_WINDOW " " + std::to_string(options.width) + " " + std::to_string(options.height) + " " + grabbed };
+    options.arguments = { "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec", "test.cfg" };
+    options.cpu_seconds = 600;
+    const EngineRun run(options);
+    EXPECT_FALSE(run.result().took_too_long) << run.result().console;
+    EXPECT_EQ(run.result().status, 0) << run.result().output;
+    EXPECT_TRUE(faults.is_over()) << "the device was not lost";
+    EXPECT_EQ(run.lines_with("device lost").size(), 1u) << run.result().console;
+    EXPECT_EQ(run.lines_with("starting the renderer anew").size(), 1u) << run.result().console;
+    expect_captured(run, grabbed);
+}
+
 } // namespace vkpt::tests

@@ -1,18 +1,33 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A Vulkan layer for tests. While there is a file $VKPT_FAULTS, calls fail as its text says:
+// A Vulkan layer for tests. While there is a file $VKPT_FAULTS, calls fail as its text says, a fault a line:
 //   memory N   all allocations of device memory but the next N
 //   surface    the window's surface is lost, once: whatever uses that surface fails until it is destroyed
 //   format N   windows have no format but VkFormat N
+//   suboptimal every picture that is shown is said not to be the best for its window
+//   slow N     the compilation of a pipeline takes N ms longer
+//   lost       the device is lost, once: the next submission is run, and fails, as does all waiting
+// and those that are read where an instance is made, and last as long as it:
+//   gpu N      the device is a GPU with memory of its own, of which the CPU sees N MiB
+//   compute    its queues are for compute and transfers alone
+//   untimed    its queues have no timestamps
+//   portable   it lacks parts of Vulkan, as devices by way of MoltenVK do
 // The layer keeps one table of functions: every device of a test is the same driver's.
+#include "tests/fault_layer/fault_counts.hpp"
+
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace {
 
@@ -22,33 +37,42 @@ PFN_vkGetDeviceProcAddr next_device_function;
 VkInstance instance;
 VkDevice device; // the last one made
 VkSurfaceKHR shown, lost; // of the newest swapchain; that fails now
-std::string last_fault; // that `allowed` counts for
+std::string last_limit; // of allocations, that `allowed` counts for
 long allowed;
+bool device_lost;
+vkpt::tests::FaultCounts counts;
 
-std::string read_fault()
+struct Pretended {
+    bool is_gpu = false, computes_only = false, is_untimed = false, is_portable = false;
+    VkDeviceSize seen_bytes = 0; // of its memory, by the CPU
+} pretended;
+
+// What stands behind the fault's name; "-": there is no such fault now.
+std::string read_fault(std::string_view name)
 {
     const char* path = std::getenv("VKPT_FAULTS");
     std::ifstream file(path ? path : "");
-    std::string text;
-    std::getline(file, text);
-    return text;
+    for (std::string line; std::getline(file, line);)
+        if (line == name || line.starts_with(std::string(name) + " "))
+            return line.substr(std::min(line.size(), name.size() + 1));
+    return "-";
 }
+bool has_fault(std::string_view name) { return read_fault(name) != "-"; }
 
 bool fails_to_allocate()
 {
-    constexpr std::string_view memory = "memory ";
     const std::scoped_lock lock(mutex);
-    const std::string fault = read_fault();
-    if (fault != last_fault && fault.starts_with(memory))
-        allowed = std::atol(fault.c_str() + memory.size());
-    last_fault = fault;
-    return fault.starts_with(memory) && allowed-- <= 0;
+    const std::string limit = read_fault("memory");
+    if (limit != last_limit && limit != "-")
+        allowed = std::atol(limit.c_str());
+    last_limit = limit;
+    return limit != "-" && allowed-- <= 0;
 }
 
 bool is_lost(VkSurfaceKHR surface)
 {
     const std::scoped_lock lock(mutex);
-    if (shown && read_fault() == "surface") {
+    if (shown && has_fault("surface")) {
         unlink(std::getenv("VKPT_FAULTS"));
         lost = shown;
     }
@@ -63,6 +87,8 @@ template <class Function> Function of_device(const char* name)
 {
     return reinterpret_cast<Function>(next_device_function(device, name));
 }
+
+constexpr const char* portability_subset = "VK_KHR_portability_subset";
 
 template <class Info> Info* find_link(const void* chain, VkStructureType type)
 {
@@ -83,6 +109,11 @@ VkResult VKAPI_CALL create_instance(
     const VkResult result = create(info, callbacks, made);
     if (result == VK_SUCCESS)
         instance = *made;
+    const std::string seen = read_fault("gpu");
+    pretended = { seen != "-", has_fault("compute"), has_fault("untimed"), has_fault("portable"),
+        VkDeviceSize(std::atol(seen.c_str())) << 20 };
+    counts = {};
+    counts.lists_portable = (info->flags & VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR) != 0;
     return result;
 }
 
@@ -93,18 +124,205 @@ VkResult VKAPI_CALL create_device(
     auto* link = find_link<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
     next_device_function = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
-    const VkResult result = of_instance<PFN_vkCreateDevice>("vkCreateDevice")(physical, info, callbacks, made);
-    if (result == VK_SUCCESS)
+    // The driver has no such extension.
+    std::vector<const char*> names(
+        info->ppEnabledExtensionNames, info->ppEnabledExtensionNames + info->enabledExtensionCount);
+    counts.enables_portable |= std::erase_if(names, [](const char* name) {
+        return pretended.is_portable && !std::strcmp(name, portability_subset);
+    }) > 0;
+    VkDeviceCreateInfo changed = *info;
+    changed.enabledExtensionCount = uint32_t(names.size());
+    changed.ppEnabledExtensionNames = names.data();
+    const VkResult result = of_instance<PFN_vkCreateDevice>("vkCreateDevice")(physical, &changed, callbacks, made);
+    if (result == VK_SUCCESS) {
         device = *made;
+        device_lost = false;
+    }
     return result;
+}
+
+// ---- a GPU's memory: out of the CPU's sight, the CPU's own, and a part that both see
+
+enum MemoryType : uint32_t { hidden_memory, host_memory, seen_memory, memory_types };
+struct Allocated {
+    uint32_t type;
+    VkDeviceSize bytes;
+};
+std::map<VkDeviceMemory, Allocated> allocated;
+VkDeviceSize seen_in_use;
+
+PFN_vkGetPhysicalDeviceMemoryProperties next_memory_properties;
+void VKAPI_CALL get_memory_properties(VkPhysicalDevice physical, VkPhysicalDeviceMemoryProperties* properties)
+{
+    next_memory_properties(physical, properties);
+    if (!pretended.is_gpu)
+        return;
+    constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                    mapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    const VkDeviceSize bytes = properties->memoryHeaps[0].size;
+    *properties = { memory_types,
+        { { local, 0 }, { mapped | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, 1 }, { local | mapped, 2 } }, 3,
+        { { bytes, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT }, { bytes, 0 },
+            { pretended.seen_bytes, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT } } };
+}
+
+PFN_vkGetPhysicalDeviceProperties2 next_properties;
+void VKAPI_CALL get_properties(VkPhysicalDevice physical, VkPhysicalDeviceProperties2* properties)
+{
+    next_properties(physical, properties);
+    if (pretended.is_gpu)
+        properties->properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+}
+
+void widen(VkMemoryRequirements* requirements)
+{
+    if (pretended.is_gpu)
+        requirements->memoryTypeBits = (1u << memory_types) - 1;
+}
+
+PFN_vkGetBufferMemoryRequirements next_buffer_requirements;
+void VKAPI_CALL get_buffer_requirements(VkDevice of, VkBuffer buffer, VkMemoryRequirements* requirements)
+{
+    next_buffer_requirements(of, buffer, requirements);
+    widen(requirements);
+}
+
+PFN_vkGetImageMemoryRequirements next_image_requirements;
+void VKAPI_CALL get_image_requirements(VkDevice of, VkImage image, VkMemoryRequirements* requirements)
+{
+    next_image_requirements(of, image, requirements);
+    widen(requirements);
 }
 
 PFN_vkAllocateMemory next_allocate;
 VkResult VKAPI_CALL allocate_memory(
     VkDevice of, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* callbacks, VkDeviceMemory* made)
 {
-    return fails_to_allocate() ? VK_ERROR_OUT_OF_DEVICE_MEMORY : next_allocate(of, info, callbacks, made);
+    if (fails_to_allocate())
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    if (!pretended.is_gpu)
+        return next_allocate(of, info, callbacks, made);
+    const std::scoped_lock lock(mutex);
+    const bool is_seen = info->memoryTypeIndex == seen_memory;
+    if (is_seen && seen_in_use + info->allocationSize > pretended.seen_bytes) {
+        counts.refused_allocations++;
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
+    VkMemoryAllocateInfo changed = *info;
+    changed.memoryTypeIndex = 0;
+    const VkResult result = next_allocate(of, &changed, callbacks, made);
+    if (result == VK_SUCCESS) {
+        allocated[*made] = { info->memoryTypeIndex, info->allocationSize };
+        seen_in_use += is_seen ? info->allocationSize : 0;
+        counts.hidden_bytes += info->memoryTypeIndex == hidden_memory ? info->allocationSize : 0;
+    }
+    return result;
 }
+
+PFN_vkFreeMemory next_free;
+void VKAPI_CALL free_memory(VkDevice of, VkDeviceMemory memory, const VkAllocationCallbacks* callbacks)
+{
+    {
+        const std::scoped_lock lock(mutex);
+        if (const auto found = allocated.find(memory); found != allocated.end()) {
+            seen_in_use -= found->second.type == seen_memory ? found->second.bytes : 0;
+            allocated.erase(found);
+        }
+    }
+    next_free(of, memory, callbacks);
+}
+
+PFN_vkMapMemory next_map;
+VkResult VKAPI_CALL map_memory(
+    VkDevice of, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize bytes, VkMemoryMapFlags flags, void** mapped)
+{
+    {
+        const std::scoped_lock lock(mutex);
+        if (const auto found = allocated.find(memory); found != allocated.end() && found->second.type == hidden_memory)
+            return VK_ERROR_MEMORY_MAP_FAILED;
+    }
+    return next_map(of, memory, offset, bytes, flags, mapped);
+}
+
+// ---- queues and extensions
+
+PFN_vkGetPhysicalDeviceQueueFamilyProperties next_families;
+void VKAPI_CALL get_families(VkPhysicalDevice physical, uint32_t* count, VkQueueFamilyProperties* families)
+{
+    next_families(physical, count, families);
+    for (uint32_t i = 0; families && i < *count; i++) {
+        if (pretended.computes_only)
+            families[i].queueFlags = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
+        if (pretended.is_untimed)
+            families[i].timestampValidBits = 0;
+    }
+}
+
+PFN_vkEnumerateDeviceExtensionProperties next_extensions;
+VkResult VKAPI_CALL enumerate_extensions(
+    VkPhysicalDevice physical, const char* layer, uint32_t* count, VkExtensionProperties* extensions)
+{
+    if (!pretended.is_portable || layer)
+        return next_extensions(physical, layer, count, extensions);
+    uint32_t room = extensions && *count > 0 ? *count - 1 : 0;
+    const VkResult result = next_extensions(physical, layer, &room, extensions);
+    if (extensions && *count > 0) {
+        extensions[room] = { "", 1 };
+        std::strcpy(extensions[room].extensionName, portability_subset);
+    }
+    *count = room + 1;
+    return result;
+}
+
+PFN_vkCreateComputePipelines next_pipelines;
+VkResult VKAPI_CALL create_pipelines(VkDevice of, VkPipelineCache cache, uint32_t count,
+    const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* callbacks, VkPipeline* pipelines)
+{
+    if (const std::string slow = read_fault("slow"); slow != "-")
+        std::this_thread::sleep_for(std::chrono::milliseconds(std::atol(slow.c_str())));
+    return next_pipelines(of, cache, count, infos, callbacks, pipelines);
+}
+
+// ---- a device that is lost
+
+PFN_vkDeviceWaitIdle next_wait_idle;
+VkResult VKAPI_CALL wait_idle(VkDevice of) { return device_lost ? VK_ERROR_DEVICE_LOST : next_wait_idle(of); }
+
+PFN_vkQueueSubmit next_submit;
+VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSubmitInfo* infos, VkFence fence)
+{
+    if (!device_lost && has_fault("lost")) {
+        unlink(std::getenv("VKPT_FAULTS"));
+        next_submit(queue, count, infos, fence);
+        next_wait_idle(device);
+        device_lost = true;
+        counts.losses++;
+    }
+    counts.submissions += count;
+    return device_lost ? VK_ERROR_DEVICE_LOST : next_submit(queue, count, infos, fence);
+}
+
+PFN_vkQueueWaitIdle next_queue_wait_idle;
+VkResult VKAPI_CALL queue_wait_idle(VkQueue queue)
+{
+    return device_lost ? VK_ERROR_DEVICE_LOST : next_queue_wait_idle(queue);
+}
+
+PFN_vkWaitForFences next_wait;
+VkResult VKAPI_CALL wait_for_fences(VkDevice of, uint32_t count, const VkFence* fences, VkBool32 all, uint64_t limit)
+{
+    return device_lost ? VK_ERROR_DEVICE_LOST : next_wait(of, count, fences, all, limit);
+}
+
+PFN_vkCmdWriteTimestamp next_timestamp;
+void VKAPI_CALL write_timestamp(
+    VkCommandBuffer commands, VkPipelineStageFlagBits stage, VkQueryPool pool, uint32_t query)
+{
+    counts.timestamps++;
+    next_timestamp(commands, stage, pool, query);
+}
+
+// ---- windows
 
 PFN_vkCreateSwapchainKHR next_create_swapchain;
 VkResult VKAPI_CALL create_swapchain(
@@ -113,6 +331,7 @@ VkResult VKAPI_CALL create_swapchain(
     if (is_lost(info->surface))
         return VK_ERROR_SURFACE_LOST_KHR;
     shown = info->surface;
+    counts.swapchains++;
     return next_create_swapchain(of, info, callbacks, made);
 }
 
@@ -120,7 +339,17 @@ PFN_vkAcquireNextImageKHR next_acquire;
 VkResult VKAPI_CALL acquire(
     VkDevice of, VkSwapchainKHR swapchain, uint64_t limit, VkSemaphore semaphore, VkFence fence, uint32_t* picture)
 {
+    counts.acquired++;
+    counts.submissions_before_acquire = counts.submissions;
     return is_lost(shown) ? VK_ERROR_SURFACE_LOST_KHR : next_acquire(of, swapchain, limit, semaphore, fence, picture);
+}
+
+PFN_vkQueuePresentKHR next_present;
+VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info)
+{
+    const VkResult result = next_present(queue, info);
+    counts.presented++;
+    return result == VK_SUCCESS && has_fault("suboptimal") ? VK_SUBOPTIMAL_KHR : result;
 }
 
 PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR next_capabilities;
@@ -134,12 +363,11 @@ PFN_vkGetPhysicalDeviceSurfaceFormatsKHR next_formats;
 VkResult VKAPI_CALL get_formats(
     VkPhysicalDevice physical, VkSurfaceKHR surface, uint32_t* count, VkSurfaceFormatKHR* formats)
 {
-    constexpr std::string_view format = "format ";
-    const std::string fault = read_fault();
-    if (!fault.starts_with(format))
+    const std::string format = read_fault("format");
+    if (format == "-")
         return next_formats(physical, surface, count, formats);
     if (formats && *count > 0)
-        formats[0] = { VkFormat(std::atoi(fault.c_str() + format.size())), VK_COLOR_SPACE_SRGB_NONLINEAR_KHR };
+        formats[0] = { VkFormat(std::atoi(format.c_str())), VK_COLOR_SPACE_SRGB_NONLINEAR_KHR };
     *count = 1;
     return VK_SUCCESS;
 }
@@ -168,12 +396,23 @@ PFN_vkVoidFunction VKAPI_CALL get_device_function(VkDevice of, const char* name)
     if (!std::strcmp(name, "vkGetDeviceProcAddr"))
         return reinterpret_cast<PFN_vkVoidFunction>(get_device_function);
     const PFN_vkVoidFunction next = next_device_function(of, name);
-    if (!std::strcmp(name, "vkAllocateMemory"))
-        return take(next_allocate, allocate_memory, next);
-    if (!std::strcmp(name, "vkCreateSwapchainKHR"))
-        return take(next_create_swapchain, create_swapchain, next);
-    if (!std::strcmp(name, "vkAcquireNextImageKHR"))
-        return take(next_acquire, acquire, next);
+#define VKPT_TAKE(called, kept, ours)                                                                                  \
+    if (!std::strcmp(name, called))                                                                                    \
+        return take(kept, ours, next);
+    VKPT_TAKE("vkAllocateMemory", next_allocate, allocate_memory)
+    VKPT_TAKE("vkFreeMemory", next_free, free_memory)
+    VKPT_TAKE("vkMapMemory", next_map, map_memory)
+    VKPT_TAKE("vkGetBufferMemoryRequirements", next_buffer_requirements, get_buffer_requirements)
+    VKPT_TAKE("vkGetImageMemoryRequirements", next_image_requirements, get_image_requirements)
+    VKPT_TAKE("vkCreateComputePipelines", next_pipelines, create_pipelines)
+    VKPT_TAKE("vkDeviceWaitIdle", next_wait_idle, wait_idle)
+    VKPT_TAKE("vkQueueSubmit", next_submit, submit)
+    VKPT_TAKE("vkQueueWaitIdle", next_queue_wait_idle, queue_wait_idle)
+    VKPT_TAKE("vkWaitForFences", next_wait, wait_for_fences)
+    VKPT_TAKE("vkCmdWriteTimestamp", next_timestamp, write_timestamp)
+    VKPT_TAKE("vkCreateSwapchainKHR", next_create_swapchain, create_swapchain)
+    VKPT_TAKE("vkAcquireNextImageKHR", next_acquire, acquire)
+    VKPT_TAKE("vkQueuePresentKHR", next_present, present)
     return next;
 }
 
@@ -190,12 +429,14 @@ PFN_vkVoidFunction VKAPI_CALL get_instance_function(VkInstance of, const char* n
     if (!next_instance_function)
         return nullptr;
     const PFN_vkVoidFunction next = next_instance_function(of, name);
-    if (!std::strcmp(name, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"))
-        return take(next_capabilities, get_capabilities, next);
-    if (!std::strcmp(name, "vkGetPhysicalDeviceSurfaceFormatsKHR"))
-        return take(next_formats, get_formats, next);
-    if (!std::strcmp(name, "vkDestroySurfaceKHR"))
-        return take(next_destroy_surface, destroy_surface, next);
+    VKPT_TAKE("vkGetPhysicalDeviceProperties2", next_properties, get_properties)
+    VKPT_TAKE("vkGetPhysicalDeviceMemoryProperties", next_memory_properties, get_memory_properties)
+    VKPT_TAKE("vkGetPhysicalDeviceQueueFamilyProperties", next_families, get_families)
+    VKPT_TAKE("vkEnumerateDeviceExtensionProperties", next_extensions, enumerate_extensions)
+    VKPT_TAKE("vkGetPhysicalDeviceSurfaceCapabilitiesKHR", next_capabilities, get_capabilities)
+    VKPT_TAKE("vkGetPhysicalDeviceSurfaceFormatsKHR", next_formats, get_formats)
+    VKPT_TAKE("vkDestroySurfaceKHR", next_destroy_surface, destroy_surface)
+#undef VKPT_TAKE
     return next;
 }
 
@@ -210,3 +451,5 @@ extern "C" [[gnu::visibility("default")]] VkResult VKAPI_CALL vkNegotiateLoaderL
     versions->pfnGetPhysicalDeviceProcAddr = nullptr;
     return VK_SUCCESS;
 }
+
+extern "C" [[gnu::visibility("default")]] void vkpt_fault_counts(vkpt::tests::FaultCounts* out) { *out = counts; }

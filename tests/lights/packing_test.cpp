@@ -28,6 +28,21 @@ TEST(WholeNumbers, AreDividedExactly)
                 }
 }
 
+// Vulkan lets quotients be 2.5 ULP off (appendix on the precision of SPIR-V's operations).
+TEST(WholeNumbers, AreDividedExactlyByDivisionsOfVulkansPrecision)
+{
+    constexpr float ulps = 2.5f / 8388608; // relative to the number just above a power of two
+    size_t corrected = 0;
+    for (uint divisor = 1; divisor < 3000; divisor += divisor < 130 ? 1 : 97)
+        for (uint number = max_whole - 1; number > max_whole - 5000; number--)
+            for (const float error : { -ulps, ulps }) {
+                const float quotient = (float(number) + 0.5f) / float(divisor) * (1 + error);
+                corrected += floor_to_uint(quotient) != number / divisor;
+                ASSERT_EQ(correct_quotient(number, divisor, quotient), number / divisor) << number << " / " << divisor;
+            }
+    EXPECT_GT(corrected, 0u) << "the test's errors are too small to matter";
+}
+
 TEST(WholeNumbers, FloorIsThatOfTheFloat)
 {
     for (const float whole : { 0.0f, 1.0f, 2.0f, 63.0f, 99999.0f, float(max_whole) }) {

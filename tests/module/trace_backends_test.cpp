@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Each trace backend that the device offers: what its rays meet, the pictures it makes, and the change between them.
 #include "shaders/shared/scene.h"
+#include "shaders/shared/trace.h"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 #include "tests/module/test_cache.hpp"
@@ -186,7 +187,7 @@ TEST_F(TraceBackends, KeepToTheDistances)
         float t_min, t_max;
         bool meets;
     } cases[] = { { 0, 7.999f, false }, { 0, 8.001f, true }, { 7.999f, 100, true }, { 8.001f, 100, false },
-        { 0, 1e6f, true }, { 0, 1e30f, true } };
+        { 0, 1e6f, true }, { 0, 1e30f, true }, { 9, 8, false }, { 5, 3, false } };
     with_each([&] {
         for (const auto& c : cases)
             for (const bool visibility : { false, true }) {
@@ -289,6 +290,23 @@ TEST_F(TraceBackends, FollowWhatMovesAndTheNextMap)
         session_->draw();
         EXPECT_TRUE(meets({ 1, 2, 10 }, { 1, 2, -10 }, MASK_ALL));
     });
+}
+
+// A lane's for eight pixels, for which the device's own ray tracing has no use.
+TEST_F(TraceBackends, OnlyTheSoftwareHasStacks)
+{
+    MapBuilder map;
+    map.add(rectangle({ 0, 0, 0 }, { 64, 0, 0 }, { 0, 64, 0 }), map.add_material("wall"));
+    Session::end_idle(); // a module that has traced by software has them
+    start(map, { { "pt_trace", "query" } });
+    if (offered_backends(*session_).size() == 1)
+        GTEST_SKIP() << "the device traces no rays of its own";
+    session_->draw();
+    const uint64_t without = session_->extension().info().image_bytes;
+    choose("software");
+    const uint64_t with = session_->extension().info().image_bytes;
+    EXPECT_GE(with, without + 64 * 48 / 8 * uint64_t(TRACE_STACK_BYTES_PER_LANE));
+    EXPECT_TRUE(meets({ 1, 2, 10 }, { 1, 2, -10 }, MASK_ALL));
 }
 
 // A menu shows a model and no map; here not even a model.

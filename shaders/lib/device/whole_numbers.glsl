@@ -19,10 +19,19 @@ ivec2 whole_to_int(vec2 whole) { return floatBitsToInt(whole + whole_base) - who
 // The greatest whole number that is not above x; from 0 to 2^22.
 uint floor_to_uint(float x) { return uint(whole_to_int(floor(x))); }
 
+// number / divisor, of which `quotient` is a float's estimate, at most one beside it. Vulkan's division may be 2.5 ULP
+// off, which is that much for numbers between 1.6 million and 2^22.
+uint correct_quotient(uint number, uint divisor, float quotient)
+{
+    int whole = whole_to_int(floor(quotient));
+    int rest = int(number) - whole * int(divisor);
+    return uint(whole + (rest >= int(divisor) ? 1 : 0) - (rest < 0 ? 1 : 0));
+}
+
 // number / divisor, exact for numbers below 2^22. Through int: there is no quick way from unsigned to float either.
 uint divide_whole(uint number, uint divisor)
 {
-    return floor_to_uint((float(int(number)) + 0.5f) / float(int(divisor)));
+    return correct_quotient(number, divisor, (float(int(number)) + 0.5f) / float(int(divisor)));
 }
 uvec2 divide_whole(uvec2 number, uvec2 divisor)
 {

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The module on a device that calls itself a GPU with memory of its own, little or none of which the CPU sees: the same
+// pictures, whatever has to be copied, and a message where nothing fits.
+#include "tests/fault_layer/faults.hpp"
+#include "tests/module/map_builder.hpp"
+#include "tests/module/session.hpp"
+
+#include <gtest/gtest.h>
+
+namespace vkpt::tests {
+namespace {
+
+class GpuMemory : public testing::Test {
+protected:
+    GpuMemory()
+    {
+        folder_.add_wall("wall", 180);
+        folder_.add_wall("lamp", white_index);
+        cube_path_ = folder_.add_cube("cube", 10, red_index);
+        MapBuilder map;
+        map.add_lit_room("wall");
+        folder_.add_map("room", map.finish());
+        Session::end_idle();
+    }
+    ~GpuMemory() override { Session::end_idle(); } // no other test's module has the layer
+
+    std::unique_ptr<Session> start() const
+    {
+        return std::make_unique<Session>(folder_,
+            // With one bounce the GPU's shaders have no loop, and round otherwise (FixedChoices).
+            CvarList { { "pt_device_rays", "0" }, { "pt_trace", "software" }, { "pt_bounces", "2" } },
+            glm::ivec2(64, 48));
+    }
+
+    // Things come and go, the map starts anew.
+    std::vector<Radiance> draw_all(Session& session) const
+    {
+        std::vector<Radiance> pictures;
+        for (int round = 0; round < 2; round++) {
+            session.load_map("room");
+            const engine::Entity cube
+                = make_entity(session.module().register_model(cube_path_.c_str()), { 20, -20, 20 });
+            session.look({ -100, -100, 80 }, { 60, 60, 20 });
+            for (int frame = 0; frame < 6; frame++) {
+                session.view.entities = &cube;
+                session.view.entity_count = frame % 3 != 2;
+                session.draw();
+                pictures.push_back(session.capture());
+            }
+        }
+        return pictures;
+    }
+
+    void expect_same(const std::vector<Radiance>& pictures, const std::vector<Radiance>& expected) const
+    {
+        ASSERT_EQ(pictures.size(), expected.size());
+        for (size_t i = 0; i < pictures.size(); i++) {
+            EXPECT_GT(luminance(pictures[i].mean()), 0.01f);
+            EXPECT_TRUE(pictures[i] == expected[i]) << "picture " << i;
+        }
+    }
+
+    GameFolder folder_;
+    std::string cube_path_;
+};
+
+TEST_F(GpuMemory, OfWhichTheCpuSeesLittleHoldsTheSame)
+{
+    const std::vector<Radiance> expected = draw_all(*start());
+    Session::end_idle();
+    for (const char* gpu : { "gpu 256", "gpu 2", "gpu 0" }) {
+        SCOPED_TRACE(gpu);
+        const Faults faults(gpu);
+        {
+            const auto session = start();
+            expect_same(draw_all(*session), expected);
+            const FaultCounts counts = Faults::counts();
+            EXPECT_GT(counts.hidden_bytes, 0u);
+            EXPECT_EQ(counts.refused_allocations > 0, std::string(gpu) != "gpu 256");
+        }
+        Session::end_idle();
+    }
+}
+
+TEST_F(GpuMemory, ThatIsFullDropsTheLevelAndSaysWhatHelps)
+{
+    MapBuilder map;
+    const uint16_t wall = map.add_material("wall");
+    for (int i = 0; i < 200'000; i++) // more than lies about in blocks
+        map.add(rectangle({ i % 500, i / 500, 0 }, { 1, 0, 0 }, { 0, 1, 0 }), wall);
+    folder_.add_map("large", map.finish());
+    const Faults faults("gpu 256");
+    const auto session = start();
+    faults.set("memory 0");
+    try {
+        session->load_map("large");
+        session->draw();
+        ADD_FAILURE() << "it did fit";
+    } catch (const std::exception& error) {
+        EXPECT_NE(std::string(error.what()).find("pt_render_scale"), std::string::npos) << error.what();
+    }
+    faults.set("");
+    session->load_map("room");
+    session->draw(2);
+    EXPECT_GT(luminance(session->capture().mean()), 0.01f);
+}
+
+TEST_F(GpuMemory, OfALostDeviceTellsThePass)
+{
+    const Faults faults("gpu 256");
+    const auto session = start();
+    session->load_map("room");
+    session->look({ -100, -100, 80 }, { 60, 60, 20 });
+    session->draw(3);
+    faults.set("lost");
+    session->draw(2);
+    EXPECT_TRUE(session->has_line("in the pass tone_map of frame"));
+    EXPECT_TRUE(session->has_line("maps/room.bsp"));
+    EXPECT_TRUE(session->has_line("starting the renderer anew"));
+}
+
+} // namespace
+} // namespace vkpt::tests
