@@ -18,6 +18,8 @@ const uint max_unlit_segments = 128u;
 const float min_throughput = 0.015;
 const uint mask_camera = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_VIEW_WEAPON | MASK_SKY;
 const uint mask_reflected = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
+// Panes no rougher than this mirror.
+const float pane_roughness = 0.2;
 // Metals smoother than this are mirrors.
 const float mirror_roughness = 0.06;
 
@@ -132,7 +134,7 @@ bool meet_pane(inout Path path, HitSurface hit, inout Random random)
     Surface s = hit.surface;
     bool is_glass = (hit.flags & MATERIAL_GLASS) != 0u;
     float weight;
-    if (is_glass) {
+    if (is_glass && s.roughness <= pane_roughness) {
         // Both sides reflect, back and forth: r + (1 - r)^2 (r + r^3 + ...).
         float once = fresnel_dielectric(clamp(dot(s.normal, s.view), 0.0, 1.0), GLASS_INDEX);
         bool reflected = choose_layer(path.layers, 2.0 * once / (1.0 + once), random, weight);

@@ -29,6 +29,8 @@ namespace {
 
 // Models of one map at most, several times what the engine can ask for.
 constexpr size_t max_models = 4096;
+// How much brighter the sun's glare may be in the pictures of a physical sky than the rest of it.
+constexpr float glare_headroom = 6;
 
 bool ends_with(std::string_view name, std::string_view ending)
 {
@@ -123,6 +125,7 @@ shared::Emitter make_flashlight(const engine::RefDef& refdef)
     emitter.area = 4 * pi * radius * radius;
     emitter.radiance = glm::vec3(1, 0.96f, 0.88f) * (intensity / (pi * radius * radius));
     emitter.reach = reach;
+    emitter.lightstyle = lightstyle_dlight;
     set_cone(emitter, axes.forward, std::cos(glm::radians(35.0f)), std::cos(glm::radians(45.0f)));
     return emitter;
 }
@@ -350,7 +353,7 @@ void Scene::set_physical_sky()
     const glm::vec3 to_sun = world_->suns.empty() ? direction_of_angles(cvars.pt_sky_azimuth, cvars.pt_sky_elevation)
                                                   : world_->suns.front().to_sun;
     const PhysicalSky sky(to_sun, cvars.pt_sky_turbidity);
-    const float white = brightest_of_sky(sky);
+    const float white = glare_headroom * brightest_of_sky(sky);
     sky_.present = true;
     for (size_t side = 0; side < sky_.pictures.size(); side++) {
         const std::string name = fmt::format(
@@ -382,9 +385,9 @@ void Scene::light_physical_sky()
         sun.half_angle = glm::radians(0.5f * sun_diameter);
         sky_.sun = sun;
     }
-    // White stands for brightest_of_sky; a sky of even radiance L lights level ground by pi L.
+    // White stands for so much; a sky of even radiance L lights level ground by pi L.
     constexpr float pi = std::numbers::pi_v<float>;
-    sky_.scale = sun_radiance * pi / luminance(of_sun) * brightest_of_sky(sky);
+    sky_.scale = sun_radiance * pi / luminance(of_sun) * glare_headroom * brightest_of_sky(sky);
 }
 
 shared::Sky Scene::make_sky(float time) const

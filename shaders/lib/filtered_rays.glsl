@@ -10,19 +10,20 @@
 // More surfaces in a row than anybody counts; those of liquids are two faces each.
 const uint max_filters = 24u;
 
-// Whether something between t_min and t_max may colour light.
+// Whether something between t_min and t_max, which are not negative, may colour light. Distances are compared as
+// integers, as in bvh_test_node.
 bool meets_filter_box(Ray ray)
 {
     vec3 slope = mix(ray.direction, vec3(1e-18), lessThan(abs(ray.direction), vec3(1e-18)));
     vec3 inverse = 1.0 / slope;
+    bvec3 backwards = lessThan(slope, vec3(0.0));
+    int t_min = floatBitsToInt(ray.t_min), t_max = floatBitsToInt(ray.t_max);
     bool meets = false;
     ROLLED_FOR (uint i = 0u; i < frame.scene.filter_box_count; i++) {
         FilterBox box = frame.scene.filter_boxes[i];
-        vec3 a = (box.mins - ray.origin) * inverse, b = (box.maxs - ray.origin) * inverse;
-        vec3 low = min(a, b), high = max(a, b);
-        float enter = max(max(low.x, low.y), max(low.z, ray.t_min));
-        float leave = min(min(high.x, high.y), min(high.z, ray.t_max));
-        meets = meets || enter <= leave;
+        ivec3 near = floatBitsToInt((mix(box.mins, box.maxs, backwards) - ray.origin) * inverse);
+        ivec3 far = floatBitsToInt((mix(box.maxs, box.mins, backwards) - ray.origin) * inverse);
+        meets = meets || max(max(near.x, near.y), max(near.z, t_min)) <= min(min(far.x, far.y), min(far.z, t_max));
     }
     return meets;
 }
