@@ -208,6 +208,8 @@ void measure_trace_backends(Module& m)
     m.trace_choice.measure([&](TraceBackend backend) { return measure_trace_backend(m.queries(), backend); });
 }
 
+void toggle_flashlight() { cvars::set("pt_flashlight", cvars::values().pt_flashlight != 0 ? "0" : "1"); }
+
 struct Command {
     const char* name;
     void (*function)();
@@ -219,6 +221,7 @@ constexpr Command commands[] = {
     { "pt_preset", [] { run_command([] { module() ? module()->preset.run() : void(); }); } },
     { "pt_menu", [] { run_command([] { module() ? module()->overlay.toggle_menu() : void(); }); } },
     { "mat", [] { run_command([] { module() ? run_material_command(*module()) : void(); }); } },
+    { "flashlight", [] { run_command(toggle_flashlight); } },
     { "reload_shader", [] { run_command([] { module() ? module()->shader_reload.look() : void(); }); } },
     { "pt_times_print", [] { run_command([] { module() ? print_pass_statistics(*module()) : void(); }); } },
     { "screenshot", [] { run_command(take_screenshot); } },
@@ -422,6 +425,16 @@ static void choose_light_sampler(Module& m)
     m.frame.set_light_sampler(sampler.name);
 }
 
+static void upload_lightmaps_if_wanted(Module& m)
+{
+    const World* world = m.scene.world();
+    if (cvars::shader_values().pt_wipe <= 0 || !world || m.gpu_world.version == 0 || m.gpu_world.luxels)
+        return;
+    m.graphics.finish();
+    upload_lightmaps(m.gpu_world, *world, m.graphics.uploader);
+    m.graphics.uploader.flush();
+}
+
 static void take_edited_shaders(Module& m)
 {
     if (!m.shader_reload.is_on())
@@ -446,6 +459,7 @@ void begin_frame(float)
     if (!m.graphics.is_recording()) { // else the engine left a frame by its error exit
         choose_light_sampler(m);
         fix_choices(m);
+        upload_lightmaps_if_wanted(m);
         take_edited_shaders(m);
     }
     if (m.view().snapshot && !m.graphics.is_recording() && m.frame.light_cache.wants_filling(m.gpu_world))

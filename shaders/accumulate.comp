@@ -7,6 +7,7 @@
 #include "lib/frame.glsl"
 #include "denoise/denoise_atrous.glsl"
 #include "lib/picture.glsl"
+#include "lib/scattered_light.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DarkLightBuffer { DarkLight v[]; };
 
@@ -52,6 +53,8 @@ void compose_pixel(uvec2 pixel, uint index)
     if (primary.depth >= 0.0)
         radiance += unpack_light3(load_throughput(index))
             * shown_light(reflected_light(pixel, index, primary.surface), primary.surface);
+    if ((frame.flags & FRAME_GOD_RAYS) != 0u)
+        radiance += spread_scattered(pixel, primary.depth);
     // One path that is not finite must not blacken a pixel for ever.
     if (is_nonfinite(radiance)) {
         count_nonfinite_pixel();

@@ -91,7 +91,9 @@ bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
 {
     Ray ray
         = Ray(offset_ray_origin(path.surface.position, path.surface.geometric_normal), bsdf.direction, 0.0, ray_far);
-    RawHit raw = trace_nearest(ray, mask_bounce);
+    vec3 transmittance;
+    RawHit raw = trace_filtered(ray, mask_bounce, false, false, transmittance);
+    path.throughput *= transmittance;
     path.guide = 0u;
     if (raw.triangle == TRACE_MISS)
         return false; // outside of a closed map; a view without a world has no sky that lights

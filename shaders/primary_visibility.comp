@@ -3,8 +3,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Camera rays through mirrors, glass and water to the first surface that is shaded, written to the G-buffer.
 #include "lib/frame.glsl"
+#include "lib/fog.glsl"
 #include "lib/layers.glsl"
 #include "lib/light_cache.glsl"
+#include "lib/media.glsl"
 #include "lib/pixel_random.glsl"
 #include "lib/reprojection.glsl"
 #include "lib/surfaces.glsl"
@@ -16,6 +18,8 @@ const uint max_unlit_segments = 128u;
 const float min_throughput = 0.015;
 const uint mask_camera = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_VIEW_WEAPON | MASK_SKY;
 const uint mask_reflected = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
+// Panes no rougher than this mirror.
+const float pane_roughness = 0.2;
 // Metals smoother than this are mirrors.
 const float mirror_roughness = 0.06;
 
@@ -38,11 +42,16 @@ vec2 wave_slope(vec4 wave, vec2 direction, vec2 place)
 // A few crossing waves; the gradient of their height turns the surface normal.
 vec3 water_normal(vec3 position, vec3 normal)
 {
-    if (abs(normal.z) < 0.7)
-        return normal;
-    vec2 slope = wave_slope(WATER_WAVE_A, WATER_SLOPE_A, position.xy)
-        + wave_slope(WATER_WAVE_B, WATER_SLOPE_B, position.xy) + wave_slope(WATER_WAVE_C, WATER_SLOPE_C, position.xy);
-    return normalize(normal - vec3(slope, 0.0) * sign(normal.z));
+    // The axes of the surface are the same seen from either side.
+    bool lies_flat = abs(normal.z) >= 0.7;
+    float side = lies_flat ? normal.z : (abs(normal.x) > abs(normal.y) ? normal.x : normal.y);
+    vec3 outward = side < 0.0 ? -normal : normal;
+    vec3 across = lies_flat ? vec3(1.0, 0.0, 0.0) : normalize(vec3(-outward.y, outward.x, 0.0));
+    vec3 along = lies_flat ? vec3(0.0, 1.0, 0.0) : cross(outward, across);
+    vec2 place = vec2(dot(position, across), dot(position, along));
+    vec2 slope = wave_slope(WATER_WAVE_A, WATER_SLOPE_A, place) + wave_slope(WATER_WAVE_B, WATER_SLOPE_B, place)
+        + wave_slope(WATER_WAVE_C, WATER_SLOPE_C, place);
+    return normalize(normal - (across * slope.x + along * slope.y) * sign(side));
 }
 
 // Whether to follow the layer that is `share` of the whole rather than the one behind it; `weight`: what it then counts
@@ -66,7 +75,7 @@ struct Path {
     vec3 emitted;
     float path_length;
     uint mask;
-    bool in_water;
+    uint medium; // MEDIUM_*
     float unlit_depth; // DEPTH_*: what the path ended on without a surface
     bool reached_surface;
     uint unlit_segments; // that ended on what is unlit
@@ -92,24 +101,57 @@ void pass_through(inout Path path, Surface s, vec3 direction)
     path.ray.origin = offset_ray_origin(s.position, -s.geometric_normal);
 }
 
-void meet_water(inout Path path, Surface s, inout Random random)
+// The surface of water or slime. False: the path has ended on it, as slime is murky: its picture covers what is behind.
+bool meet_liquid(inout Path path, HitSurface hit, inout Random random)
 {
+    Surface s = hit.surface;
+    bool front = hit.front > 0.0;
     vec3 normal = water_normal(s.position, s.normal);
-    float ratio = path.in_water ? 1.0 / WATER_INDEX : WATER_INDEX;
+    float ratio = medium_before(hit.medium, front) != MEDIUM_NONE ? 1.0 / WATER_INDEX : WATER_INDEX;
     float reflectance = fresnel_dielectric(clamp(dot(normal, s.view), 0.0, 1.0), ratio), weight;
     bool reflected = choose_layer(path.layers, reflectance, random, weight);
     path.throughput *= weight;
-    if (reflected) {
-        reflect_path(path, s, normal);
-        return;
-    }
     vec3 refracted = refract(path.ray.direction, normal, 1.0 / ratio);
-    if (refracted == vec3(0.0)) {
+    if (reflected || refracted == vec3(0.0)) {
         reflect_path(path, s, normal);
-        return;
+        return true;
     }
-    path.in_water = !path.in_water;
+    if ((hit.medium & MEDIUM_MASK) == MEDIUM_SLIME && front) {
+        bool covered = choose_layer(path.layers, hit.opacity, random, weight);
+        path.throughput *= weight;
+        if (covered)
+            return false;
+        path.throughput *= pane_transmittance(s.albedo, hit.opacity);
+    }
+    path.medium = medium_behind(hit.medium, front);
     pass_through(path, s, refracted);
+    return true;
+}
+
+// The front of a translucent surface. True: the path goes on from it.
+bool meet_pane(inout Path path, HitSurface hit, inout Random random)
+{
+    Surface s = hit.surface;
+    bool is_glass = (hit.flags & MATERIAL_GLASS) != 0u;
+    float weight;
+    if (is_glass && s.roughness <= pane_roughness) {
+        // Both sides reflect, back and forth: r + (1 - r)^2 (r + r^3 + ...).
+        float once = fresnel_dielectric(clamp(dot(s.normal, s.view), 0.0, 1.0), GLASS_INDEX);
+        bool reflected = choose_layer(path.layers, 2.0 * once / (1.0 + once), random, weight);
+        path.throughput *= weight;
+        if (reflected) {
+            reflect_path(path, s, s.normal);
+            return true;
+        }
+    }
+    bool shown = choose_layer(path.layers, hit.opacity, random, weight);
+    path.throughput *= weight;
+    if (shown)
+        return false;
+    if (is_glass)
+        path.throughput *= pane_transmittance(s.albedo, hit.opacity);
+    pass_through(path, s, path.ray.direction);
+    return true;
 }
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer PreviousPositionBuffer { vec3 v[]; };
@@ -142,8 +184,12 @@ float unlit_scale(uint flags)
 bool follow_path(inout Path path, float cone_spread, inout Random random)
 {
     RawHit raw = trace_nearest(path.ray, path.mask);
-    if (path.in_water)
-        path.throughput *= exp(-WATER_ABSORPTION * min(raw.t, 8192.0));
+    path.throughput *= medium_transmittance(path.medium, raw.t);
+    if ((frame.flags & FRAME_FOG) != 0u && path.medium == MEDIUM_NONE) {
+        FogOnRay fog = look_through_fog(path.ray, raw.t);
+        path.emitted += path.throughput * fog.radiance;
+        path.throughput *= fog.transmittance;
+    }
     if (raw.triangle == TRACE_MISS) {
         path.emitted += path.throughput * sky_radiance(path.ray.direction);
         return false;
@@ -157,19 +203,17 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
     }
     bool is_unlit = (hit.flags & MATERIAL_FULLBRIGHT) != 0u;
     if ((hit.flags & MATERIAL_TRANSLUCENT) != 0u) {
-        if ((hit.flags & MATERIAL_WARP) != 0u) {
-            path.emitted += path.throughput * hit.emission * hit.opacity; // slime that glows
-            meet_water(path, s, random);
-            return true;
-        }
-        if (!is_unlit) {
+        bool is_liquid = (hit.flags & MATERIAL_WARP) != 0u;
+        if (is_liquid || !is_unlit) {
             path.emitted += path.throughput * hit.emission * hit.opacity; // needs no choice
             hit.emission = vec3(0.0);
-            float weight = 1.0;
-            bool shown = hit.front > 0.0 && choose_layer(path.layers, hit.opacity, random, weight); // only fronts are
-            path.throughput *= weight;
-            if (!shown) {
+            if (is_liquid) {
+                if (meet_liquid(path, hit, random))
+                    return true;
+            } else if (hit.front == 0.0) { // only fronts are shown
                 pass_through(path, s, path.ray.direction);
+                return true;
+            } else if (meet_pane(path, hit, random)) {
                 return true;
             }
         }
@@ -238,7 +282,7 @@ void see_pixel(uvec2 pixel, uint index)
     path.moved = vec3(0.0);
     vec3 direction = path.ray.direction;
     path.mask = mask_camera;
-    path.in_water = (frame.flags & FRAME_UNDERWATER) != 0u;
+    path.medium = frame.scene.eye_medium;
     path.reached_surface = false;
     path.unlit_depth = DEPTH_NOTHING;
     path.unlit_segments = 0u;

@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/frame.hpp"
 
 #include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/frame/air.hpp"
 #include "ref_vkpt/frame/bloom.hpp"
 #include "ref_vkpt/lights/ltc_table.hpp"
 #include "ref_vkpt/noise/blue_noise.hpp"
@@ -209,6 +210,9 @@ void Frame::fill_scene(shared::FrameUniforms& uniforms, VkCommandBuffer commands
         (uniforms.flags & shared::FRAME_HISTORY) != 0 };
     scene_texels_ = scene_upload_.fill(uniforms.scene, scene, gpu_world, use);
     uniforms.flags |= scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0;
+    fill_air(uniforms, scene);
+    if (uniforms.cvars.pt_wipe > 0 && uniforms.scene.lightmap_faces != 0)
+        uniforms.flags |= shared::FRAME_WIPE;
 }
 
 shared::FrameUniforms Frame::begin_query(

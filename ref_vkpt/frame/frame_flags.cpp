@@ -10,7 +10,10 @@ uint32_t filter_flags()
 {
     using namespace shared;
     const int denoiser = cvars::shader_values().flt_denoiser;
+    const bool all_classic = cvars::shader_values().pt_wipe >= 1; // nothing is lit that could be filtered
     uint32_t flags = cvars::values().flt_taa != "off" ? FRAME_ANTIALIASED : 0;
+    if (all_classic)
+        return flags != 0 ? flags | FRAME_REPROJECTED : 0;
     if (denoiser != DENOISER_OFF)
         flags |= FRAME_DENOISED;
     if (denoiser == DENOISER_SVGF || denoiser == DENOISER_ASVGF)
@@ -26,7 +29,8 @@ uint32_t possible_flags()
     const uint32_t filters = filter_flags();
     return filters | (filters & FRAME_REPROJECTED ? FRAME_HISTORY | FRAME_LAYERED : 0)
         | (filters & FRAME_DENOISED && uses_light_cache() ? FRAME_LIGHT_CACHE : 0)
-        | (cvars::shader_values().pt_bloom > 0 ? FRAME_BLOOM : 0);
+        | (cvars::shader_values().pt_bloom > 0 ? FRAME_BLOOM : 0)
+        | (cvars::shader_values().pt_wipe > 0 ? FRAME_WIPE : 0);
 }
 
 bool uses_light_cache() { return cvars::values().pt_indirect != "trace" && cvars::values().pt_bounces > 0; }

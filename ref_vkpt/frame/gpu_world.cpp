@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/gpu_world.hpp"
 
+#include "ref_vkpt/scene/lightmaps.hpp"
+
 namespace vkpt {
 
 SamplerTables make_sampler_tables(const World& world, uint32_t needs)
@@ -27,6 +29,13 @@ GpuWorld upload_world(const World& world, const SamplerTables& tables, Uploader&
     gpu.light_cache = upload_light_cache(world.light_cache, uploader);
     gpu.version = ++versions;
     return gpu;
+}
+
+void upload_lightmaps(GpuWorld& gpu, const World& world, Uploader& uploader)
+{
+    const Lightmaps maps = read_lightmaps(world.bsp);
+    gpu.lightmap_faces = uploader.make_buffer(maps.faces, MemoryKind::lights, "lightmap faces");
+    gpu.luxels = uploader.make_buffer(maps.luxels, MemoryKind::lights, "luxels");
 }
 
 void upload_sampler_tables(GpuWorld& gpu, const SamplerTables& tables, Uploader& uploader)

@@ -22,6 +22,7 @@ struct GpuWorld {
     uint32_t light_tree_lights = 0; // where their order begins in light_indices
     uint32_t sampler_needs = 0; // SamplerTables::needs
     Buffer bsp_tree;
+    Buffer lightmap_faces, luxels; // not before pt_wipe asks for them
     GpuLightCache light_cache;
     uint64_t version = 0; // another for every map; 0: not uploaded yet
 
@@ -29,6 +30,8 @@ struct GpuWorld {
 };
 // Usable after uploader.flush().
 GpuWorld upload_world(const World& world, const SamplerTables& tables, Uploader& uploader);
+// The baked lightmaps. Usable after uploader.flush().
+void upload_lightmaps(GpuWorld& gpu, const World& world, Uploader& uploader);
 // In the place of those that are there; the device is idle. Usable after uploader.flush().
 void upload_sampler_tables(GpuWorld& gpu, const SamplerTables& tables, Uploader& uploader);
 

@@ -15,7 +15,7 @@ namespace vkpt {
 
 // See passes.def.
 enum class PassKind { plain, traced, lit, choosing };
-enum class PassExtent { pixels, bounce_blocks, cache_cells, strata, resolved, output, one, levels, other };
+enum class PassExtent { pixels, bounce_blocks, cache_cells, half, strata, resolved, output, one, levels, other };
 
 // What passes hand on: the screen buffers, and some more.
 enum PassResource : uint32_t {
@@ -86,7 +86,7 @@ using namespace shared;
 inline constexpr PassKind PLAIN = PassKind::plain, TRACED = PassKind::traced, LIT = PassKind::lit,
                           CHOOSING = PassKind::choosing;
 inline constexpr PassExtent PIXELS = PassExtent::pixels, BOUNCE_BLOCKS = PassExtent::bounce_blocks,
-                            CACHE_CELLS = PassExtent::cache_cells, STRATA = PassExtent::strata,
+                            CACHE_CELLS = PassExtent::cache_cells, HALF = PassExtent::half, STRATA = PassExtent::strata,
                             RESOLVED = PassExtent::resolved, OUTPUT = PassExtent::output, ONE = PassExtent::one,
                             LEVELS = PassExtent::levels;
 constexpr PassResources add_trace_stack(PassResources resources, PassKind kind)

@@ -40,6 +40,8 @@ PassWork work_over(PassExtent extent, const shared::FrameUniforms& uniforms)
         return pixel_work(count_blocks(uniforms.size, uniforms.bounce_block));
     case PassExtent::cache_cells:
         return cache_update_work(uniforms);
+    case PassExtent::half:
+        return pixel_work(count_blocks(uniforms.size, glm::uvec2(2)));
     case PassExtent::strata:
         return stratum_work(uniforms);
     case PassExtent::resolved:

@@ -181,6 +181,8 @@ void SceneUpload::fill_light_lists(const Job& job)
     out.light_lists = job.kept.light_lists.write(graphics_.slot(), lights.lists());
     out.dynamic_light_indices = job.kept.dynamic_light_indices.write(graphics_.slot(), lights.dynamic_indices());
     out.bsp_tree = world.bsp_tree.address();
+    out.lightmap_faces = world.lightmap_faces.address();
+    out.luxels = world.luxels.address();
     out.cache = world.light_cache.addresses();
     out.light_list_count = uint32_t(lights.lists().size());
 }

@@ -3,6 +3,7 @@
 
 #include "ref_vkpt/lights/cluster_finder.hpp"
 #include "ref_vkpt/lights/dynamic_lights.hpp"
+#include "ref_vkpt/lights/media.hpp"
 #include "ref_vkpt/lights/spot_cone.hpp"
 #include "ref_vkpt/lights/work_limit.hpp"
 
@@ -81,8 +82,9 @@ void unite_across_diagonal(std::vector<ClusterSet>& sets, size_t row, size_t col
 
 int encode_leaf(const Bsp& bsp, int32_t child)
 {
-    const int cluster = bsp.leaves[size_t(-1 - child)].cluster;
-    return cluster >= 0 && cluster < bsp.cluster_count ? -(cluster + 2) : -1;
+    const formats::BspLeaf& leaf = bsp.leaves[size_t(-1 - child)];
+    const int cluster = leaf.cluster >= 0 && leaf.cluster < bsp.cluster_count ? leaf.cluster : -1;
+    return -1 - (cluster + 1 + int(medium_of_contents(leaf.contents) << shared::TREE_MEDIUM_SHIFT));
 }
 
 // The world's tree, parents before children, without what only collision needs.

@@ -14,6 +14,7 @@ add_library(vkpt_lights STATIC
     ${CMAKE_CURRENT_LIST_DIR}/light_multisets.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_trees.cpp
     ${CMAKE_CURRENT_LIST_DIR}/ltc_table.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/media.cpp
     ${CMAKE_CURRENT_LIST_DIR}/packed_lights.cpp
     ${CMAKE_CURRENT_LIST_DIR}/point_lights.cpp
     ${CMAKE_CURRENT_LIST_DIR}/sampler_tables.cpp

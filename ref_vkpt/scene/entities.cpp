@@ -2,12 +2,14 @@
 #include "ref_vkpt/scene/entities.hpp"
 
 #include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/lights/media.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
 #include "ref_vkpt/scene/material_guess.hpp"
 #include "ref_vkpt/scene/placed_lights.hpp"
 #include "ref_vkpt/scene/scene.hpp"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -31,6 +33,19 @@ constexpr int hand_left = 1, hand_none = 2;
 constexpr float depth_hack_scale = 0.25f;
 
 glm::vec3 to_vec3(const float v[3]) { return { v[0], v[1], v[2] }; }
+
+// Around the box's corners.
+shared::FilterBox transform_box(const Transform& transform, const shared::FilterBox& box)
+{
+    shared::FilterBox result { glm::vec3(FLT_MAX), glm::vec3(-FLT_MAX) };
+    for (int i = 0; i < 8; i++) {
+        const glm::vec3 corner(
+            i & 1 ? box.maxs.x : box.mins.x, i & 2 ? box.maxs.y : box.mins.y, i & 4 ? box.maxs.z : box.mins.z);
+        result.mins = glm::min(result.mins, transform.point(corner));
+        result.maxs = glm::max(result.maxs, transform.point(corner));
+    }
+    return result;
+}
 
 class SnapshotBuilder {
 public:
@@ -152,6 +167,9 @@ void SnapshotBuilder::add_brush(const Entity& entity, const Model::Brush& brush)
     pose.mask = translucent ? shared::MASK_TRANSLUCENT : 0;
     if (!snapshot_.moving.add(mesh, pose))
         return;
+    for (const shared::FilterBox& box : geometry.filter_boxes)
+        if (!translucent)
+            add_filter_box(snapshot_.filter_boxes, transform_box(pose.transform, box));
     for (shared::Emitter emitter : geometry.emitters) {
         emitter.p0 = pose.transform.point(emitter.p0);
         emitter.p1 = pose.transform.point(emitter.p1);

@@ -24,6 +24,7 @@ constexpr Row rows[] = {
     { "tile", { 0.4f, 0.0f } },
     { "glass", { 0.1f, 0.0f } },
     { "window", { 0.1f, 0.0f } },
+    { "wndow", { 0.1f, 0.0f } },
     { "water", { 0.05f, 0.0f } },
     { "metal", { 0.42f, 0.8f } },
     { "grate", { 0.4f, 0.8f } },

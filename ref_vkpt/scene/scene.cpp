@@ -7,14 +7,19 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/files/output_folder.hpp"
+#include "ref_vkpt/lights/light_aim.hpp"
+#include "ref_vkpt/lights/spot_cone.hpp"
 #include "ref_vkpt/pass_statistics.hpp"
 #include "ref_vkpt/scene/entities.hpp"
+#include "ref_vkpt/scene/entity_geometry.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -24,6 +29,8 @@ namespace {
 
 // Models of one map at most, several times what the engine can ask for.
 constexpr size_t max_models = 4096;
+// How much brighter the sun's glare may be in the pictures of a physical sky than the rest of it.
+constexpr float glare_headroom = 6;
 
 bool ends_with(std::string_view name, std::string_view ending)
 {
@@ -101,6 +108,26 @@ void add_suns(SceneSnapshot& snapshot, std::span<const Sun> suns, glm::vec3 sky_
             emitter.lightstyle = lightstyle_sun;
         snapshot.emitters.push_back(emitter);
     }
+}
+
+// Beside and below the eye, so that what it shows has shadows; 90 degrees wide.
+shared::Emitter make_flashlight(const engine::RefDef& refdef)
+{
+    constexpr float pi = std::numbers::pi_v<float>;
+    constexpr float radius = 1.5f, aside = 6, below = 6, reach = 2000;
+    constexpr float intensity = 60000; // radiant: a white wall at 200 units has half the radiance of a lit one
+    const Axes axes = angle_vectors({ refdef.view_angles[0], refdef.view_angles[1], refdef.view_angles[2] });
+    shared::Emitter emitter {};
+    emitter.type = shared::EMITTER_SPHERE;
+    emitter.p0 = glm::vec3(refdef.view_origin[0], refdef.view_origin[1], refdef.view_origin[2]) + axes.right * aside
+        - axes.up * below;
+    emitter.p1.x = radius;
+    emitter.area = 4 * pi * radius * radius;
+    emitter.radiance = glm::vec3(1, 0.96f, 0.88f) * (intensity / (pi * radius * radius));
+    emitter.reach = reach;
+    emitter.lightstyle = lightstyle_dlight;
+    set_cone(emitter, axes.forward, std::cos(glm::radians(35.0f)), std::cos(glm::radians(45.0f)));
+    return emitter;
 }
 
 WorldPicture describe(const Texture& texture)
@@ -253,6 +280,10 @@ const Texture* Scene::register_skin(std::string_view name) { return textures_.fi
 void Scene::set_sky(std::string_view name, float degrees_per_second, glm::vec3 axis)
 {
     sky_ = {};
+    if (world_ && cvars::values().pt_sky == "physical") {
+        set_physical_sky();
+        return;
+    }
     sky_.degrees_per_second = degrees_per_second;
     const float length = glm::length(axis);
     sky_.axis = std::isfinite(length) && length > 0 ? axis / length : glm::vec3(0, 0, 1);
@@ -277,9 +308,12 @@ void Scene::end_registration()
         if (model.registration != registration_)
             model = {};
     if (world_) {
+        if (sky_.physical)
+            light_physical_sky();
         const float sky_luminance = luminance(sky_.average);
-        sky_.scale = world_->lit_sky_luminance > 0 && sky_luminance > 0 ? world_->lit_sky_luminance / sky_luminance
-                                                                        : EmissionScales().sky;
+        if (!sky_.physical)
+            sky_.scale = world_->lit_sky_luminance > 0 && sky_luminance > 0 ? world_->lit_sky_luminance / sky_luminance
+                                                                            : EmissionScales().sky;
         find_sky_sun();
         set_sky_radiance(*world_, sky_.average * sky_.scale);
     }
@@ -291,9 +325,8 @@ void Scene::end_registration()
 void Scene::find_sky_sun()
 {
     constexpr float lowest = 0.15f; // sine of the elevation
-    sky_.sun.reset();
     const float share = cvars::values().pt_sky_sun;
-    if (share <= 0 || !world_->suns.empty())
+    if (share <= 0 || !world_->suns.empty() || sky_.physical)
         return;
     for (size_t side = 0; side < sky_.pictures.size(); side++) {
         const Texture* picture = sky_.pictures[side];
@@ -310,6 +343,51 @@ void Scene::find_sky_sun()
         sky_.scale *= 1 - share;
         return;
     }
+}
+
+// The sky as pictures, with the sun where the map's first one stands, or where the player's settings say.
+void Scene::set_physical_sky()
+{
+    constexpr int side_size = 256;
+    const CvarValues& cvars = cvars::values();
+    const glm::vec3 to_sun = world_->suns.empty() ? direction_of_angles(cvars.pt_sky_azimuth, cvars.pt_sky_elevation)
+                                                  : world_->suns.front().to_sun;
+    const PhysicalSky sky(to_sun, cvars.pt_sky_turbidity);
+    const float white = glare_headroom * brightest_of_sky(sky);
+    sky_.present = true;
+    for (size_t side = 0; side < sky_.pictures.size(); side++) {
+        const std::string name = fmt::format(
+            "*sky {:.4f} {:.4f} {:.4f} {:.2f} {}", to_sun.x, to_sun.y, to_sun.z, cvars.pt_sky_turbidity, side);
+        sky_.pictures[side] = textures_.add_sky_side(name, [&] { return draw_sky_side(sky, side, side_size, white); });
+        sky_.average += (sky_.pictures[side] ? sky_.pictures[side]->average : glm::vec3(0)) / 6.0f;
+    }
+    sky_.physical = sky;
+}
+
+// How bright the sky and its sun are. A map's own sun is as bright as the map says, and the sky goes with it; else
+// level ground in the open gets what a map's sky faces with a light value send it, or what suits most rooms beside it.
+void Scene::light_physical_sky()
+{
+    constexpr float usual_ground = 2; // radiance of white ground
+    const PhysicalSky& sky = *sky_.physical;
+    const glm::vec3 of_sun = sky.sun_irradiance(), of_sky = sky.level_irradiance();
+    const float level = luminance(of_sun) * sky.to_sun().z + luminance(of_sky);
+    float sun_radiance = 0; // of a white surface that faces it
+    if (!world_->suns.empty()) {
+        sun_radiance = world_->suns.front().light / 128;
+    } else {
+        const float ground = world_->lit_sky_luminance > 0 ? world_->lit_sky_luminance : usual_ground;
+        sun_radiance = ground * luminance(of_sun) / level;
+        Sun sun;
+        sun.to_sun = sky.to_sun();
+        sun.light = 128 * sun_radiance;
+        sun.colour = of_sun / luminance(of_sun);
+        sun.half_angle = glm::radians(0.5f * sun_diameter);
+        sky_.sun = sun;
+    }
+    // White stands for so much; a sky of even radiance L lights level ground by pi L.
+    constexpr float pi = std::numbers::pi_v<float>;
+    sky_.scale = sun_radiance * pi / luminance(of_sun) * glare_headroom * brightest_of_sky(sky);
 }
 
 shared::Sky Scene::make_sky(float time) const
@@ -337,6 +415,22 @@ std::vector<engine::Entity> Scene::find_player_body(const engine::RefDef& refdef
     return player_body_.stand(refdef, *world_, cvars.skin, registered);
 }
 
+// Those of the map and the sky's, which turns with it.
+std::vector<Sun> Scene::find_suns_of_moment(const shared::Sky& sky) const
+{
+    std::vector<Sun> suns = world_->suns;
+    if (sky_.physical) {
+        const glm::vec3 light = sky_.physical->sun_irradiance();
+        for (Sun& sun : suns)
+            sun.colour = sun.colour.value_or(light / luminance(light));
+    }
+    if (sky_.sun) {
+        suns.push_back(*sky_.sun);
+        suns.back().to_sun = glm::mat3(sky.rotation[0], sky.rotation[1], sky.rotation[2]) * sky_.sun->to_sun;
+    }
+    return suns;
+}
+
 SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef, ViewLights& lights)
 {
     const CvarValues& cvars = cvars::values();
@@ -359,14 +453,9 @@ SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef, ViewLights& lig
         snapshot.sky = make_sky(refdef.time);
         player_body = find_player_body(refdef);
         world_->animated_lights.append_rows(snapshot.lightstyles, refdef.time);
-        std::vector<Sun> suns = world_->suns;
-        if (sky_.sun) {
-            suns.push_back(*sky_.sun);
-            const glm::vec3 in_sky = sky_.sun->to_sun;
-            suns.back().to_sun
-                = glm::mat3(snapshot.sky.rotation[0], snapshot.sky.rotation[1], snapshot.sky.rotation[2]) * in_sky;
-        }
-        add_suns(snapshot, suns, sky_.average);
+        add_suns(snapshot, find_suns_of_moment(snapshot.sky), sky_.average);
+        if (cvars.pt_flashlight != 0)
+            snapshot.emitters.push_back(make_flashlight(refdef));
     }
     add_entities(snapshot, refdef, player_body, textures_, defaults);
     if (snapshot.world)

@@ -7,6 +7,7 @@
 #include "ref_vkpt/engine/contract.hpp"
 #include "ref_vkpt/lights/view_lights.hpp"
 #include "ref_vkpt/scene/material_library.hpp"
+#include "ref_vkpt/scene/physical_sky.hpp"
 #include "ref_vkpt/scene/player_body.hpp"
 #include "ref_vkpt/scene/snapshot.hpp"
 #include "ref_vkpt/scene/textures.hpp"
@@ -79,6 +80,7 @@ private:
         glm::vec3 average { 0 };
         float scale = 1; // from picture to radiance
         std::optional<Sun> sun; // in the sky's space: painted on it, and made to shine
+        std::optional<PhysicalSky> physical; // pt_sky physical: it is drawn as that
     };
     std::optional<Model> load_model(const std::string& name) const;
     Model* keep_model(Model model);
@@ -87,6 +89,9 @@ private:
     Model* find_model(std::string_view name);
     std::vector<engine::Entity> find_player_body(const engine::RefDef& refdef);
     void find_sky_sun();
+    void set_physical_sky();
+    void light_physical_sky();
+    std::vector<Sun> find_suns_of_moment(const shared::Sky& sky) const;
     void load_materials(std::string_view map);
 
     TextureStore& textures_;

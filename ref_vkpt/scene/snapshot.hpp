@@ -32,6 +32,7 @@ struct SceneSnapshot {
     std::vector<shared::Material> materials; // all: the world's first
     std::vector<float> lightstyles; // lightstyle_count of them, then those of animated faces
     shared::Sky sky {};
+    std::vector<shared::FilterBox> filter_boxes; // of moving things, at most MAX_FILTER_BOXES
     bool has_alpha_test = false;
     float time = 0; // seconds of the game
 };

@@ -3,7 +3,7 @@
 find_package(fmt REQUIRED)
 add_library(vkpt_picture_files STATIC
     ${CMAKE_SOURCE_DIR}/ref_vkpt/scene/bright_parts.cpp ${CMAKE_SOURCE_DIR}/ref_vkpt/scene/picture_files.cpp
-    ${CMAKE_SOURCE_DIR}/ref_vkpt/scene/sky_sun.cpp)
+    ${CMAKE_SOURCE_DIR}/ref_vkpt/scene/physical_sky.cpp ${CMAKE_SOURCE_DIR}/ref_vkpt/scene/sky_sun.cpp)
 set_target_properties(vkpt_picture_files PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_link_libraries(vkpt_picture_files PUBLIC vkpt_formats PRIVATE vkpt_build fmt::fmt-header-only)
 

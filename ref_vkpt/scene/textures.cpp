@@ -81,6 +81,24 @@ std::array<const Texture*, 6> TextureStore::find_sky(std::string_view name)
     return sides;
 }
 
+const Texture* TextureStore::add_sky_side(const std::string& name, const std::function<formats::Image()>& draw)
+{
+    Names& names = names_[size_t(TextureUse::sky)];
+    if (const auto known = names.find(name); known != names.end() && known->second) {
+        touch(known->second);
+        return known->second;
+    }
+    Texture* texture = take_entry();
+    if (!texture)
+        return nullptr;
+    texture->name = texture->path = texture->file = name;
+    texture->use = TextureUse::sky;
+    upload(*texture, draw());
+    texture->sun.reset();
+    names.insert_or_assign(name, texture);
+    return texture;
+}
+
 void TextureStore::touch(const Texture* texture)
 {
     if (texture)

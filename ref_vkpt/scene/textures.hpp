@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -54,6 +55,8 @@ public:
     const Texture* find(std::string_view name, TextureUse use);
     // The six sides in the order of shared::Sky (rt, bk, lf, ft, up, dn); nullptr where a side is missing.
     std::array<const Texture*, 6> find_sky(std::string_view name);
+    // A side of a sky that was made here, under a name that tells its settings; nullptr where there is no room.
+    const Texture* add_sky_side(const std::string& name, const std::function<formats::Image()>& draw);
     // Marks a texture found earlier as used by this map.
     void touch(const Texture* texture);
 

@@ -4,7 +4,9 @@
 #include "common/colour.hpp"
 #include "formats/material_file.hpp"
 #include "ref_vkpt/lights/light_entities.hpp"
+#include "ref_vkpt/lights/media.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
+#include "ref_vkpt/scene/fog.hpp"
 #include "ref_vkpt/scene/material_guess.hpp"
 
 #include <algorithm>
@@ -47,7 +49,7 @@ uint32_t triangle_mask(const BspTexinfo& texinfo)
     if (texinfo.flags & SURF_SKY)
         return shared::MASK_SKY;
     if (is_translucent(texinfo))
-        return shared::MASK_TRANSLUCENT;
+        return shared::MASK_TRANSLUCENT | shared::MASK_FILTER;
     return texinfo.flags & SURF_ALPHATEST ? shared::MASK_ALPHA_TEST : shared::MASK_OPAQUE;
 }
 
@@ -66,7 +68,7 @@ struct FaceContext {
     const std::vector<int>& face_clusters;
     WorkLimit& pieces;
     WorkLimit& triangles;
-    bool is_world;
+    size_t model; // 0: the world
 };
 
 PictureColour colour_of(const WorldPicture& picture)
@@ -89,6 +91,7 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
     const uint8_t holes = has_holes(bsp, texinfo_index) ? 1 : 0;
     const PictureColour colour = colour_of(picture);
     const bool glows = is_glowing(texinfo, colour);
+    const uint32_t medium = medium_of_face(bsp, face, context.model);
     const std::vector<FaceTriangle> parts = triangles_of_face(bsp, face, colour, context.pieces);
     context.triangles.spend(parts.size(), "face", face);
     for (const FaceTriangle& part : parts) {
@@ -108,12 +111,28 @@ void append_face(MapGeometry& geometry, const FaceContext& context, size_t face,
             triangle.emitter = part.part == FacePiece::dark ? shared::EMITTER_SAMPLED_APART : first_emitter++;
         else if (glows)
             triangle.emitter = shared::EMITTER_SAMPLED_APART; // a light entity sends its light
-        triangle.cluster = context.is_world ? std::max(context.face_clusters[face], -1) : -1;
-        triangle.cache_face = context.is_world ? uint32_t(face) + 1 : 0;
+        const bool is_world = context.model == 0;
+        triangle.cluster = is_world ? std::max(context.face_clusters[face], -1) : -1;
+        triangle.cache_face = is_world ? uint32_t(face) + 1 : 0;
+        triangle.medium = medium;
         geometry.triangles.push_back(triangle);
         geometry.masks.push_back(triangle_mask(texinfo));
         geometry.has_holes.push_back(holes);
         geometry.has_alpha_test |= holes != 0;
+    }
+}
+
+// Around the faces that colour light. A little wider than they are, which may be flat.
+void find_filter_boxes(MapGeometry& geometry)
+{
+    constexpr float margin = 1;
+    for (size_t i = 0; i < geometry.triangles.size(); i++) {
+        if (!(geometry.masks[i] & shared::MASK_FILTER))
+            continue;
+        const shared::Triangle& t = geometry.triangles[i];
+        add_filter_box(geometry.filter_boxes,
+            { glm::min(glm::min(t.positions[0], t.positions[1]), t.positions[2]) - margin,
+                glm::max(glm::max(t.positions[0], t.positions[1]), t.positions[2]) + margin });
     }
 }
 
@@ -124,6 +143,8 @@ MapGeometry make_world_geometry(const FaceContext& context, StaticEmitters emitt
     for (size_t face = size_t(model.first_face); face < size_t(model.first_face + model.face_count); face++)
         if (is_drawn(context.bsp.texinfos[context.bsp.faces[face].texinfo]))
             append_face(geometry, context, face, emitters.first_of_face[face]);
+    geometry.filter_boxes = find_liquid_boxes(context.bsp);
+    find_filter_boxes(geometry);
     geometry.emitters = std::move(emitters.emitters);
     for (shared::Emitter& emitter : geometry.emitters)
         if (emitter.type == shared::EMITTER_SKY)
@@ -144,6 +165,7 @@ MapGeometry make_brush_geometry(const FaceContext& context, size_t index, const 
         append_face(geometry, context, face, emitters.empty() ? -1 : int(geometry.emitters.size()));
         geometry.emitters.insert(geometry.emitters.end(), emitters.begin(), emitters.end());
     }
+    find_filter_boxes(geometry);
     return geometry;
 }
 
@@ -206,6 +228,7 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
         material.flags = (texinfo.flags & SURF_SKY ? shared::MATERIAL_SKY : 0)
             | (texinfo.flags & SURF_WARP ? shared::MATERIAL_WARP : 0)
             | (is_translucent(texinfo) ? shared::MATERIAL_TRANSLUCENT : 0)
+            | (is_translucent(texinfo) && !(texinfo.flags & SURF_WARP) ? shared::MATERIAL_GLASS : 0)
             | (texinfo.flags & SURF_ALPHATEST ? shared::MATERIAL_ALPHA_TEST : 0);
         material.uv_scroll = scroll_of(texinfo, time);
     }
@@ -239,8 +262,12 @@ std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, 
         throw FormatError(name, 0, "the map has no world model");
 
     world.bsp.entity_text += more_entities;
+    world.media = find_texinfo_media(world.bsp);
+    light_lava(world.bsp, world.media);
     std::vector<std::string> messages;
-    world.suns = find_suns(read_entities(world.bsp, messages));
+    const std::vector<EntityText> entities = read_entities(world.bsp, messages);
+    world.suns = find_suns(entities);
+    world.fog_boxes = find_fog_boxes(entities, world.bsp.name, messages);
 
     std::map<std::string, WorldPicture> by_name;
     for (const BspTexinfo& texinfo : world.bsp.texinfos) {
@@ -269,13 +296,13 @@ std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, 
 
     const std::vector<int> face_clusters = find_face_clusters(world.bsp);
     WorkLimit pieces = limit_of_pieces(world.bsp), triangles(world.bsp, max_triangles, "triangles");
-    world.models.push_back(make_world_geometry(
-        { world.bsp, world.pictures, face_clusters, pieces, triangles, true }, std::move(emitters)));
+    world.models.push_back(
+        make_world_geometry({ world.bsp, world.pictures, face_clusters, pieces, triangles, 0 }, std::move(emitters)));
     world.brush_meshes.emplace_back();
     for (size_t i = 1; i < world.bsp.models.size(); i++) {
         const MapGeometry& geometry = world.models.emplace_back(
-            make_brush_geometry({ world.bsp, world.pictures, face_clusters, pieces, triangles, false }, i, colour,
-                scales, world.animated_lights));
+            make_brush_geometry({ world.bsp, world.pictures, face_clusters, pieces, triangles, i }, i, colour, scales,
+                world.animated_lights));
         world.brush_meshes.push_back(make_brush_mesh(geometry.triangles, geometry.masks));
     }
     world.bvh_future

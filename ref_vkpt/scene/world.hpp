@@ -35,6 +35,7 @@ struct MapGeometry {
     std::vector<uint32_t> masks; // MASK_* per triangle
     std::vector<uint8_t> has_holes; // per triangle, 1: the alpha of one of its pictures decides what is met
     std::vector<shared::Emitter> emitters;
+    std::vector<shared::FilterBox> filter_boxes; // around what colours light, at most MAX_FILTER_BOXES
     bool has_alpha_test = false;
 };
 
@@ -65,6 +66,8 @@ struct World {
     std::vector<WorldPicture> pictures; // per texinfo
     std::vector<std::string> material_names; // per texinfo
     std::vector<glm::vec3> emission; // per texinfo: Material::emission
+    std::vector<uint32_t> media; // per texinfo: MEDIUM_* that its faces bound
+    std::vector<shared::FogBox> fog_boxes; // at most MAX_FOG_BOXES
     std::vector<Sun> suns;
     AnimatedLights animated_lights { lightstyle_count };
     LightLists light_lists; // of the map's own emitters

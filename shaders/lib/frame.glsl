@@ -125,10 +125,11 @@ uvec2 pixel_in_tile(uint lane)
 }
 
 // How a pass runs over its pixels, over blocks of them (lib/bounce_blocks.glsl), or over PIXEL_GROUP_SIZE lanes with a
-// number each, or over the light cache's cells that are updated: the macros define main(), which calls run(pixel, index
-// of the pixel in the screen buffers), run(block, its number), run(place in the grid, number of the cell) or run(lane).
-// They are what lets one source be a compute shader or, for the trace backend "pipeline", a ray generation shader,
-// which has neither workgroups nor shared memory: a pass that traces keeps to them.
+// number each, or over one pixel of 2 x 2, or over the light cache's cells that are updated: the macros define main(),
+// which calls run(pixel, index of the pixel in the screen buffers), run(block, its number), run(place in the grid,
+// number of the cell) or run(lane). They are what lets one source be a compute shader or, for the trace backend
+// "pipeline", a ray generation shader, which has neither workgroups nor shared memory: a pass that traces keeps to
+// them.
 #if defined(VKPT_TRACE_PIPELINE)
 #extension GL_EXT_ray_tracing : require
 
@@ -137,6 +138,7 @@ uvec2 pixel_in_tile(uint lane)
     void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y* frame.size.x + gl_LaunchIDEXT.x); }
 #define VKPT_RUN_OVER_BLOCKS(run)                                                                                      \
     void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y* gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x); }
+#define VKPT_RUN_OVER_HALF(run) VKPT_RUN_OVER_BLOCKS(run)
 #define VKPT_RUN_OVER_CELLS(run)                                                                                       \
     void main() { run(gl_LaunchIDEXT.xy, gl_LaunchIDEXT.y* CACHE_ROW + gl_LaunchIDEXT.x); }
 #define VKPT_RUN_OVER_LANES(run)                                                                                       \
@@ -174,6 +176,7 @@ uvec2 place_of_tile(uint tile, uint across)
     }
 #define VKPT_RUN_OVER_PIXELS(run) VKPT_RUN_OVER(frame.size, run)
 #define VKPT_RUN_OVER_BLOCKS(run) VKPT_RUN_OVER(bounce_block_count(), run)
+#define VKPT_RUN_OVER_HALF(run) VKPT_RUN_OVER((frame.size + 1u) / 2u, run)
 #define VKPT_RUN_OVER_CELLS(run) VKPT_RUN_OVER(cache_update_grid(), run)
 #define VKPT_RUN_OVER_LANES(run)                                                                                       \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \

@@ -43,15 +43,23 @@ struct LightListView {
 };
 
 // The PVS cluster of a point, -1 in solid.
-int find_cluster(BspTreeBuffer tree, vec3 point)
+// Of a point's leaf: cluster + 1, and MEDIUM_* above (TREE_MEDIUM_SHIFT).
+uint find_leaf(BspTreeBuffer tree, vec3 point)
 {
     int child = 0;
     while (child >= 0) {
         BspTreeNode node = VKPT_FETCH(BspTreeNode, tree, uint(child));
         child = dot(point, node.normal) - node.dist >= 0.0f ? node.front : node.back;
     }
-    return -(child + 2);
+    return uint(-1 - child);
 }
+
+int find_cluster(BspTreeBuffer tree, vec3 point)
+{
+    return int(find_leaf(tree, point) & ((1u << TREE_MEDIUM_SHIFT) - 1u)) - 1;
+}
+
+uint find_medium(BspTreeBuffer tree, vec3 point) { return find_leaf(tree, point) >> TREE_MEDIUM_SHIFT; }
 
 LightListView open_light_list(LightTables tables, int cluster)
 {

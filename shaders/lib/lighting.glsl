@@ -7,6 +7,7 @@
 #ifndef VKPT_LIB_LIGHTING
 #define VKPT_LIB_LIGHTING
 
+#include "filtered_rays.glsl"
 #include "light_choice.glsl"
 
 #ifdef VKPT_LIGHT_PASSES_OWN_BODY
@@ -36,15 +37,18 @@ uint bounce_count() { return uint(fixed_bounces == NOT_FIXED ? frame.cvars.pt_bo
 // alone.
 uint bsdf_ray_count() { return light_sampler_mis ? max(bounce_count(), 1u) : bounce_count(); }
 
-// Whether light gets to the ray's origin. A sun's does where the first thing on the ray is the sky, not beyond: maps
-// are closed, and behind their skies stand other rooms.
-bool arrives(Ray shadow, bool from_sun)
+// What is left of the light that gets to the ray's origin. A sun's does where the first thing on the ray is the sky,
+// not beyond: maps are closed, and behind their skies stand other rooms.
+vec3 arriving_share(Ray shadow, bool from_sun)
 {
-    RawHit hit = trace_shadow(shadow, mask_shadow, !from_sun);
-    if (!from_sun || hit.triangle == TRACE_MISS)
-        return !from_sun && hit.triangle == TRACE_MISS;
+    vec3 transmittance;
+    RawHit hit = trace_filtered(shadow, mask_shadow, !from_sun, true, transmittance);
+    if (!from_sun)
+        return transmittance;
+    if (hit.triangle == TRACE_MISS)
+        return vec3(0.0);
     uint material = fetch_Triangle(frame.scene.triangles, hit.triangle).material;
-    return (fetch_Material(frame.scene.materials, material).flags & MATERIAL_SKY) != 0u;
+    return (fetch_Material(frame.scene.materials, material).flags & MATERIAL_SKY) != 0u ? transmittance : vec3(0.0);
 }
 
 // The light that was chosen for a surface.
@@ -81,7 +85,8 @@ ReflectedLight sample_list(
     vec3 to_light = point.point - origin;
     float distance = length(to_light);
     Ray shadow = Ray(origin, to_light / distance, 0.0, distance - quick_max(0.02, distance * 1e-4));
-    if (!arrives(shadow, emitter.type == EMITTER_SUN))
+    radiance *= arriving_share(shadow, emitter.type == EMITTER_SUN);
+    if (radiance == vec3(0.0))
         return result;
     float density = point.pdf * light.probability;
 #ifdef VKPT_SAMPLER_MIS

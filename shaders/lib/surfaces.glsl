@@ -20,6 +20,7 @@ struct HitSurface {
     int cluster; // -1: outside of the map
     float front; // 1: met from its front
     uint cache_face; // Triangle::cache_face
+    uint medium; // Triangle::medium
 };
 
 // A little off the surface, so that rays leaving it do not meet it again: more where coordinates are coarser.
@@ -130,6 +131,7 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
     result.flags = material.flags;
     result.emitter = triangle.emitter;
     result.cache_face = triangle.cache_face;
+    result.medium = triangle.medium;
     result.cluster = triangle.cluster >= 0
         ? triangle.cluster
         : find_cluster(BspTreeBuffer(frame.scene.bsp_tree), offset_ray_origin(s.position, s.geometric_normal));

@@ -45,13 +45,6 @@ RawHit trace_nearest(Ray ray, uint mask)
     return search_ray(ray, mask, false);
 }
 
-// With any_hit what is met first by chance, else what is nearest: one search for both, as every call is compiled apart.
-RawHit trace_shadow(Ray ray, uint mask, bool any_hit)
-{
-    count_ray(true);
-    return search_ray(ray, mask, any_hit);
-}
-
 // Whether nothing of the masked triangles lies on the ray between t_min and t_max.
 bool trace_visible(Ray ray, uint mask)
 {

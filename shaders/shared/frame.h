@@ -44,6 +44,9 @@ VKPT_CONST uint FRAME_LAYERED = 8192u; // pixels share out what glass and water 
 VKPT_CONST uint FRAME_NEAREST_TEXELS = 262144u; // large texels of pictures are shown as squares
 VKPT_CONST uint FRAME_LIGHT_CACHE = 524288u; // bounce rays may end in the light cache
 VKPT_CONST uint FRAME_GUIDES = 1048576u; // and are aimed at what stands out in it
+VKPT_CONST uint FRAME_FOG = 2097152u; // there is fog
+VKPT_CONST uint FRAME_GOD_RAYS = 4194304u; // and it scatters a sun's light
+VKPT_CONST uint FRAME_WIPE = 8388608u; // a part of the picture shows baked lightmaps
 VKPT_CONST uint FRAME_COUNT_RAYS = 4096u; // every ray is counted in `ray_counts`
 VKPT_CONST uint FRAME_SPATIAL = 16384u; // the denoiser also filters over neighbours
 VKPT_CONST uint FRAME_FULLBRIGHT = 32768u; // r_fullbright: surfaces show their pictures
@@ -189,6 +192,16 @@ struct SceneView {
     uint light_tree_lights; // see LightTables
     LightCacheView cache;
     Sky sky;
+    uint64_t lightmap_faces; // LightmapFace, one for each face of the map; where FRAME_WIPE
+    uint64_t luxels;
+    FilterBox filter_boxes[MAX_FILTER_BOXES]; // what colours light is in these
+    uint filter_box_count;
+    uint fog_box_count;
+    FogBox fog_boxes[MAX_FOG_BOXES];
+    vec3 fog_radiance; // of pt_fog, as FogBox has it
+    vec3 to_sun; // where FRAME_GOD_RAYS; unit
+    vec3 sun_irradiance; // on what faces it
+    uint eye_medium; // MEDIUM_*
 };
 
 struct FrameUniforms {

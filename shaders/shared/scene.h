@@ -16,12 +16,21 @@ VKPT_CONST uint MASK_ALPHA_TEST = 4u; // opaque where the picture's alpha is >= 
 VKPT_CONST uint MASK_VIEW_WEAPON = 8u; // seen by camera rays only
 VKPT_CONST uint MASK_OWN_BODY = 16u; // the player's own model: seen by all but camera rays
 VKPT_CONST uint MASK_SKY = 32u; // sky faces
+VKPT_CONST uint MASK_FILTER = 64u; // liquids and glass of maps, translucent ones too: what passes them is coloured
 VKPT_CONST uint MASK_ALL = 0xffu;
 
 // Triangle::emitter: emits nothing, or is not in the light lists; is seen to shine, but other emitters of its face send
 // its light.
 VKPT_CONST int EMITTER_UNLISTED = -1;
 VKPT_CONST int EMITTER_SAMPLED_APART = -2;
+
+// What fills a part of space. Triangle::medium: of the liquid that the face bounds, and on which side it is.
+VKPT_CONST uint MEDIUM_NONE = 0u;
+VKPT_CONST uint MEDIUM_WATER = 1u;
+VKPT_CONST uint MEDIUM_SLIME = 2u;
+VKPT_CONST uint MEDIUM_LAVA = 3u;
+VKPT_CONST uint MEDIUM_MASK = 3u;
+VKPT_CONST uint MEDIUM_IN_FRONT = 4u; // the liquid is before the face, not behind it
 
 // One entry per triangle id (the id that a trace returns).
 struct Triangle {
@@ -33,9 +42,39 @@ struct Triangle {
     int cluster; // PVS cluster if all of it lies in one, else -1: look it up by position
     uint lightstyle; // scales the material's emission
     uint cache_face; // number of its face in the light cache, from 1; 0: none
-    uint padding; // to whole texels, see texels.h
+    uint medium; // MEDIUM_*
 };
 VKPT_ASSERT_SIZE(Triangle, 96);
+
+// The box around some of the map's faces that colour light (MASK_FILTER).
+struct FilterBox {
+    vec3 mins;
+    vec3 maxs;
+};
+VKPT_ASSERT_SIZE(FilterBox, 24);
+VKPT_CONST uint MAX_FILTER_BOXES = 8u;
+
+// Fog in a box. Its density at p, per unit: max(0, density + dot(gradient, p)).
+struct FogBox {
+    vec3 mins;
+    float density;
+    vec3 maxs;
+    vec3 gradient;
+    vec3 radiance; // of fog that nothing is seen through
+};
+VKPT_ASSERT_SIZE(FogBox, 52);
+VKPT_CONST uint MAX_FOG_BOXES = 8u;
+
+// A face's baked lightmaps: luxels of 16 units, row by row, those of further lightstyles behind.
+struct LightmapFace {
+    vec4 across; // dot(point, xyz) + w: place in luxels, whole numbers being their middles
+    vec4 down;
+    uint first; // luxel; a word each, RGB, red in the lowest byte
+    uint size; // luxels across | down << 16; 0: the face has none
+    uint styles; // 8 bits each, 255: none
+    uint padding;
+};
+VKPT_ASSERT_SIZE(LightmapFace, 48);
 
 VKPT_CONST uint MATERIAL_SKY = 1u; // radiance comes from the sky
 VKPT_CONST uint MATERIAL_WARP = 2u; // liquid: turbulent texture, refracting surface
@@ -45,6 +84,7 @@ VKPT_CONST uint MATERIAL_FULLBRIGHT = 16u; // shown as its picture, unlit
 VKPT_CONST uint MATERIAL_PARTICLE
     = 32u; // a disc in the square of its uv, as bright on the screen in dark rooms as in bright ones
 VKPT_CONST uint MATERIAL_SQUARE = 64u; // a particle without the disc's soft edge
+VKPT_CONST uint MATERIAL_GLASS = 128u; // a thin pane: translucent, smooth, colours what is behind
 
 struct Material {
     vec3 tint; // multiplies the picture
@@ -146,8 +186,9 @@ struct LightTreeNode {
 VKPT_ASSERT_SIZE(LightTreeNode, 48);
 VKPT_CONST uint LIGHT_TREE_LEAF = 8u; // a leaf has so many lights at most
 
-// BSP tree for finding a point's cluster. child >= 0: node; < 0: cluster -(child + 2), where -1 stands for solid
-// (cluster -1).
+// BSP tree for finding a point's cluster and medium. child >= 0: node; < 0: the number -1 - child holds the cluster + 1
+// (0: solid), and above TREE_MEDIUM_SHIFT bits MEDIUM_*.
+VKPT_CONST uint TREE_MEDIUM_SHIFT = 20u;
 struct BspTreeNode {
     vec3 normal;
     float dist;

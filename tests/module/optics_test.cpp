@@ -327,7 +327,7 @@ TEST_F(Optics, TheGameLearnsHowBrightTheFloorIs)
 // ---- water
 
 constexpr float water_index = 1.33f;
-const glm::vec3 water_absorption(0.0045f, 0.0016f, 0.0010f); // per unit
+const glm::vec3 water_absorption = 0.5f * glm::vec3(0.035f, 0.013f, 0.012f); // per unit, at pt_water_density 0.5
 
 // Where a ray goes on behind the plane z = 0, as far as it does.
 std::optional<CameraRay> refract_at_zero(const CameraRay& ray, float ratio)

@@ -102,6 +102,7 @@ Triangle fetch_Triangle(uint64_t table, uint index)
     result.cluster = int(f.x);
     result.lightstyle = f.y;
     result.cache_face = f.z;
+    result.medium = f.w;
     return result;
 }
 
