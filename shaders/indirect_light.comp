@@ -150,7 +150,7 @@ BsdfSample choose_first_ray(BouncePath path, Guides guides, bool to_guide, inout
 float share_with_other_way(
     Guides guides, PrimarySurface primary, BouncePath path, bool to_guide, GuideSample aim, BsdfSample first)
 {
-    if (guides.total <= 0.0 || path.guide == 0u)
+    if (guides.count == 0u || path.guide == 0u)
         return to_guide ? 0.0 : 1.0;
     float aimed = pdf_guide(guides, primary.surface, path.guide, path.met);
     if (!to_guide)

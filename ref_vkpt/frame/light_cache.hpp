@@ -23,7 +23,8 @@ struct GpuLightCache {
 
     shared::LightCacheView addresses() const;
 };
-// SAMPLER_NEEDS_* of the tables that the cache's own samples read, whichever sampler pictures use; 0: there is no cache.
+// SAMPLER_NEEDS_* of the tables that the cache's own samples read, whichever sampler pictures use; 0: there is no
+// cache.
 uint32_t light_cache_needs();
 GpuLightCache upload_light_cache(const LightCacheLayout& layout, Uploader& uploader);
 

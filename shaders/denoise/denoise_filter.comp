@@ -17,6 +17,12 @@ float filtered_deviation(Sums sums, float scale, float deviation)
     return is_known(deviation) ? sqrt(sums.variance) * scale : (beside_known ? measured : -measured);
 }
 
+// Frames of history from which on less of this level enters the light than it finds: that much / frames. The result is
+// also the next view's history, so the light of bright neighbours would come anew with every frame, and shadows of a
+// pixel's width fill up, while the average alone already has little noise.
+const float fully_filtered_frames = 8.0;
+float filtered_share(float frames) { return quick_min(fully_filtered_frames / quick_max(frames, 1.0), 1.0); }
+
 void filter_pixel(uvec2 pixel, uint index)
 {
     uvec2 features = load_features(index);
@@ -48,6 +54,13 @@ void filter_pixel(uvec2 pixel, uint index)
     FilteredLight result = FilteredLight(diffuse.light * diffuse_scale,
         filtered_deviation(diffuse, diffuse_scale, light.diffuse_deviation), specular.light * specular_scale,
         filtered_deviation(specular, specular_scale, light.specular_deviation));
+    vec2 frames = unpack_moments(load_moments(index)).frames;
+    float diffuse_share = filtered_share(frames.x), specular_share = filtered_share(frames.y);
+    result.diffuse = mix(light.diffuse, result.diffuse, diffuse_share);
+    result.specular = mix(light.specular, result.specular, specular_share);
+    // Where it is unknown, there are fewer frames.
+    result.diffuse_deviation = mix(light.diffuse_deviation, result.diffuse_deviation, diffuse_share);
+    result.specular_deviation = mix(light.specular_deviation, result.specular_deviation, specular_share);
     store_element(push.target.address, index, pack_filtered(result));
 }
 

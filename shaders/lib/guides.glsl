@@ -10,15 +10,19 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer GuideEntryBuffer { uint v[]; };
 
-// The guides of a surface's cluster, one of which is chosen.
+// Entries of a list that are weighed for a choice: every n-th from a random one on, as the chapter's subsets of lights.
+const uint guides_per_choice = 16u;
+
+// The guides of a surface's cluster, of whose subset one is chosen.
 struct Guides {
-    uint first, count; // entries
-    float total; // of their weights; 0: none is aimed at
+    uint first, count; // entries of the list
+    uint stride, offset; // the subset: entries first + offset, first + offset + stride, ...
+    float total; // of the subset's weights; 0: none is aimed at
     uint chosen; // entry
     float weight; // of the chosen one
     float rest; // what the choice has left of its random number
 };
-const Guides no_guides = Guides(0u, 0u, 0.0, 0u, 0.0, 0.0);
+const Guides no_guides = Guides(0u, 0u, 1u, 0u, 0.0, 0u, 0.0, 0.0);
 
 struct GuideSample {
     uint guide;
@@ -44,14 +48,29 @@ float weigh_guide(Surface s, uint entry)
     return power * cosines / (quick_max(distance2, 1e-6) * quick_max(distance2, nearest2));
 }
 
-// One of four by what is left of the random number.
-void choose_in_group(inout Guides guides, vec4 weights, float xi)
+uvec4 group_of_entries(Guides guides, uint place)
 {
-    float threshold = xi * ((weights.x + weights.y) + (weights.z + weights.w)), before = 0.0;
-    uint first = guides.chosen;
+    return guides.first + min(guides.offset + (place + uvec4(0u, 1u, 2u, 3u)) * guides.stride, guides.count - 1u);
+}
+
+// Weights of the subset's entries from this place on; 0 behind its end.
+vec4 weigh_group(Guides guides, Surface s, uint place)
+{
+    uvec4 entry = group_of_entries(guides, place);
+    vec4 w = vec4(weigh_guide(s, entry.x), weigh_guide(s, entry.y), weigh_guide(s, entry.z), weigh_guide(s, entry.w));
+    uvec4 at = guides.offset + (place + uvec4(0u, 1u, 2u, 3u)) * guides.stride;
+    return mix(w, vec4(0.0), greaterThanEqual(at, uvec4(guides.count)));
+}
+
+float sum_of(vec4 w) { return (w.x + w.y) + (w.z + w.w); }
+
+// One of four by what is left of the random number. `place` in the subset: of the first of the four.
+void choose_in_group(inout Guides guides, uint place, vec4 weights, float xi)
+{
+    float threshold = xi * sum_of(weights), before = 0.0;
     UNROLLED_FOR (uint i = 0u; i < 4u; i++) {
         bool taken = weights[i] > 0.0 && threshold >= before;
-        guides.chosen = taken ? first + i : guides.chosen;
+        guides.chosen = taken ? guides.first + guides.offset + (place + i) * guides.stride : guides.chosen;
         guides.weight = taken ? weights[i] : guides.weight;
         guides.rest = taken ? threshold - before : guides.rest;
         before += weights[i];
@@ -59,8 +78,8 @@ void choose_in_group(inout Guides guides, vec4 weights, float xi)
     guides.rest = quick_clamp(guides.rest / quick_max(guides.weight, 1e-30), 0.0, 0.99999994);
 }
 
-// One sweep: Listing 47-2, as update_reservoir in light_sampler.glsl, over groups of four, of which each costs a
-// division.
+// One sweep over a random subset: Listing 47-2, as update_reservoir in light_sampler.glsl, over groups of four, of
+// which each costs a division.
 Guides open_guides(Surface s, int cluster, float xi)
 {
     Guides guides = no_guides;
@@ -69,23 +88,39 @@ Guides open_guides(Surface s, int cluster, float xi)
     uvec2 list = load_element(frame.scene.cache.guide_lists, uint(cluster), uvec2(0u));
     guides.first = list.x;
     guides.count = list.y;
+    guides.stride = max((list.y + guides_per_choice - 1u) / guides_per_choice, 1u);
+    xi *= float(guides.stride);
+    guides.offset = min(uint(xi), guides.stride - 1u);
+    xi = quick_clamp(xi - float(guides.offset), 0.0, 0.99999994);
     vec4 weights = vec4(0.0); // of the chosen group
-    ROLLED_FOR (uint i = 0u; i < guides.count; i += 4u) {
-        uvec4 entry = guides.first + min(i + uvec4(0u, 1u, 2u, 3u), guides.count - 1u);
-        vec4 w
-            = vec4(weigh_guide(s, entry.x), weigh_guide(s, entry.y), weigh_guide(s, entry.z), weigh_guide(s, entry.w));
-        w = mix(w, vec4(0.0), greaterThanEqual(i + uvec4(0u, 1u, 2u, 3u), uvec4(guides.count)));
-        float group = (w.x + w.y) + (w.z + w.w), before = guides.total;
+    uint place = 0u;
+    ROLLED_FOR (uint i = 0u; guides.offset + i * guides.stride < guides.count; i += 4u) {
+        vec4 w = weigh_group(guides, s, i);
+        float group = sum_of(w), before = guides.total;
         guides.total += group;
         float threshold = xi * guides.total;
         bool offered = group > 0.0, taken = offered && threshold >= before;
-        guides.chosen = taken ? guides.first + i : guides.chosen;
+        place = taken ? i : place;
         weights = taken ? w : weights;
         float rest = (taken ? threshold - before : threshold) / (taken ? group : before);
         xi = offered ? quick_clamp(rest, 0.0, 0.99999994) : xi;
     }
-    choose_in_group(guides, weights, xi);
+    choose_in_group(guides, place, weights, xi);
     return guides;
+}
+
+// The probability that this entry of the list is chosen, whichever subset the random number names.
+float guide_probability(Guides guides, Surface s, uint entry)
+{
+    float weight = weigh_guide(s, entry), total = guides.total;
+    uint offset = (entry - guides.first) % guides.stride;
+    if (offset != guides.offset) {
+        guides.offset = offset;
+        total = 0.0;
+        ROLLED_FOR (uint i = 0u; offset + i * guides.stride < guides.count; i += 4u)
+            total += sum_of(weigh_group(guides, s, i));
+    }
+    return total > 0.0 ? weight / (total * float(guides.stride)) : 0.0;
 }
 
 CacheGuideBlock load_guide_block(uint guide)
@@ -134,7 +169,7 @@ GuideSample sample_guide(Guides guides, Surface s, vec2 xi)
     vec2 place = vec2(cell % CACHE_GUIDE_SIDE, cell / CACHE_GUIDE_SIDE) + xi;
     vec3 point = block.corner + block.across * place.x + block.down * place.y;
     result.direction = normalize(point - s.position);
-    result.pdf = guide_density(block, cell, guides.weight / guides.total, s.position, point);
+    result.pdf = guide_density(block, cell, guides.weight / (guides.total * float(guides.stride)), s.position, point);
     return result;
 }
 
@@ -156,7 +191,7 @@ float pdf_guide(Guides guides, Surface s, uint guide, vec3 point)
     vec2 place = vec2(
         dot(way, block.across) / dot(block.across, block.across), dot(way, block.down) / dot(block.down, block.down));
     uvec2 at = min(uvec2(max(place, vec2(0.0))), uvec2(CACHE_GUIDE_SIDE - 1u));
-    return guide_density(block, at.y * CACHE_GUIDE_SIDE + at.x, weigh_guide(s, low) / guides.total, s.position, point);
+    return guide_density(block, at.y * CACHE_GUIDE_SIDE + at.x, guide_probability(guides, s, low), s.position, point);
 }
 
 #endif
