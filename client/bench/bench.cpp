@@ -148,10 +148,16 @@ private:
     // In turns, every frame waits for the device: else a turn would begin with what the other value left in flight.
     void measure(BenchResult& result, int begin, int end)
     {
+        const bool in_turns = end - begin < frames_;
+        if (in_turns) {
+            // The first frame with another value may have lost its history, which later ones have.
+            source_->draw(host_, first_ + begin);
+            wait();
+        }
         host_.extension().forget_times();
         for (int frame = begin; frame < end; frame++) {
             source_->draw(host_, first_ + frame);
-            if (end - begin < frames_)
+            if (in_turns)
                 wait();
         }
         size_t count = 0;
