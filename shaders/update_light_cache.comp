@@ -134,7 +134,7 @@ void sample_cell(CacheCell cell, CacheFace face, CacheFacePlane plane, uint samp
         float scale = lightstyle_scale(style);
         if (scale > 0.0) {
             found.light = style == chosen.lightstyle ? light / scale : vec3(0.0);
-            add_sample(cell.first_value + layer, found, rounding);
+            add_sample(frame.scene.cache.value_count + cell.first_value + layer, found, rounding);
         }
     }
 }

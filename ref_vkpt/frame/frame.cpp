@@ -236,14 +236,15 @@ void prepare_menu(shared::FrameUniforms& uniforms)
 }
 
 // What the world's next frame asks about this one.
-void keep_lists(View& view, shared::FrameUniforms& uniforms, const SceneSnapshot& scene)
+void keep_lists(View& view, shared::FrameUniforms& uniforms, const SceneSnapshot& scene, uint32_t publications)
 {
-    const uint32_t light_cache_flags = uniforms.flags & (shared::FRAME_LIGHT_CACHE | shared::FRAME_GUIDES);
-    // With the cache rays go elsewhere than without.
-    uniforms.scene.oldest_repeatable = light_cache_flags != view.light_cache_flags ? uniforms.frame_index
-        : view.lists_changed                                                       ? view.history_frame_index
-                                                                                   : 0;
-    view.light_cache_flags = light_cache_flags;
+    const uint32_t flags = uniforms.flags & (shared::FRAME_LIGHT_CACHE | shared::FRAME_GUIDES);
+    const View::LightCacheUse light_cache { flags, flags ? publications : 0 };
+    // With the cache rays go elsewhere than without, and with new values they bring something else.
+    uniforms.scene.oldest_repeatable = light_cache != view.light_cache ? uniforms.frame_index
+        : view.lists_changed                                           ? view.history_frame_index
+                                                                       : 0;
+    view.light_cache = light_cache;
     view.lists_changed = scene.light_lists->has_changed();
     view.history_frame_index = uniforms.frame_index;
 }
@@ -273,8 +274,8 @@ void Frame::record_view(
     fill_scene(uniforms, graphics_.commands(), view, scene, gpu_world);
     if (has_world) {
         view.rendered_size = size;
-        light_cache.begin_frame(uniforms, *gpu_world, average);
-        keep_lists(view, uniforms, scene);
+        light_cache.begin_frame(graphics_.commands(), uniforms, *gpu_world, average);
+        keep_lists(view, uniforms, scene, light_cache.publications());
     }
     uniforms.time = scene.time;
     uniforms.dark_light_count = uint32_t(scene.dark_lights.size());

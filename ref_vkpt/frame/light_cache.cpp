@@ -20,14 +20,17 @@ constexpr uint32_t first_samples = 16, max_first_samples = 1u << 20;
 // Cells that a frame takes a sample of.
 constexpr uint32_t cells_per_frame = 2048;
 static_assert(cells_per_frame <= shared::CACHE_MOST_UPDATED);
+// Updates that rays do not see. A-SVGF takes each change of what a repeated sample brings for a change of the light,
+// and cells that change a little with every frame would shorten all histories.
+constexpr uint32_t frames_per_publication = 32;
 
 // What stands out in the values, which are written anew for that: they also tell which cells are guides.
 void upload_guides(Graphics& graphics, const World& world, const std::vector<float>& lightstyles, GpuLightCache& gpu)
 {
     const size_t count = world.light_cache.value_count;
-    const Buffer copy = graphics.read_back(gpu.values, count * sizeof(shared::CacheValue));
+    const Buffer copy = graphics.read_back(gpu.values, 2 * count * sizeof(shared::CacheValue));
     std::vector<shared::CacheValue> values(count);
-    std::memcpy(values.data(), copy.mapped(), count * sizeof(shared::CacheValue));
+    std::memcpy(values.data(), copy.mapped() + count * sizeof(shared::CacheValue), count * sizeof(shared::CacheValue));
     std::vector<glm::vec3> colours;
     for (const WorldPicture& picture : world.pictures)
         colours.push_back(picture.average);
@@ -41,8 +44,19 @@ void upload_guides(Graphics& graphics, const World& world, const std::vector<flo
     gpu.guide_blocks = uploader.make_buffer(guides.blocks, MemoryKind::lights, "light cache blocks");
     gpu.guide_lists = uploader.make_buffer(guides.lists, MemoryKind::lights, "light cache guide lists");
     gpu.guide_entries = uploader.make_buffer(guides.entries, MemoryKind::lights, "light cache guide entries");
+    values.resize(2 * count);
+    std::copy_n(values.begin(), count, values.begin() + ptrdiff_t(count));
     gpu.values = uploader.make_buffer(values, MemoryKind::lights, "light cache values");
     uploader.flush();
+}
+
+void publish(VkCommandBuffer commands, const GpuLightCache& cache)
+{
+    record_memory_barrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
+        VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    const VkDeviceSize half = cache.value_count * sizeof(shared::CacheValue);
+    const VkBufferCopy region { half, 0, half };
+    vkCmdCopyBuffer(commands, cache.values.handle(), cache.values.handle(), 1, &region);
 }
 
 } // namespace
@@ -66,6 +80,7 @@ shared::LightCacheView GpuLightCache::addresses() const
     view.guide_lists = guide_lists.address();
     view.guide_entries = guide_entries.address();
     view.cell_count = cell_count;
+    view.value_count = value_count;
     return view;
 }
 
@@ -83,8 +98,9 @@ GpuLightCache upload_light_cache(const LightCacheLayout& layout, Uploader& uploa
     gpu.cells = uploader.make_buffer(layout.cells, MemoryKind::lights, "light cache cells");
     gpu.corners = uploader.make_buffer(layout.corners, MemoryKind::lights, "light cache corners");
     gpu.values = uploader.make_buffer(
-        std::vector<shared::CacheValue>(layout.value_count), MemoryKind::lights, "light cache values");
+        std::vector<shared::CacheValue>(2 * layout.value_count), MemoryKind::lights, "light cache values");
     gpu.cell_count = uint32_t(layout.cells.size());
+    gpu.value_count = uint32_t(layout.value_count);
     return gpu;
 }
 
@@ -121,9 +137,12 @@ void LightCacheKeeper::fill(Graphics& graphics, Frame& frame, View& view, GpuWor
     world_ = gpu_world.version;
     next_cell_ = 0;
     rounds_ = samples;
+    frames_ = 0;
+    publications_++;
 }
 
-void LightCacheKeeper::begin_frame(shared::FrameUniforms& uniforms, const GpuWorld& gpu_world, bool average)
+void LightCacheKeeper::begin_frame(
+    VkCommandBuffer commands, shared::FrameUniforms& uniforms, const GpuWorld& gpu_world, bool average)
 {
     const bool filters = (uniforms.flags & shared::FRAME_DENOISED) != 0;
     if (world_ != gpu_world.version || !uses_light_cache() || !(filters || average))
@@ -132,6 +151,11 @@ void LightCacheKeeper::begin_frame(shared::FrameUniforms& uniforms, const GpuWor
     if (!filters)
         return;
     uniforms.flags |= shared::FRAME_LIGHT_CACHE;
+    if (frames_++ == frames_per_publication) {
+        publish(commands, gpu_world.light_cache);
+        publications_++;
+        frames_ = 1;
+    }
     shared::LightCacheView& cache = uniforms.scene.cache;
     cache.first_updated = next_cell_;
     cache.updated = std::min(cells_per_frame, cache.cell_count);

@@ -17,9 +17,9 @@ class Graphics;
 
 // See LightCacheView.
 struct GpuLightCache {
-    Buffer faces, planes, cells, corners, values;
+    Buffer faces, planes, cells, corners, values; // of `values` the first half is read by rays, the second updated
     Buffer guides, guide_blocks, guide_lists, guide_entries; // after LightCacheKeeper::fill
-    uint32_t cell_count = 0;
+    uint32_t cell_count = 0, value_count = 0;
 
     shared::LightCacheView addresses() const;
 };
@@ -34,12 +34,17 @@ public:
     bool wants_filling(const GpuWorld& gpu_world) const;
     // Between frames, once for each map and after its first view: first values for every cell, and what stands out.
     void fill(Graphics& graphics, Frame& frame, View& view, GpuWorld& gpu_world);
-    // Tells the shaders what to update in this frame, and what they may use. `average`: the picture is averaged.
-    void begin_frame(shared::FrameUniforms& uniforms, const GpuWorld& gpu_world, bool average);
+    // Tells the shaders what to update in this frame, and what they may use. `average`: the picture is averaged. Now
+    // and then rays get the values that were updated since, which these commands copy.
+    void begin_frame(
+        VkCommandBuffer commands, shared::FrameUniforms& uniforms, const GpuWorld& gpu_world, bool average);
+    // So many times rays have got new values: what they bring differs from before.
+    uint32_t publications() const { return publications_; }
 
 private:
     uint64_t world_ = 0; // GpuWorld::version of the map that it was filled for
     uint32_t next_cell_ = 0, rounds_ = 0;
+    uint32_t frames_ = 0, publications_ = 0; // updates since the last publication
 };
 
 PassWork cache_update_work(const shared::FrameUniforms& uniforms);

@@ -35,7 +35,12 @@ struct View {
     const Buffer* radiance = nullptr; // nullptr: no picture yet
     ViewHistory history;
     bool lists_changed = false;
-    uint32_t light_cache_flags = 0; // FRAME_LIGHT_CACHE, FRAME_GUIDES
+    struct LightCacheUse {
+        uint32_t flags = 0; // FRAME_LIGHT_CACHE, FRAME_GUIDES
+        uint32_t publications = 0; // see LightCacheKeeper
+        bool operator==(const LightCacheUse&) const = default;
+    };
+    LightCacheUse light_cache;
     uint32_t history_frame_index = 0, offset_index = 0, noise_index = 0;
     uint32_t accumulated_frames = 0; // 0: the next one starts anew
     std::chrono::steady_clock::time_point time;

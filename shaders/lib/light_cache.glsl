@@ -24,6 +24,7 @@ struct LightOfStyle {
     uint guide;
 };
 
+// `value`: below LightCacheView::value_count what rays read, from there on what updates work on.
 LightOfStyle load_cache_value(uint value)
 {
     uvec4 words = load_element(frame.scene.cache.values, value, uvec4(0u));

@@ -98,7 +98,7 @@ struct LightCacheView {
     uint64_t planes; // CacheFacePlane
     uint64_t cells; // CacheCell
     uint64_t corners; // of the faces, vec2 in cells
-    uint64_t values; // CacheValue
+    uint64_t values; // CacheValue: those that rays read, then as many that updates work on
     uint64_t guides; // CacheGuide, one for each entry
     uint64_t guide_blocks; // CacheGuideBlock
     uint64_t guide_lists; // CacheGuideList, one for each cluster
@@ -108,7 +108,7 @@ struct LightCacheView {
     uint updated; // cells
     uint samples; // of each of them
     uint first_sample; // so many were taken of each before
-    uint padding; // C++ rounds the size up to whole addresses, GLSL does not
+    uint value_count; // that rays read
 };
 
 VKPT_SHARED_END
