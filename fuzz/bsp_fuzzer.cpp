@@ -7,6 +7,7 @@
 #include "ref_vkpt/lights/packed_lights.hpp"
 #include "ref_vkpt/lights/view_lights.hpp"
 #include "ref_vkpt/rays/triangle_groups.hpp"
+#include "ref_vkpt/scene/lightmaps.hpp"
 #include "ref_vkpt/scene/world.hpp"
 
 namespace {
@@ -71,6 +72,10 @@ void use_world(World& world)
     check_lights(world);
     move_lights(world);
     fuzz::use(world.make_materials(1.5f, {}));
+    const Lightmaps lightmaps = read_lightmaps(world.bsp);
+    for (const shared::LightmapFace& map : lightmaps.faces)
+        fuzz::require(map.first + size_t(map.size & 0xffff) * (map.size >> 16) <= lightmaps.luxels.size(),
+            "a face's lightmap is among the luxels");
     const MapGeometry& geometry = world.models[0];
     const TriangleSource source { geometry.triangles, geometry.masks, geometry.has_holes, 0 };
     fuzz::use(group_triangles(source, TriangleOrder::halves_best));

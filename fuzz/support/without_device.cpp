@@ -29,8 +29,7 @@ MemoryAllocator::MemoryAllocator(const Device& device)
 }
 MemoryAllocator::~MemoryAllocator() = default;
 
-Allocation MemoryAllocator::allocate(
-    const VkMemoryRequirements& requirements, VkMemoryPropertyFlags, VkMemoryPropertyFlags, bool, MemoryKind)
+Allocation MemoryAllocator::allocate(const VkMemoryRequirements& requirements, const MemoryWish&, bool, MemoryKind)
 {
     Allocation piece;
     piece.allocator_ = this;
@@ -61,7 +60,7 @@ Buffer::Buffer(const Gpu& gpu, VkDeviceSize size, BufferHome, MemoryKind kind, s
 {
     VkMemoryRequirements requirements {};
     requirements.size = size;
-    allocation_ = gpu.memory.allocate(requirements, 0, 0, true, kind);
+    allocation_ = gpu.memory.allocate(requirements, {}, true, kind);
 }
 Buffer::~Buffer() = default;
 void Buffer::swap(Buffer& other) noexcept

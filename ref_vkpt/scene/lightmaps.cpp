@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/lightmaps.hpp"
 
+#include <algorithm>
+
 namespace vkpt {
 
 namespace {
 
 constexpr float luxel_size = 16; // texels
 constexpr uint8_t no_style = 255;
+constexpr int max_size = 0xffff; // of a face's lightmap, see LightmapFace::size
 
 uint32_t count_styles(const formats::BspFace& face)
 {
@@ -26,6 +29,7 @@ glm::vec4 make_axis(glm::vec3 axis, float offset, float first)
 Lightmaps read_lightmaps(const formats::Bsp& bsp)
 {
     constexpr size_t bytes_each = 3;
+    const size_t max_luxels = bsp.lighting.size() / bytes_each + 1; // each byte is some face's
     Lightmaps maps;
     maps.luxels.assign(1, 0);
     for (size_t i = 0; i < bsp.faces.size(); i++) {
@@ -34,7 +38,8 @@ Lightmaps read_lightmaps(const formats::Bsp& bsp)
         shared::LightmapFace map {};
         const size_t luxels = size_t(extent.size.x) * size_t(extent.size.y) * count_styles(face);
         const size_t first = face.light_offset >= 0 ? size_t(face.light_offset) : bsp.lighting.size();
-        const bool is_there = luxels > 0 && first + luxels * bytes_each <= bsp.lighting.size();
+        const bool is_there = luxels > 0 && std::max(extent.size.x, extent.size.y) <= max_size
+            && first + luxels * bytes_each <= bsp.lighting.size() && maps.luxels.size() + luxels <= max_luxels;
         if (is_there) {
             const formats::BspTexinfo& texinfo = bsp.texinfos[face.texinfo];
             map.across = make_axis(texinfo.s_axis, texinfo.s_offset, extent.min_st.x);

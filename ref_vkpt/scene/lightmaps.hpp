@@ -15,7 +15,8 @@ struct Lightmaps {
     std::vector<uint32_t> luxels; // see LightmapFace::first; never empty
 };
 
-// Faces whose lightmaps lie outside of the map's data have none.
+// Faces whose lightmaps lie outside of the map's data have none, nor have those that come when all faces together have
+// had as many luxels as there are: each belongs to one face.
 Lightmaps read_lightmaps(const formats::Bsp& bsp);
 
 } // namespace vkpt

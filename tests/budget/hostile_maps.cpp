@@ -294,6 +294,21 @@ std::vector<std::byte> make_overlapping_lumps()
     return file;
 }
 
+// Every face has all of the map's luxels.
+Bsp make_shared_lightmap()
+{
+    constexpr size_t light_bytes = 300'000;
+    Bsp bsp = make_base();
+    add_faces(bsp, 4, 3500, wall, max_bytes - light_bytes);
+    for (formats::BspFace& face : bsp.faces) {
+        face.light_offset = 0;
+        face.styles[1] = 255; // one
+    }
+    bsp.lighting.assign(light_bytes, 128);
+    finish_world(bsp);
+    return bsp;
+}
+
 } // namespace
 
 std::vector<HostileMap> make_hostile_maps()
@@ -316,6 +331,7 @@ std::vector<HostileMap> make_hostile_maps()
     add("one tile", make_polygons(4, 40, lamp, 250'000), loads);
     add("four tiles", make_polygons(4, 80, lamp), refused);
     add("64 tiles", make_polygons(4, 350, lamp), refused);
+    add("one lightmap for all faces", make_shared_lightmap(), loads);
     // Clusters times lights.
     add("lights, clusters without leaves", make_lights_in_clusters(640'000, 32768, 0), refused);
     add("few lights, clusters without leaves", make_lights_in_clusters(1800, 32768, 0), loads);

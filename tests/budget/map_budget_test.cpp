@@ -2,6 +2,7 @@
 // No map of less than a megabyte takes more than the budget of tests/formats/file_budget.hpp, from its bytes to all
 // that is made of it at load.
 #include "ref_vkpt/lights/sampler_tables.hpp"
+#include "ref_vkpt/scene/lightmaps.hpp"
 #include "ref_vkpt/scene/world.hpp"
 #include "tests/budget/hostile_maps.hpp"
 #include "tests/formats/file_budget.hpp"
@@ -29,6 +30,7 @@ void use_map(const std::vector<std::byte>& file)
     const auto world = load_world(file, "maps/bad.bsp", find_picture, {});
     world->bvh();
     world->make_materials(1, {});
+    read_lightmaps(world->bsp);
     const LightLists& lists = world->light_lists;
     make_sampler_tables({ lists.lists(), lists.static_indices(), world->models[0].emitters, &world->bsp, &lists },
         shared::SAMPLER_NEEDS);
