@@ -19,7 +19,7 @@ using Outline = std::vector<glm::vec3>;
 
 constexpr int64_t max_tile_count = 64; // of a face; with more of them a lamp is a dot
 // Per megabyte of the map: corners looked at, the time of which grows with the square of a face's pieces.
-constexpr uint64_t max_steps = 100'000'000;
+constexpr uint64_t max_steps = 200'000'000;
 constexpr uint64_t steps_of_cut = 24; // what cutting takes for a corner, in such steps
 constexpr float farthest_tile = 1 << 20; // from the origin; beyond, a float no longer tells where in a tile it is
 constexpr float cut_tolerance = 0.02f; // texels: corners so near to a cut lie on it

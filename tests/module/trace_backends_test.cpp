@@ -121,12 +121,13 @@ TEST_F(TraceBackends, MeetOnlyWhatTheMaskAllows)
     const struct {
         float x;
         uint32_t mask;
-    } things[] = { { 0, MASK_OPAQUE }, { 200, MASK_TRANSLUCENT }, { 400, MASK_SKY }, { 600, MASK_OPAQUE },
+    } things[] = { { 0, MASK_OPAQUE }, { 200, MASK_TRANSLUCENT | MASK_FILTER }, { 400, MASK_SKY }, { 600, MASK_OPAQUE },
         { 700, MASK_VIEW_WEAPON }, { 800, MASK_OWN_BODY }, { 900, MASK_TRANSLUCENT } };
     with_each([&] {
         for (const auto& thing : things)
             for (uint32_t bit = 0; bit < 8; bit++)
-                EXPECT_EQ(meets({ thing.x + 1, 2, 50 }, { thing.x + 1, 2, -50 }, 1u << bit), thing.mask == 1u << bit)
+                EXPECT_EQ(
+                    meets({ thing.x + 1, 2, 50 }, { thing.x + 1, 2, -50 }, 1u << bit), (thing.mask & (1u << bit)) != 0)
                     << "the thing at " << thing.x << ", mask " << (1u << bit);
         EXPECT_TRUE(meets({ 1, 2, 50 }, { 1, 2, -50 }, MASK_ALL));
         EXPECT_FALSE(meets({ 1, 2, 50 }, { 1, 2, -50 }, MASK_ALL & ~MASK_OPAQUE));
