@@ -4,7 +4,6 @@
 #include "common/colour.hpp"
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
-#include "ref_vkpt/lights/cluster_finder.hpp"
 #include "ref_vkpt/lights/media.hpp"
 
 #include <algorithm>
@@ -31,9 +30,7 @@ void fill_filter_boxes(shared::SceneView& out, const SceneSnapshot& scene)
 // Where the engine says that the eye is in a liquid.
 uint32_t find_eye_medium(const formats::Bsp& bsp, glm::vec3 eye)
 {
-    const int32_t root = find_world_root(bsp);
-    const size_t leaf = root < 0 ? size_t(-1 - root) : bsp.find_leaf(eye, root);
-    const uint32_t medium = medium_of_contents(bsp.leaves[leaf].contents);
+    const uint32_t medium = medium_at(bsp, eye);
     return medium != shared::MEDIUM_NONE ? medium : shared::MEDIUM_WATER;
 }
 
@@ -46,7 +43,8 @@ glm::vec3 read_fog_colour(const std::string& text)
         && std::isfinite(glm::dot(colour, colour)))
         return glm::max(colour, glm::vec3(0));
     if (refused != text)
-        engine::print("vkpt: pt_fog_color \"{}\" is not three numbers, such as \"0.5 0.55 0.6\": grey is taken", text);
+        engine::print(
+            "ref_vkpt: pt_fog_color \"{}\" is not three numbers, such as \"0.5 0.55 0.6\": grey is taken", text);
     refused = text;
     return glm::vec3(0.5f);
 }

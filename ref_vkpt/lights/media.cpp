@@ -30,20 +30,6 @@ uint32_t medium_of_name(std::string name)
     return name.find("slime") != std::string::npos ? shared::MEDIUM_SLIME : shared::MEDIUM_WATER;
 }
 
-uint32_t medium_at(const Bsp& bsp, glm::vec3 place, int32_t root)
-{
-    const size_t leaf = root < 0 ? size_t(-1 - root) : bsp.find_leaf(place, root);
-    return leaf < bsp.leaves.size() ? medium_of_contents(bsp.leaves[leaf].contents) : shared::MEDIUM_NONE;
-}
-
-int32_t find_root(const Bsp& bsp, size_t model)
-{
-    if (model == 0)
-        return find_world_root(bsp);
-    const int32_t root = bsp.models[model].head_node;
-    return bsp.nodes.empty() && root >= 0 ? -1 : root;
-}
-
 float surface_of(const shared::FilterBox& box)
 {
     const glm::vec3 size = box.maxs - box.mins;
@@ -66,6 +52,12 @@ uint32_t medium_of_contents(uint32_t contents)
     return contents & formats::CONTENTS_WATER ? shared::MEDIUM_WATER : shared::MEDIUM_NONE;
 }
 
+uint32_t medium_at(const Bsp& bsp, glm::vec3 point, size_t model)
+{
+    const size_t leaf = bsp.find_leaf(point, model == 0 ? find_world_root(bsp) : bsp.models[model].head_node);
+    return leaf < bsp.leaves.size() ? medium_of_contents(bsp.leaves[leaf].contents) : shared::MEDIUM_NONE;
+}
+
 uint32_t medium_of_face(const Bsp& bsp, size_t face, size_t model)
 {
     const formats::BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
@@ -75,9 +67,8 @@ uint32_t medium_of_face(const Bsp& bsp, size_t face, size_t model)
     const glm::vec3 normal = bsp.face_normal(face),
                     centre
         = std::accumulate(outline.begin(), outline.end(), glm::vec3(0)) / std::max(1.0f, float(outline.size()));
-    const int32_t root = find_root(bsp, model);
-    const uint32_t before = medium_at(bsp, centre + normal * beside_face, root),
-                   behind = medium_at(bsp, centre - normal * beside_face, root);
+    const uint32_t before = medium_at(bsp, centre + normal * beside_face, model),
+                   behind = medium_at(bsp, centre - normal * beside_face, model);
     if (before != shared::MEDIUM_NONE && behind == shared::MEDIUM_NONE)
         return before | shared::MEDIUM_IN_FRONT;
     if (behind != shared::MEDIUM_NONE && before == shared::MEDIUM_NONE)

@@ -13,6 +13,9 @@ namespace vkpt {
 // MEDIUM_* of a leaf's contents; what the engine counts as thicker goes first.
 uint32_t medium_of_contents(uint32_t contents);
 
+// MEDIUM_* at a point of brush model `model` (0: the world), in its space.
+uint32_t medium_at(const formats::Bsp& bsp, glm::vec3 point, size_t model = 0);
+
 // Triangle::medium of a face of brush model `model` (0: the world), by the leaves on its two sides. 0: no liquid's.
 // A face whose leaves tell nothing is that of the liquid its texture is named after, else of water, which lies below
 // it where it looks up and behind it where it stands.

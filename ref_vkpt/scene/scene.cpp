@@ -31,6 +31,8 @@ namespace {
 constexpr size_t max_models = 4096;
 // How much brighter the sun's glare may be in the pictures of a physical sky than the rest of it.
 constexpr float glare_headroom = 6;
+// What white stands for in them.
+float white_of_sky(const PhysicalSky& sky) { return glare_headroom * brightest_of_sky(sky); }
 
 bool ends_with(std::string_view name, std::string_view ending)
 {
@@ -353,7 +355,7 @@ void Scene::set_physical_sky()
     const glm::vec3 to_sun = world_->suns.empty() ? direction_of_angles(cvars.pt_sky_azimuth, cvars.pt_sky_elevation)
                                                   : world_->suns.front().to_sun;
     const PhysicalSky sky(to_sun, cvars.pt_sky_turbidity);
-    const float white = glare_headroom * brightest_of_sky(sky);
+    const float white = white_of_sky(sky);
     sky_.present = true;
     for (size_t side = 0; side < sky_.pictures.size(); side++) {
         const std::string name = fmt::format(
@@ -387,7 +389,7 @@ void Scene::light_physical_sky()
     }
     // White stands for so much; a sky of even radiance L lights level ground by pi L.
     constexpr float pi = std::numbers::pi_v<float>;
-    sky_.scale = sun_radiance * pi / luminance(of_sun) * glare_headroom * brightest_of_sky(sky);
+    sky_.scale = sun_radiance * pi / luminance(of_sun) * white_of_sky(sky);
 }
 
 shared::Sky Scene::make_sky(float time) const

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // GPUs' shaders are compiled for the settings of shared/specialization.h: on a device that calls itself a GPU they draw
 // what those draw that read the settings, and frames do not wait for the compiler.
-#include "tests/fault_layer/faults.hpp"
-#include "tests/module/map_builder.hpp"
-#include "tests/module/session.hpp"
+#include "tests/module/faulty_room.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -14,23 +12,11 @@
 namespace vkpt::tests {
 namespace {
 
-class FixedChoices : public testing::Test {
+class FixedChoices : public FaultyRoom {
 protected:
-    FixedChoices()
-    {
-        folder_.add_wall("wall", 180);
-        folder_.add_wall("lamp", white_index);
-        MapBuilder map;
-        map.add_lit_room("wall");
-        folder_.add_map("room", map.finish());
-        Session::end_idle();
-    }
-    ~FixedChoices() override { Session::end_idle(); } // no other test's module has the layer
-
     std::unique_ptr<Session> start() const
     {
-        auto session = std::make_unique<Session>(
-            folder_, CvarList { { "pt_device_rays", "0" }, { "pt_trace", "software" } }, glm::ivec2(48, 32));
+        auto session = start_in({ 48, 32 });
         session->load_map("room");
         session->look({ -100, -100, 80 }, { 60, 60, 20 });
         return session;
@@ -54,8 +40,6 @@ protected:
         session.set("pt_light_point", choices.point);
         session.set("pt_bounces", choices.bounces);
     }
-
-    GameFolder folder_;
 };
 
 TEST_F(FixedChoices, MakeTheSamePictures)

@@ -1,35 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The module on a device that calls itself a GPU with memory of its own, little or none of which the CPU sees: the same
 // pictures, whatever has to be copied, and a message where nothing fits.
-#include "tests/fault_layer/faults.hpp"
-#include "tests/module/map_builder.hpp"
-#include "tests/module/session.hpp"
-
-#include <gtest/gtest.h>
+#include "tests/module/faulty_room.hpp"
 
 namespace vkpt::tests {
 namespace {
 
-class GpuMemory : public testing::Test {
+class GpuMemory : public FaultyRoom {
 protected:
     GpuMemory()
+        : cube_path_(folder_.add_cube("cube", 10, red_index))
     {
-        folder_.add_wall("wall", 180);
-        folder_.add_wall("lamp", white_index);
-        cube_path_ = folder_.add_cube("cube", 10, red_index);
-        MapBuilder map;
-        map.add_lit_room("wall");
-        folder_.add_map("room", map.finish());
-        Session::end_idle();
     }
-    ~GpuMemory() override { Session::end_idle(); } // no other test's module has the layer
 
     std::unique_ptr<Session> start() const
     {
-        return std::make_unique<Session>(folder_,
-            // With one bounce the GPU's shaders have no loop, and round otherwise (FixedChoices).
-            CvarList { { "pt_device_rays", "0" }, { "pt_trace", "software" }, { "pt_bounces", "2" } },
-            glm::ivec2(64, 48));
+        // With one bounce the GPU's shaders have no loop, and round otherwise (FixedChoices).
+        return start_in({ 64, 48 }, { { "pt_bounces", "2" } });
     }
 
     // Things come and go, the map starts anew.
@@ -60,7 +47,6 @@ protected:
         }
     }
 
-    GameFolder folder_;
     std::string cube_path_;
 };
 

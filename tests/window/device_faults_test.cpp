@@ -9,12 +9,19 @@
 namespace vkpt::tests {
 namespace {
 
+class WithFaults : public testing::Test {
+protected:
+    MockWindow window;
+    MockEngine engine { "8.70 x86_64" };
+};
+class Presenting : public WithFaults { };
+class LostDevice : public WithFaults { };
+class Devices : public WithFaults { };
+
 // A frame's waiting for the display would else be the next frame's, and the device's time.
-TEST(Presenting, TakesThePictureOnceTheFrameIsSubmitted)
+TEST_F(Presenting, TakesThePictureOnceTheFrameIsSubmitted)
 {
     const Faults faults;
-    MockWindow window;
-    MockEngine engine("8.70 x86_64");
     const ModuleInWindow module(engine, window);
     ASSERT_TRUE(module.is_running());
     module.draw(); // which uploads, too
@@ -30,11 +37,9 @@ TEST(Presenting, TakesThePictureOnceTheFrameIsSubmitted)
 }
 
 // Some drivers say of every picture that it is not the best for its window.
-TEST(Presenting, MakesNewPicturesOnlyForAnotherSize)
+TEST_F(Presenting, MakesNewPicturesOnlyForAnotherSize)
 {
     const Faults faults("suboptimal");
-    MockWindow window;
-    MockEngine engine("8.70 x86_64");
     const ModuleInWindow module(engine, window);
     ASSERT_TRUE(module.is_running());
     module.draw(5);
@@ -45,11 +50,9 @@ TEST(Presenting, MakesNewPicturesOnlyForAnotherSize)
     EXPECT_GE(Faults::counts().presented, 8u);
 }
 
-TEST(Presenting, RestsWhileTheWindowIsMinimised)
+TEST_F(Presenting, RestsWhileTheWindowIsMinimised)
 {
     const Faults faults;
-    MockWindow window;
-    MockEngine engine("8.70 x86_64");
     const ModuleInWindow module(engine, window);
     ASSERT_TRUE(module.is_running());
     module.draw(2);
@@ -66,11 +69,9 @@ TEST(Presenting, RestsWhileTheWindowIsMinimised)
     EXPECT_GE(Faults::counts().presented, before.presented + 2);
 }
 
-TEST(Presenting, SurvivesWindowsWithoutPixels)
+TEST_F(Presenting, SurvivesWindowsWithoutPixels)
 {
     const Faults faults;
-    MockWindow window;
-    MockEngine engine("8.70 x86_64");
     const ModuleInWindow module(engine, window);
     ASSERT_TRUE(module.is_running());
     module.draw(2);
@@ -85,11 +86,9 @@ TEST(Presenting, SurvivesWindowsWithoutPixels)
 }
 
 // The engine loads the module anew; a device that is lost again would be lost for ever.
-TEST(LostDevice, IsReplacedOnce)
+TEST_F(LostDevice, IsReplacedOnce)
 {
     const Faults faults;
-    MockWindow window;
-    MockEngine engine("8.70 x86_64");
     const auto lose = [&](const ModuleInWindow& module) {
         module.draw(2);
         faults.set("lost");
@@ -123,11 +122,9 @@ TEST(LostDevice, IsReplacedOnce)
     EXPECT_NE(engine::Restart(engine.restart), engine::Restart::full);
 }
 
-TEST(Devices, ThatLackPartsOfVulkanAreFound)
+TEST_F(Devices, ThatLackPartsOfVulkanAreFound)
 {
     const Faults faults("portable");
-    MockWindow window;
-    MockEngine engine("8.70 x86_64");
     const ModuleInWindow module(engine, window);
     ASSERT_TRUE(module.is_running());
     EXPECT_TRUE(Faults::counts().lists_portable);
@@ -135,22 +132,18 @@ TEST(Devices, ThatLackPartsOfVulkanAreFound)
     module.draw(2);
 }
 
-TEST(Devices, MayHaveQueuesForComputeAlone)
+TEST_F(Devices, MayHaveQueuesForComputeAlone)
 {
     const Faults faults("compute");
-    MockWindow window;
-    MockEngine engine("8.70 x86_64");
     const ModuleInWindow module(engine, window);
     ASSERT_TRUE(module.is_running());
     module.draw(3);
     EXPECT_EQ(Faults::counts().presented, 3u);
 }
 
-TEST(Devices, MayHaveNoTimestamps)
+TEST_F(Devices, MayHaveNoTimestamps)
 {
     const Faults faults("untimed");
-    MockWindow window;
-    MockEngine engine("8.70 x86_64");
     const ModuleInWindow module(engine, window, { { "pt_target_ms", "5" } });
     ASSERT_TRUE(module.is_running());
     module.draw(4);
