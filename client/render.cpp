@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // vkpt render: one picture of a map.
 #include "client/host/errors.hpp"
-#include "client/host/exr.hpp"
 #include "client/host/frame_source.hpp"
 #include "client/host/output_file.hpp"
 #include "client/options.hpp"
@@ -60,7 +59,7 @@ void write_radiance(const Extension& extension, OutputFile& output, PictureKind 
     if (nonfinite)
         std::fprintf(
             stderr, "vkpt: %zu of %zu values are not finite: please report this scene\n", nonfinite, rgb.size());
-    output.write(kind == PictureKind::exr ? write_exr(size.width, size.height, rgb)
+    output.write(kind == PictureKind::exr ? formats::write_exr(size.width, size.height, rgb)
                                           : formats::write_pfm(size.width, size.height, rgb));
 }
 

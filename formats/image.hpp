@@ -72,5 +72,7 @@ std::vector<std::byte> write_png(const Image& image);
 std::vector<std::byte> write_tga(const Image& image);
 // Portable float map, RGB, linear; rows given top to bottom.
 std::vector<std::byte> write_pfm(int width, int height, std::span<const float> rgb);
+// The same as OpenEXR, three float32 channels.
+std::vector<std::byte> write_exr(int width, int height, std::span<const float> rgb);
 
 } // namespace formats

@@ -10,8 +10,10 @@
 #include "ref_vkpt/frame/bench_report.hpp"
 #include "ref_vkpt/frame/pass_shaders.hpp"
 #include "ref_vkpt/frame/trace_measurement.hpp"
+#include "ref_vkpt/lights/media.hpp"
 #include "ref_vkpt/material_commands.hpp"
 #include "ref_vkpt/module.hpp"
+#include "ref_vkpt/photo_commands.hpp"
 #include "ref_vkpt/scene/camera.hpp"
 #include "ref_vkpt/scene/motion.hpp"
 #include "ref_vkpt/vulkan/pipeline_statistics.hpp"
@@ -220,6 +222,7 @@ constexpr Command commands[] = {
     { "pt_trace_measure", [] { run_command([] { module() ? measure_trace_backends(*module()) : void(); }); } },
     { "pt_preset", [] { run_command([] { module() ? module()->preset.run() : void(); }); } },
     { "pt_menu", [] { run_command([] { module() ? module()->overlay.toggle_menu() : void(); }); } },
+    { "pt_photo", [] { run_command([] { module() ? run_photo_command(*module()) : void(); }); } },
     { "mat", [] { run_command([] { module() ? run_material_command(*module()) : void(); }); } },
     { "flashlight", [] { run_command(toggle_flashlight); } },
     { "reload_shader", [] { run_command([] { module() ? module()->shader_reload.look() : void(); }); } },
@@ -369,6 +372,7 @@ void begin_registration(std::string_view map)
     // A level that was dropped half-way through a frame leaves one open.
     m.graphics.end_frame();
     m.graphics.finish();
+    leave_photo_mode(m);
     for (View& view : m.views)
         if (&view != &m.view())
             view = {}; // gives its memory back
@@ -449,7 +453,9 @@ void begin_frame(float)
 {
     Module& m = *running;
     m.overlay.obey_keys(m.graphics.timer.frame_milliseconds());
+    begin_photo_frame(m);
     if (cvars::update()) {
+        m.photo.note_settings();
         check_light_sampler();
         m.graphics.set_vsync(vsync());
     }
@@ -474,23 +480,44 @@ void begin_frame(float)
     m.frame.begin(m.view());
 }
 
-static SceneSnapshot take_snapshot(const engine::RefDef& refdef)
+static SceneSnapshot take_snapshot(const engine::RefDef& refdef, const engine::RefDef* player = nullptr)
 {
     const CpuTimer timer("cpu scene");
-    return running->scene.take_snapshot(refdef, running->view().lights);
+    return running->scene.take_snapshot(refdef, running->view().lights, player);
 }
 
-static void record_view(
-    const engine::RefDef& refdef, const SceneSnapshot& snapshot, const GpuWorld* gpu_world, bool average)
+static void record_view(const Viewpoint& from, const SceneSnapshot& snapshot, const GpuWorld* gpu_world, bool average)
 {
     Module& m = *running;
     const CpuTimer timer("cpu record");
     m.textures.flush_if_needed();
     m.draw2d.record(m.graphics.commands());
-    const Viewpoint from = make_viewpoint(refdef, m.graphics.size());
     if (gpu_world)
         m.last_camera = from.camera;
     m.frame.record_view(m.view(), from, snapshot, gpu_world, average);
+}
+
+static void replace_snapshot(View& view, SceneSnapshot snapshot)
+{
+    find_previous_poses(snapshot, view.snapshot ? *view.snapshot : SceneSnapshot());
+    view.snapshot = std::move(snapshot);
+    view.accumulated_frames = 0;
+}
+
+// What photo mode's camera sees of the view that was there when it began.
+static void render_photo(const engine::RefDef& refdef, bool freeze)
+{
+    Module& m = *running;
+    m.photo.keep(refdef);
+    const engine::RefDef seen = m.photo.camera_view(m.graphics.size());
+    if (m.photo.takes_scene())
+        replace_snapshot(m.view(), take_snapshot(seen, &m.photo.player_view()));
+    Viewpoint from = make_viewpoint(seen, m.graphics.size());
+    from.underwater = medium_at(m.scene.world()->bsp, from.camera.eye) != shared::MEDIUM_NONE;
+    from.is_photo = true;
+    from.exposure_stops = m.photo.camera().exposure;
+    from.max_samples = PhotoMode::max_samples;
+    record_view(from, *m.view().snapshot, &m.gpu_world, freeze || !m.photo.is_moving(PhotoMode::Clock::now()));
 }
 
 void render_view(const engine::RefDef& refdef)
@@ -505,7 +532,7 @@ void render_view(const engine::RefDef& refdef)
     if (m.warm_up)
         m.warm_up->wait();
     if (!has_world) {
-        record_view(refdef, take_snapshot(refdef), nullptr, false);
+        record_view(make_viewpoint(refdef, m.graphics.size()), take_snapshot(refdef), nullptr, false);
         return;
     }
     if (m.gpu_world.version == 0) { // drawn during registration
@@ -513,15 +540,14 @@ void render_view(const engine::RefDef& refdef)
         m.graphics.uploader.flush();
     }
     const bool freeze = cvars::values().pt_accumulate != 0;
+    if (m.photo.is_on())
+        return render_photo(refdef, freeze);
     View& view = m.view();
     if (!freeze || !view.is_frozen || !view.snapshot) {
-        SceneSnapshot snapshot = take_snapshot(refdef);
-        find_previous_poses(snapshot, view.snapshot ? *view.snapshot : SceneSnapshot());
-        view.snapshot = std::move(snapshot);
+        replace_snapshot(view, take_snapshot(refdef));
         view.is_frozen = freeze;
-        view.accumulated_frames = 0;
     }
-    record_view(refdef, *view.snapshot, &m.gpu_world, freeze);
+    record_view(make_viewpoint(refdef, m.graphics.size()), *view.snapshot, &m.gpu_world, freeze);
 }
 
 // r_speeds
@@ -538,7 +564,7 @@ static void print_speeds(const Module& m)
 static OverlayFacts overlay_facts(const Module& m)
 {
     return { m.graphics.size(), m.view().rendered_size, m.graphics.timer.frame_milliseconds(),
-        &m.graphics.timer.times(), &m.shader_reload.errors() };
+        &m.graphics.timer.times(), &m.shader_reload.errors(), m.photo.describe(m.view().accumulated_frames) };
 }
 
 void end_frame()
@@ -551,7 +577,8 @@ void end_frame()
         m.preset.note_frame(m.graphics.timer.frame_milliseconds());
         print_speeds(m);
     }
-    m.overlay.draw(m.draw2d, overlay_facts(m));
+    if (!m.photo.takes_photo())
+        m.overlay.draw(m.draw2d, overlay_facts(m));
     m.textures.flush_if_needed();
     m.draw2d.record(m.graphics.commands());
     m.graphics.timer.mark(m.graphics.commands(), "2d");
@@ -559,7 +586,7 @@ void end_frame()
     // What the engine's server reads as the light on the player: 255 * half the radiance of a white floor, as lightmaps
     // go.
     constexpr float server_scale = 150 * 0.5f;
-    if (m.scene.world())
+    if (m.scene.world() && !m.photo.is_on()) // whose camera is not the player
         engine::set_cvar("r_lightlevel", server_scale * m.frame.light_level());
     if (m.frame_has_view) {
         if (m.first_frame_seconds == 0 && wanted_statistics()) {
@@ -567,6 +594,7 @@ void end_frame()
             m.first_frame_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - m.start).count();
         }
         m.capture.end_view(read_picture);
+        end_photo_frame(m, read_picture);
     }
 }
 
@@ -586,32 +614,53 @@ void get_picture_size(std::string_view name, int* width, int* height)
     *height = picture ? picture->height : -1;
 }
 
+// While photo mode shows its picture alone.
+static bool hides_2d() { return running->photo.hides_2d(); }
+
 void draw_picture(int x, int y, std::string_view name, float scale, const float* tint)
 {
+    if (hides_2d())
+        return;
     if (const Texture* picture = running->textures.find(name, TextureUse::picture))
         running->draw2d.draw_picture(*picture, x, y, scale, tint);
 }
 
 void draw_stretched_picture(int x, int y, int width, int height, std::string_view name)
 {
+    if (name == "conback") // the console's ground
+        running->photo.note_engine_screen();
+    if (hides_2d())
+        return;
     if (const Texture* picture = running->textures.find(name, TextureUse::picture))
         running->draw2d.draw_stretched(*picture, { x, y, width, height });
 }
 
-void draw_character(int x, int y, int code, float scale) { running->draw2d.draw_character(x, y, code, scale); }
+void draw_character(int x, int y, int code, float scale)
+{
+    if (!hides_2d())
+        running->draw2d.draw_character(x, y, code, scale);
+}
 
 void draw_tiled(int x, int y, int width, int height, std::string_view name)
 {
+    if (hides_2d())
+        return;
     if (const Texture* picture = running->textures.find(name, TextureUse::picture))
         running->draw2d.draw_tiled(*picture, { x, y, width, height });
 }
 
 void draw_fill(int x, int y, int width, int height, int palette_index)
 {
-    running->draw2d.draw_fill({ x, y, width, height }, palette_index);
+    if (!hides_2d())
+        running->draw2d.draw_fill({ x, y, width, height }, palette_index);
 }
 
-void draw_fade() { running->draw2d.draw_fade(); }
+void draw_fade()
+{
+    running->photo.note_engine_screen(); // a menu stands on it
+    if (!hides_2d())
+        running->draw2d.draw_fade();
+}
 
 void draw_raw(int x, int y, int width, int height, int columns, int rows, const uint8_t* pixels, int bits)
 {

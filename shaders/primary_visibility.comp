@@ -269,12 +269,28 @@ void store_reprojection(uint index, Path path, vec3 direction, vec2 offset)
     store_depth_gradient(index, pack_upper_halves(clamp(slope, -8.0, 8.0)));
 }
 
+const uint lens_stream = 0x6c656e73u; // apart from the numbers of the pixel's other choices
+
+// From a random point of a thin lens to where the ray through its middle, of length 1 along the camera's axis, meets
+// the plane in focus (pbrt, 5.2.3).
+Ray through_lens(vec3 direction, Random random)
+{
+    vec2 xi = next_vec2(random);
+    float radius = 0.5 * frame.cvars.pt_aperture * sqrt(xi.x), angle = 2.0 * bsdf_pi * xi.y;
+    vec3 offset = radius * (cos(angle) * normalize(frame.camera.right) + sin(angle) * normalize(frame.camera.up));
+    return Ray(frame.camera.eye + offset, normalize(direction * frame.cvars.pt_focus - offset), 0.0, ray_far);
+}
+
 void see_pixel(uvec2 pixel, uint index)
 {
     Random random = make_pixel_random(pixel);
-    vec2 offset = (frame.flags & FRAME_JITTER) != 0u ? next_vec2(random) : frame.pixel_offset;
+    bool averages = (frame.flags & FRAME_JITTER) != 0u;
+    vec2 offset = averages ? next_vec2(random) : frame.pixel_offset;
+    vec3 through_middle = camera_direction(pixel, offset);
     Path path;
-    path.ray = Ray(frame.camera.eye, normalize(camera_direction(pixel, offset)), 0.0, ray_far);
+    path.ray = Ray(frame.camera.eye, normalize(through_middle), 0.0, ray_far);
+    if (averages && frame.cvars.pt_aperture > 0.0)
+        path.ray = through_lens(through_middle, random_stream(random, lens_stream));
     path.throughput = vec3(1.0);
     path.emitted = vec3(0.0);
     path.path_length = 0.0;

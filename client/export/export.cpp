@@ -4,7 +4,6 @@
 #include "client/export/scene_pictures.hpp"
 #include "client/export/scene_text.hpp"
 #include "client/host/errors.hpp"
-#include "client/host/exr.hpp"
 #include "client/host/frame_source.hpp"
 #include "client/options.hpp"
 #include "client/output_folder.hpp"
@@ -48,7 +47,7 @@ void write_pictures(const std::filesystem::path& folder, const ScenePictures& pi
 void write_sky(const std::filesystem::path& path, const analysis::LinearImage& sky)
 {
     OutputFile file(path);
-    file.write(write_exr(sky.width, sky.height, sky.rgb));
+    file.write(formats::write_exr(sky.width, sky.height, sky.rgb));
     file.commit();
 }
 

@@ -177,6 +177,12 @@ void OutputFolder::write(const std::string& name, std::span<const std::byte> byt
     fail(name, reason);
 }
 
+bool OutputFolder::has(const std::string& name) const
+{
+    struct stat status { };
+    return fstatat(descriptor_, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 || errno != ENOENT;
+}
+
 std::string OutputFolder::read(const std::string& name, size_t most) const
 {
     const auto refuse

@@ -39,6 +39,8 @@ public:
     // Under its name there is either all of the file or nothing of it. What is there already is replaced only if it
     // begins with `mark`, as files of the module's own do; an empty mark: never. Throws FileError.
     void write(const std::string& name, std::span<const std::byte> bytes, std::string_view mark = {}) const;
+    // Whether anything has this name: a file, a folder, a link to nowhere.
+    bool has(const std::string& name) const;
     // All of a file, which may be no link. Throws FileError, also where it is longer than `most` bytes.
     std::string read(const std::string& name, size_t most) const;
 

@@ -156,6 +156,8 @@ shared::FrameUniforms Frame::make_uniforms(View& view, const Viewpoint& from, gl
     constexpr float menu_default = 2;
     uniforms.intensity = std::clamp(cvars.vk_intensity, 1.0f, 10.0f) / menu_default;
     uniforms.cvars = cvars::shader_values();
+    uniforms.cvars.pt_exposure_bias += from.exposure_stops;
+    uniforms.cvars.pt_water_warp *= from.is_photo ? 0.0f : 1.0f;
     uniforms.picture_taps = float(max_picture_taps(graphics_.device.is_cpu));
     uniforms.flags = (from.underwater ? shared::FRAME_UNDERWATER : 0)
         | (cvars.r_fullbright != 0 ? shared::FRAME_FULLBRIGHT : 0)
@@ -181,11 +183,14 @@ void Frame::bind(VkCommandBuffer commands, const View& view, uint32_t uniform_of
         graphics_.bindings.bind(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, uniform_offset, sets);
 }
 
+// What shows an average that has all its samples.
+static bool shows_average(PassId id) { return id == PassId::exposure || id == PassId::tone_map; }
+
 // The whole image pipeline, as passes.def has it.
-void Frame::record_passes(const shared::FrameUniforms& uniforms)
+void Frame::record_passes(const shared::FrameUniforms& uniforms, bool average_is_complete)
 {
     for (const Pass& pass : pass_rows)
-        if (pass.is_run_with(uniforms.flags))
+        if (pass.is_run_with(uniforms.flags) && (!average_is_complete || shows_average(pass.id)))
             for (const PassStep& step : pass_steps(pass, uniforms))
                 recorder_.record(pass, step);
 }
@@ -284,14 +289,16 @@ void Frame::record_view(
     if (!average && has_world)
         begin_bloom(uniforms);
     uniforms.flags |= cvars::values().pt_count_rays != 0 ? shared::FRAME_COUNT_RAYS : 0;
-    record(graphics_.commands(), view, uniforms);
+    const bool is_complete = average && from.max_samples > 0 && view.accumulated_frames >= from.max_samples;
+    record(graphics_.commands(), view, uniforms, is_complete);
     if (has_world)
-        view.accumulated_frames++;
+        view.accumulated_frames += is_complete ? 0 : 1;
     else
         view.buffers.exchange_history();
 }
 
-void Frame::record(VkCommandBuffer commands, const View& view, const shared::FrameUniforms& uniforms)
+void Frame::record(
+    VkCommandBuffer commands, const View& view, const shared::FrameUniforms& uniforms, bool average_is_complete)
 {
     bind(commands, view, write_uniforms(uniforms));
     const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
@@ -301,7 +308,7 @@ void Frame::record(VkCommandBuffer commands, const View& view, const shared::Fra
     graphics_.timer.mark(commands, "2d");
     if (uniforms.flags & shared::FRAME_COUNT_RAYS)
         record_clear_ray_counts(commands);
-    record_passes(uniforms);
+    record_passes(uniforms, average_is_complete);
     if (uniforms.flags & shared::FRAME_COUNT_RAYS)
         record_read_ray_counts(commands);
     record_memory_barrier(

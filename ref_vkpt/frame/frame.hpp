@@ -54,7 +54,8 @@ public:
     uint32_t write_uniforms(const shared::FrameUniforms& uniforms);
     // What is recorded from here on sees these.
     void bind(VkCommandBuffer commands, const View& view, uint32_t uniform_offset);
-    void record_passes(const shared::FrameUniforms& uniforms);
+    // average_is_complete: only what shows it.
+    void record_passes(const shared::FrameUniforms& uniforms, bool average_is_complete = false);
     PassRecorder& recorder() { return recorder_; }
     FrameUploads& uploads() { return scene_upload_.uploads(); }
 
@@ -66,7 +67,8 @@ private:
         const GpuWorld* gpu_world, bool average) const;
     void fill_scene(shared::FrameUniforms& uniforms, VkCommandBuffer commands, const View& view,
         const SceneSnapshot& scene, const GpuWorld* gpu_world);
-    void record(VkCommandBuffer commands, const View& view, const shared::FrameUniforms& uniforms);
+    void record(
+        VkCommandBuffer commands, const View& view, const shared::FrameUniforms& uniforms, bool average_is_complete);
     void record_clear_ray_counts(VkCommandBuffer commands) const;
     void record_read_ray_counts(VkCommandBuffer commands) const;
     static RenderScale::Limits scale_limits();

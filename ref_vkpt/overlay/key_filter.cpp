@@ -3,7 +3,9 @@
 
 #include "ref_vkpt/engine/engine.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -12,13 +14,14 @@ namespace vkpt {
 namespace {
 
 // Numbers of SDL 2's and 3's interface, which are the same.
-constexpr uint32_t key_down = 0x300, key_up = 0x301, button_down = 0x401, button_up = 0x402, wheel = 0x403;
+constexpr uint32_t key_down = 0x300, key_up = 0x301, motion = 0x400, button_down = 0x401, button_up = 0x402,
+                   wheel = 0x403;
 
 // Where the fields of their events lie.
 struct EventLayout {
-    size_t scancode, button, wheel_y;
+    size_t scancode, button, wheel_y, motion_x;
 };
-constexpr EventLayout layouts[] = { { 16, 16, 20 }, { 24, 24, 28 } }; // SDL 2, SDL 3
+constexpr EventLayout layouts[] = { { 16, 16, 20, 28 }, { 24, 24, 28, 36 } }; // SDL 2, SDL 3
 
 template <class Value> Value read(const std::byte* event, size_t offset)
 {
@@ -27,17 +30,28 @@ template <class Value> Value read(const std::byte* event, size_t offset)
     return value;
 }
 
-std::optional<MenuKey> key_of(uint32_t scancode)
+// SDL 3 has decimal numbers where SDL 2 has whole ones.
+float read_number(const std::byte* event, size_t offset, bool is_sdl3)
 {
-    switch (scancode) {
+    return is_sdl3 ? read<float>(event, offset) : float(read<int32_t>(event, offset));
+}
+
+constexpr unsigned first_button_code = 512; // behind SDL's scancodes
+constexpr unsigned left_button = first_button_code + 1, right_button = first_button_code + 3;
+
+std::optional<MenuKey> menu_key(unsigned code)
+{
+    switch (code) {
     case 82:
         return MenuKey::up;
     case 81:
         return MenuKey::down;
     case 80:
+    case right_button:
         return MenuKey::less;
     case 79: // right
     case 40: // return
+    case left_button:
         return MenuKey::more;
     case 41: // escape
         return MenuKey::close;
@@ -46,9 +60,36 @@ std::optional<MenuKey> key_of(uint32_t scancode)
     }
 }
 
-std::optional<MenuKey> key_of_button(uint8_t button)
+struct PhotoKeyRow {
+    unsigned code;
+    PhotoKey key;
+};
+constexpr PhotoKeyRow photo_keys[] = {
+    { 26, PhotoKey::forward }, // W
+    { 22, PhotoKey::back }, // S
+    { 4, PhotoKey::left }, // A
+    { 7, PhotoKey::right }, // D
+    { 8, PhotoKey::up }, // E
+    { 20, PhotoKey::down }, // Q
+    { 29, PhotoKey::roll_left }, // Z
+    { 27, PhotoKey::roll_right }, // X
+    { 225, PhotoKey::fast }, // left shift
+    { 224, PhotoKey::slow }, // left control
+    { 82, PhotoKey::brighter }, // up
+    { 81, PhotoKey::darker }, // down
+    { 79, PhotoKey::wider }, // right
+    { 80, PhotoKey::narrower }, // left
+    { 9, PhotoKey::focus }, // F
+    { left_button, PhotoKey::focus }, { 10, PhotoKey::autofocus }, // G
+    { right_button, PhotoKey::autofocus }, { 74, PhotoKey::home }, { 11, PhotoKey::panel }, // H
+    { 40, PhotoKey::save }, // return
+    { 41, PhotoKey::close }, // escape
+};
+
+std::optional<PhotoKey> photo_key(unsigned code)
 {
-    return button == 1 ? std::optional(MenuKey::more) : button == 3 ? std::optional(MenuKey::less) : std::nullopt;
+    const auto* row = std::ranges::find(photo_keys, code, &PhotoKeyRow::code);
+    return row != std::end(photo_keys) ? std::optional(row->key) : std::nullopt;
 }
 
 template <class Function> Function sdl_function(const char* name)
@@ -103,53 +144,102 @@ bool KeyFilter::filter3(void* context, void* event)
     return !self.next_ || (self.next_(self.next_context_, event) & 0xff) != 0;
 }
 
-// Whether it is kept from the engine. A key that was held when the menu opened is let go for the engine, too.
-bool KeyFilter::press(MenuKey key, unsigned code, bool down)
+void KeyFilter::set_user(KeyUser user)
 {
+    if (user == user_)
+        return;
     const std::scoped_lock lock(mutex_);
+    user_ = user;
+    pressed_.clear();
+    photo_ = {};
+}
+
+// Whether it is kept from the engine. A key that was held when the menu opened is let go for the engine, too.
+bool KeyFilter::press(unsigned code, bool down)
+{
+    if (code >= held_.size())
+        return false;
+    const std::scoped_lock lock(mutex_);
+    const auto for_menu = menu_key(code);
+    const auto for_photo = photo_key(code);
     if (!down) {
         const bool was_held = held_[code];
         held_[code] = false;
+        if (for_photo)
+            photo_.held[size_t(*for_photo)] = false;
         return was_held;
     }
-    if (!is_open_)
+    const bool is_kept = (user_ == KeyUser::menu && for_menu) || (user_ == KeyUser::photo && for_photo);
+    if (!is_kept)
         return false;
-    if (!held_[code]) // no repetitions: a slow frame would send many
-        pressed_.push_back(key);
+    if (!held_[code]) { // no repetitions: a slow frame would send many
+        if (user_ == KeyUser::menu) {
+            pressed_.push_back(*for_menu);
+        } else {
+            photo_.pressed.push_back(*for_photo);
+            photo_.held[size_t(*for_photo)] = true;
+        }
+    }
     held_[code] = true;
+    return true;
+}
+
+bool KeyFilter::turn_wheel(float notches)
+{
+    const std::scoped_lock lock(mutex_);
+    if (user_ == KeyUser::photo)
+        photo_.wheel += notches;
+    else if (user_ == KeyUser::menu && notches != 0)
+        pressed_.push_back(notches > 0 ? MenuKey::up : MenuKey::down);
+    return user_ != KeyUser::engine;
+}
+
+// The menu leaves the mouse's way to the game.
+bool KeyFilter::move_mouse(glm::vec2 pixels)
+{
+    const std::scoped_lock lock(mutex_);
+    if (user_ != KeyUser::photo)
+        return false;
+    photo_.mouse += pixels;
     return true;
 }
 
 bool KeyFilter::passes(const std::byte* event)
 {
-    constexpr unsigned first_button_code = 512; // behind SDL's scancodes
     const bool is_sdl3 = engine::sdl_major() >= 3;
     const EventLayout& layout = layouts[is_sdl3];
     const uint32_t type = read<uint32_t>(event, 0);
-    if (type == key_down || type == key_up) {
-        const auto code = read<uint32_t>(event, layout.scancode);
-        const auto key = key_of(code);
-        return !key || !press(*key, code, type == key_down);
-    }
-    if (type == button_down || type == button_up) {
-        const auto button = read<uint8_t>(event, layout.button);
-        const auto key = key_of_button(button);
-        return !key || !press(*key, first_button_code + button, type == button_down);
-    }
-    if (type != wheel || !is_open_)
+    switch (type) {
+    case key_down:
+    case key_up:
+        return !press(read<uint32_t>(event, layout.scancode), type == key_down);
+    case button_down:
+    case button_up:
+        return !press(first_button_code + read<uint8_t>(event, layout.button), type == button_down);
+    case wheel:
+        return !turn_wheel(read_number(event, layout.wheel_y, is_sdl3));
+    case motion:
+        return !move_mouse({ read_number(event, layout.motion_x, is_sdl3),
+            read_number(event, layout.motion_x + sizeof(float), is_sdl3) });
+    default:
         return true;
-    const float turned = is_sdl3 ? read<float>(event, layout.wheel_y) : float(read<int32_t>(event, layout.wheel_y));
-    if (turned != 0) {
-        const std::scoped_lock lock(mutex_);
-        pressed_.push_back(turned > 0 ? MenuKey::up : MenuKey::down);
     }
-    return false;
 }
 
 std::vector<MenuKey> KeyFilter::take()
 {
     const std::scoped_lock lock(mutex_);
     return std::exchange(pressed_, {});
+}
+
+PhotoInput KeyFilter::take_photo_input()
+{
+    const std::scoped_lock lock(mutex_);
+    PhotoInput input = photo_;
+    photo_.pressed.clear();
+    photo_.mouse = glm::vec2(0);
+    photo_.wheel = 0;
+    return input;
 }
 
 } // namespace vkpt

@@ -1,16 +1,53 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Keys for pt_menu: the refresh API has none, so that they are taken from SDL before the engine sees them, while the
-// menu is open.
+// Keys and mouse for pt_menu and photo mode: the refresh API has none, so that they are taken from SDL before the
+// engine sees them, while the menu or photo mode is open.
 #pragma once
 
 #include <atomic>
 #include <bitset>
+#include <glm/vec2.hpp>
 #include <mutex>
 #include <vector>
 
 namespace vkpt {
 
 enum class MenuKey { up, down, less, more, close };
+
+enum class PhotoKey {
+    // That count while they are held:
+    forward,
+    back,
+    left,
+    right,
+    up,
+    down,
+    roll_left,
+    roll_right,
+    fast,
+    slow,
+    // That count when they are pressed:
+    brighter,
+    darker,
+    wider, // the lens
+    narrower,
+    focus, // where the crosshair is, and there it stays
+    autofocus, // wherever the crosshair is
+    home, // to the player's eyes
+    panel, // shows it or not
+    save,
+    close,
+    count
+};
+
+// What the player did since it was last asked for.
+struct PhotoInput {
+    std::bitset<size_t(PhotoKey::count)> held;
+    std::vector<PhotoKey> pressed;
+    glm::vec2 mouse { 0 }; // pixels to the right and down
+    float wheel = 0; // notches away from the player
+};
+
+enum class KeyUser { engine, menu, photo };
 
 // The process has one at a time.
 class KeyFilter {
@@ -23,24 +60,28 @@ public:
     // Between the engine's start of SDL and its end. Nothing happens where there is no SDL. SDL forgets the events that
     // wait at that moment, hence once, at the start, and not with every opening of the menu.
     void install();
-    // From now on the menu's keys are kept from the engine, or not.
-    void set_open(bool open) { is_open_ = open; }
+    // From now on this user's keys are kept from the engine.
+    void set_user(KeyUser user);
     // What was pressed since the last call.
     std::vector<MenuKey> take();
+    PhotoInput take_photo_input();
 
 private:
     using Filter = int (*)(void* context, void* event);
     static int filter(void* context, void* event);
     static bool filter3(void* context, void* event); // SDL 3
     bool passes(const std::byte* event);
-    bool press(MenuKey key, unsigned code, bool down);
+    bool press(unsigned code, bool down);
+    bool turn_wheel(float notches);
+    bool move_mouse(glm::vec2 pixels);
 
-    std::atomic<bool> is_open_ = false;
+    std::atomic<KeyUser> user_ = KeyUser::engine;
     bool is_installed_ = false;
     Filter next_ = nullptr; // somebody's before ours
     void* next_context_ = nullptr;
     std::mutex mutex_; // SDL may call from any thread
     std::vector<MenuKey> pressed_;
+    PhotoInput photo_;
     std::bitset<1024> held_; // codes whose release is kept from the engine, too
 };
 

@@ -11,7 +11,18 @@ namespace vkpt {
 void Overlay::toggle_menu()
 {
     menu_.toggle();
-    keys_.set_open(menu_.is_open());
+    choose_key_user();
+}
+
+void Overlay::choose_key_user()
+{
+    keys_.set_user(menu_.is_open() ? KeyUser::menu : photo_has_keys_ ? KeyUser::photo : KeyUser::engine);
+}
+
+void Overlay::give_keys_to_photo(bool give)
+{
+    photo_has_keys_ = give;
+    choose_key_user();
 }
 
 void Overlay::obey_keys(double frame_milliseconds)
@@ -19,7 +30,7 @@ void Overlay::obey_keys(double frame_milliseconds)
     for (const MenuKey key : keys_.take())
         if (menu_.is_open())
             menu_.press(key, frame_milliseconds);
-    keys_.set_open(menu_.is_open());
+    choose_key_user();
 }
 
 static std::vector<PanelLine> describe_shader_errors(const std::vector<std::string>& errors)
@@ -55,8 +66,10 @@ void Overlay::draw(Draw2d& draw2d, const OverlayFacts& facts)
         draw_panel(draw2d, facts.window, PanelSide::right, describe_times(facts));
     if (menu_.is_open())
         draw_panel(draw2d, facts.window, PanelSide::left, menu_.describe(facts.frame_milliseconds));
-    else
+    else if (!facts.shader_errors->empty())
         draw_panel(draw2d, facts.window, PanelSide::left, describe_shader_errors(*facts.shader_errors));
+    else
+        draw_panel(draw2d, facts.window, PanelSide::left, facts.photo);
 }
 
 } // namespace vkpt

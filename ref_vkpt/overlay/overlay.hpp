@@ -15,6 +15,7 @@ struct OverlayFacts {
     double frame_milliseconds; // on the device
     const std::vector<PassTime>* passes;
     const std::vector<std::string>* shader_errors; // see ShaderReload
+    std::vector<PanelLine> photo; // photo mode's panel
 };
 
 class Overlay {
@@ -24,15 +25,20 @@ public:
     void toggle_menu();
     // Between frames.
     void obey_keys(double frame_milliseconds);
+    // Whether keys and mouse are photo mode's, unless the menu is open.
+    void give_keys_to_photo(bool give);
+    PhotoInput take_photo_input() { return keys_.take_photo_input(); }
     // Last of all 2D.
     void draw(Draw2d& draw2d, const OverlayFacts& facts);
 
 private:
+    void choose_key_user();
     std::vector<PanelLine> describe_times(const OverlayFacts& facts) const;
 
     FrameRate rate_;
     SettingsMenu menu_;
     KeyFilter keys_;
+    bool photo_has_keys_ = false;
 };
 
 } // namespace vkpt

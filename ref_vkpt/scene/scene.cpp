@@ -433,7 +433,7 @@ std::vector<Sun> Scene::find_suns_of_moment(const shared::Sky& sky) const
     return suns;
 }
 
-SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef, ViewLights& lights)
+SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef, ViewLights& lights, const engine::RefDef* player)
 {
     const CvarValues& cvars = cvars::values();
     SceneSnapshot snapshot;
@@ -453,11 +453,13 @@ SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef, ViewLights& lig
         snapshot.moving = MovingGeometry(uint32_t(world_->models[0].triangles.size()));
         snapshot.materials = world_->make_materials(refdef.time, defaults);
         snapshot.sky = make_sky(refdef.time);
-        player_body = find_player_body(refdef);
+        player_body = find_player_body(player ? *player : refdef);
+        for (engine::Entity& part : player_body)
+            part.flags &= player ? ~engine::RF_VIEWERMODEL : ~0;
         world_->animated_lights.append_rows(snapshot.lightstyles, refdef.time);
         add_suns(snapshot, find_suns_of_moment(snapshot.sky), sky_.average);
         if (cvars.pt_flashlight != 0)
-            snapshot.emitters.push_back(make_flashlight(refdef));
+            snapshot.emitters.push_back(make_flashlight(player ? *player : refdef));
     }
     add_entities(snapshot, refdef, player_body, textures_, defaults);
     if (snapshot.world)

@@ -67,7 +67,9 @@ public:
 
     // The scene of a refdef. RDF_NOWORLDMODEL: models alone, with a light of their own; then `lights` stay as they are.
     // Else they go on by a frame, from one of this map to the next, and the snapshot refers to them.
-    SceneSnapshot take_snapshot(const engine::RefDef& refdef, ViewLights& lights);
+    // `player`: what the player sees, where `refdef` is of another camera, to which the player's body is shown.
+    SceneSnapshot take_snapshot(
+        const engine::RefDef& refdef, ViewLights& lights, const engine::RefDef* player = nullptr);
 
     void print_models() const;
 

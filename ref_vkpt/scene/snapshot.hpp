@@ -44,7 +44,12 @@ struct Viewpoint {
     glm::uvec2 size { 0 };
     glm::vec4 blend { 0 };
     bool underwater = false;
+    // Of photo mode:
+    bool is_photo = false; // it does not sway under water
+    float exposure_stops = 0; // beside pt_exposure_bias
+    uint32_t max_samples = 0; // that are averaged; 0: no limit
 };
+// Whether what they show may be averaged.
 bool is_same(const Viewpoint& a, const Viewpoint& b);
 
 } // namespace vkpt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The engine's own video menu and our page of settings, worked by keys.
+// The engine's own video menu, our page of settings and photo mode, worked by keys.
 #include "tests/engine/engine_run.hpp"
 #include "tests/engine/picture_statistics.hpp"
 
@@ -108,6 +108,36 @@ TEST(Engine, SettingsPageIsWorkedByKeys)
     ASSERT_EQ(paused.size(), 2u) << run.result().console;
     EXPECT_NE(paused[0].find("is \"0\""), std::string::npos) << paused[0];
     EXPECT_NE(paused[1].find("is \"1\""), std::string::npos) << paused[1];
+}
+
+// The game stands still meanwhile, keys move the camera and not the player, and the Enter key alone writes a file.
+TEST(Engine, PhotoModeIsWorkedByKeys)
+{
+    EngineOptions options;
+    options.waits_at_marks = false; // the keys would reach a console that lines run in
+    const std::string keys = display_mark + repeat("wait_100\n", 4);
+    options.script = "wait_25\npt_photo\nwait_25\npt_photo info\npt_photo save castle\nwait_25\n" + keys
+        + "pt_photo info\necho photo\npaused\n" + keys + "echo game\nwait_25\npaused\nquit\n";
+    options.display_commands = {
+        press({ "w", "Right", "Up", "Return" }),
+        press({ "Escape" }),
+    };
+    options.arguments = { "+map", own_map, "+exec", "test.cfg" };
+    options.cpu_seconds = 600;
+    const EngineRun run(options);
+    run.expect_clean();
+    const auto positions = run.lines_with("pt_photo: at ");
+    ASSERT_EQ(positions.size(), 2u) << run.result().console;
+    EXPECT_NE(positions[0].substr(0, positions[0].find(", look")), positions[1].substr(0, positions[1].find(", look")));
+    EXPECT_NE(positions[1].find("exposure 0.25"), std::string::npos) << positions[1];
+    EXPECT_NE(positions[1].find("aperture 0.5"), std::string::npos) << positions[1];
+    const auto paused = run.lines_with("\"paused\" is \"");
+    ASSERT_EQ(paused.size(), 2u) << run.result().console;
+    EXPECT_NE(paused[0].find("is \"1\""), std::string::npos) << paused[0];
+    EXPECT_NE(paused[1].find("is \"0\""), std::string::npos) << paused[1];
+    EXPECT_EQ(run.lines_with("pt_photo: wrote").size(), 2u) << run.result().console;
+    for (const char* file : { "castle.png", "castle.exr" }) // the name that was waiting for the key
+        EXPECT_TRUE(std::filesystem::exists(run.result().game_folder / "vkpt/photos" / file)) << file;
 }
 
 } // namespace vkpt::tests

@@ -31,7 +31,7 @@ std::vector<std::string> start_settings(const CvarList& cvars, glm::ivec2 size)
             key.push_back(std::string(variable) + "=" + value);
     for (const auto& [name, value] : cvars)
         for (const char* read_once :
-            { "pt_device", "pt_device_rays", "pt_shader_dir", "pt_table_reads", "pt_validation" })
+            { "pt_device", "pt_device_rays", "pt_photo_save", "pt_shader_dir", "pt_table_reads", "pt_validation" })
             if (name == read_once)
                 key.push_back(name + "=" + value);
     return key;

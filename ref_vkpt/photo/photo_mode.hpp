@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Photo mode: one view of the game is kept, a free camera looks at it, and what it sees is averaged.
+#pragma once
+
+#include "ref_vkpt/overlay/panel.hpp"
+#include "ref_vkpt/photo/kept_refdef.hpp"
+#include "ref_vkpt/photo/photo_camera.hpp"
+#include "ref_vkpt/vulkan/resources.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vkpt {
+
+// A photograph that is asked for.
+struct PhotoWish {
+    std::string name; // empty: the next free number
+    uint32_t samples = 1; // it is taken with so many
+};
+
+class PhotoMode {
+public:
+    using Clock = std::chrono::steady_clock;
+    static constexpr uint32_t max_samples = 65536;
+
+    bool is_on() const { return is_on_; }
+    // The next view of the map is the one.
+    void enter();
+    void leave();
+
+    // ---- the view
+
+    bool has_view() const { return kept_ != nullptr; }
+    // The first one since enter(); others are not wanted.
+    void keep(const engine::RefDef& refdef);
+    const engine::RefDef& player_view() const { return kept_->refdef(); }
+    // What the camera sees of it, in the whole window.
+    engine::RefDef camera_view(VkExtent2D window) const;
+    // Whether it is to be made anew, for the camera or a setting has changed; asked once.
+    bool takes_scene() { return std::exchange(takes_scene_, false); }
+    void note_settings() { takes_scene_ = true; }
+
+    // ---- the camera
+
+    const PhotoCamera& camera() const { return camera_; }
+    void set_camera(const PhotoCamera& camera);
+    void go_home() { set_camera(camera_of(player_view())); }
+    // Keys that are held, and the mouse.
+    void obey(const PhotoInput& input, Clock::time_point now);
+    // While it is moved by hand, and shortly after: then the game's live picture is shown.
+    bool is_moving(Clock::time_point now) const { return now < rests_from_; }
+    // Whether the lens is focused on what the crosshair shows; if so, whether it has yet to be, asked once a camera.
+    bool follows_focus() const { return follows_focus_; }
+    void follow_focus(bool follow);
+    bool takes_focus();
+
+    // ---- what is drawn over the picture
+
+    // A frame begins: nothing of the engine's 2D is shown, until it draws its console or a menu.
+    void begin_2d();
+    void note_engine_screen() { engine_screen_ = true; }
+    bool hides_2d() const { return is_on_ && (takes_photo_ || !engine_screen_); }
+    // The console or a menu was shown in the last frame, and has the keys.
+    bool is_covered() const { return was_covered_; }
+    void toggle_panel() { shows_panel_ = !shows_panel_; }
+    std::vector<PanelLine> describe(uint32_t samples) const;
+    void say(const std::string& message) { message_ = message; }
+
+    // ---- photographs
+
+    // Waits for the player's key.
+    std::string name_for_key;
+    std::optional<PhotoWish> wish() const { return wish_; }
+    void wish_for(const PhotoWish& wish) { wish_ = wish; }
+    // Whether this frame's picture, in which nothing stands over the view, is to be the photograph. `samples`: of the
+    // last one.
+    void plan_photo(uint32_t samples) { takes_photo_ = wish_ && samples + 1 >= wish_->samples; }
+    bool takes_photo() const { return takes_photo_; }
+    void end_wish()
+    {
+        wish_.reset();
+        takes_photo_ = false;
+    }
+
+    // ---- the game
+
+    // Has the engine pause the game, as far as it does that.
+    void hold_game();
+    // The game's automatic exposure, which the camera's pictures leave alone.
+    Buffer game_exposure;
+
+private:
+    void release_game();
+
+    bool is_on_ = false, takes_scene_ = false, follows_focus_ = true, shows_panel_ = true;
+    std::unique_ptr<const KeptRefDef> kept_;
+    PhotoCamera camera_;
+    std::optional<PhotoCamera> focused_for_;
+    Clock::time_point last_input_ {}, rests_from_ {};
+    bool engine_screen_ = false, was_covered_ = false;
+    std::string message_;
+    std::optional<PhotoWish> wish_;
+    bool takes_photo_ = false;
+    int pauses_asked_for_ = 0, frames_to_next_ = 0;
+};
+
+} // namespace vkpt
