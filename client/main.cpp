@@ -42,6 +42,7 @@ int main(int argc, char** argv)
     vkpt::client::add_info_command(program);
     vkpt::client::add_record_command(program);
     vkpt::client::add_render_command(program);
+    vkpt::client::add_film_command(program);
     vkpt::client::add_bench_command(program);
     vkpt::client::add_manual_options(program);
     vkpt::client::add_compare_command(program);

@@ -46,6 +46,7 @@ Size parse_size(const std::string& text);
 void add_compare_command(CLI::App& program);
 void add_diff_command(CLI::App& program);
 void add_export_command(CLI::App& program);
+void add_film_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_record_command(CLI::App& program);
 void add_render_command(CLI::App& program);

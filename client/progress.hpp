@@ -16,6 +16,7 @@ public:
     void show(int done);
     // Takes the line away.
     void finish();
+    bool is_shown() const { return is_shown_; }
 
 private:
     std::string title_;

@@ -190,6 +190,12 @@ void thaw_scene()
         m->view().is_frozen = false;
 }
 
+void blend_next_view()
+{
+    if (Module* m = module())
+        m->view().blends_next = true;
+}
+
 bool read_scene(SceneContents* contents)
 {
     Module* m = module();
@@ -221,7 +227,7 @@ const Extension& extension_table()
 {
     static const Extension table { extension_version, sizeof(Extension), frame_size, capture_display, capture_radiance,
         accumulated_frames, pass_times, time_every_pass, module_info, measure_irradiance, trace_rays, thaw_scene,
-        collected_times, forget_times, read_scene, select_view, inspect_pixel };
+        collected_times, forget_times, read_scene, select_view, inspect_pixel, blend_next_view };
     return table;
 }
 

@@ -19,7 +19,7 @@ using shared::IrradianceProbe;
 using shared::TracedHit;
 using shared::TracedRay;
 
-inline constexpr uint32_t extension_version = 7;
+inline constexpr uint32_t extension_version = 8;
 
 inline constexpr uint32_t view_count = 4; // that select_view can tell apart
 
@@ -182,6 +182,8 @@ struct Extension {
     // by the settings of that frame. Runs the light sampler's shader: milliseconds, with the sampler `full` longer.
     // False: no 3D view of a map has been drawn, or it does not cover the pixel.
     bool (*inspect_pixel)(uint32_t x, uint32_t y, InspectedSurface* surface, InspectedLight* lights, size_t capacity);
+    // With pt_accumulate 1: the next view, whatever has moved in it, goes into the same average (motion blur).
+    void (*blend_next_view)();
 };
 
 // Signature of the exported symbol "vkpt_extension". Returns nullptr if `version` is not served.

@@ -23,6 +23,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
+#include <utility>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -194,6 +195,7 @@ void close_module()
     } const closing;
     if (!running)
         return;
+    running->photo.leave(); // the game goes on
     if (const std::string file = wanted_statistics_file(); !file.empty())
         write_pipeline_statistics(file, running->graphics.device, running->graphics.pipelines);
     if (!running->pass_statistics.empty())
@@ -543,11 +545,17 @@ void render_view(const engine::RefDef& refdef)
     if (m.photo.is_on())
         return render_photo(refdef, freeze);
     View& view = m.view();
-    if (!freeze || !view.is_frozen || !view.snapshot) {
+    const Viewpoint from = make_viewpoint(refdef, m.graphics.size());
+    const bool blends = std::exchange(view.blends_next, false) && freeze && view.is_frozen && view.snapshot;
+    if (!freeze || !view.is_frozen || !view.snapshot || blends) {
+        const uint32_t averaged = blends ? view.accumulated_frames : 0;
         replace_snapshot(view, take_snapshot(refdef));
         view.is_frozen = freeze;
+        view.accumulated_frames = averaged;
     }
-    record_view(make_viewpoint(refdef, m.graphics.size()), *view.snapshot, &m.gpu_world, freeze);
+    if (blends)
+        view.viewpoint = from; // as if the camera had not moved
+    record_view(from, *view.snapshot, &m.gpu_world, freeze);
 }
 
 // r_speeds
@@ -615,7 +623,7 @@ void get_picture_size(std::string_view name, int* width, int* height)
 }
 
 // While photo mode shows its picture alone.
-static bool hides_2d() { return running->photo.hides_2d(); }
+static bool hides_2d() { return running->frame_has_view && running->photo.hides_2d(); }
 
 void draw_picture(int x, int y, std::string_view name, float scale, const float* tint)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/host/trace_frames.hpp"
 
+#include "client/host/blend_views.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/hash.hpp"
 
@@ -228,6 +229,50 @@ void TraceFrames::draw_frame(Host& host, int number)
         else
             draw_2d(module, call);
     }
+}
+
+// Of the world, if there is one.
+static const trace::View& main_view(const trace::Frame& frame)
+{
+    const auto world = std::ranges::find_if(
+        frame.views, [](const trace::View& view) { return !(view.refdef.flags & engine::RDF_NOWORLDMODEL); });
+    return world != frame.views.end() ? *world : frame.views.front();
+}
+
+const TraceFrames::Pair& TraceFrames::find_pair(size_t frame)
+{
+    if (pair_.frame == frame)
+        return pair_;
+    const std::vector<LastingCall>& calls = reader_.lasting_calls();
+    const size_t next = std::min(frame + 1, reader_.frame_count() - 1);
+    const size_t own = size_t(
+        std::ranges::partition_point(calls, [&](const LastingCall& c) { return c.frame <= frame; }) - calls.begin());
+    const size_t later = lasting_before(next);
+    pair_.frame = frame;
+    pair_.before = main_view(reader_.frame(frame));
+    pair_.after = main_view(reader_.frame(next));
+    pair_.is_cut = registration_of(std::max(own, later)) != registration_of(own);
+    pair_.lasting = pair_.is_cut ? own : std::max(own, later);
+    return pair_;
+}
+
+void TraceFrames::draw_moment(Host& host, double seconds, bool blends)
+{
+    size_t frame = 0, end = reader_.frame_count();
+    while (end - frame > 1) {
+        const size_t middle = (frame + end) / 2;
+        (reader_.seconds(middle) <= seconds ? frame : end) = middle;
+    }
+    const Pair& pair = find_pair(frame);
+    prepare(host, pair.lasting);
+    const double start = reader_.seconds(frame),
+                 length = reader_.seconds(std::min(frame + 1, reader_.frame_count() - 1)) - start;
+    const float share = length > 0 && !pair.is_cut ? float(std::clamp((seconds - start) / length, 0.0, 1.0)) : 0.0f;
+    blends ? host.extension().blend_next_view() : host.extension().thaw_scene();
+    host.run_left_text();
+    host.module().begin_frame(0);
+    draw_view(host, blend_views(pair.before, pair.after, share));
+    host.module().end_frame();
 }
 
 void TraceFrames::draw_view(Host& host, const trace::View& view)

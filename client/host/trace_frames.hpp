@@ -22,7 +22,19 @@ public:
     void set_camera(const std::optional<Camera>& camera) override { camera_ = camera; }
     std::vector<std::string> notes() const override { return notes_; }
 
+    // The view `seconds` after the first frame, between two that were recorded, without 2D. Films: with pt_accumulate 1
+    // it goes into the average of the last one if `blends`; else the average starts anew.
+    void draw_moment(Host& host, double seconds, bool blends);
+
 private:
+    // Two recorded views, one after the other.
+    struct Pair {
+        size_t frame = size_t(-1); // of the first
+        trace::View before, after;
+        bool is_cut = false;
+        size_t lasting = 0; // calls that both need
+    };
+    const Pair& find_pair(size_t frame);
     // The module's, by the trace's numbers. As in the engine, a registration ends the life of those from before that it
     // does not name again.
     class Handles {
@@ -52,6 +64,7 @@ private:
     ViewPlacement placement_ { 1, 1, 1, 1 };
     size_t applied_ = 0; // of the trace's lasting calls
     Handles models_, skins_;
+    Pair pair_;
 };
 
 } // namespace vkpt::client

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // vkpt record: a demo as a trace, by the engine itself.
+#include "client/record/record.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/file_system.hpp"
 #include "client/host/output_file.hpp"
 #include "client/options.hpp"
 #include "client/progress.hpp"
-#include "client/record/engine_run.hpp"
 #include "client/trace/trace_reader.hpp"
 
 #include <chrono>
@@ -23,13 +23,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int server_messages_per_second = 10;
-
-struct RecordOptions {
-    std::string demo, output, engine, base_folder, game, size = "1280x720";
-    int rate = 60;
-    bool timedemo = false;
-    std::vector<std::string> settings;
-};
 
 // A demo is a chain of the server's messages, each led by its length; -1 ends it. Nothing: the chain is broken.
 std::optional<int> count_messages(const std::vector<std::byte>& demo)
@@ -105,26 +98,37 @@ EngineRunOptions make_run(const RecordOptions& options, const FileSystem& files,
     return run;
 }
 
+} // namespace
+
+std::unique_ptr<EngineRun> record_demo(const RecordOptions& options, const FileSystem& files)
+{
+    Demo demo = find_demo(files, options.demo);
+    const int expected = options.timedemo ? demo.messages : demo.messages * options.rate / server_messages_per_second;
+    EngineRunOptions run_options = make_run(options, files, std::move(demo));
+    ProgressBar progress("recording", expected);
+    run_options.on_progress = [&](const fs::path& trace) { progress.show(int(trace::count_views(trace))); };
+    auto run = std::make_unique<EngineRun>(run_options);
+    progress.finish();
+    const trace::TraceReader reader(run->trace());
+    if (reader.frame_count() == 0 || reader.cut_at())
+        throw Failure(fmt::format("the engine drew no frame of {}", options.demo));
+    return run;
+}
+
+namespace {
+
 void run_record(const RecordOptions& options)
 {
     if (!options.output.ends_with(".rtrace"))
         throw WrongUse(fmt::format("-o {}: name a FILE.rtrace", options.output));
     OutputFile output(options.output);
     const FileSystem files(options.base_folder, options.game);
-    Demo demo = find_demo(files, options.demo);
-    const int expected = options.timedemo ? demo.messages : demo.messages * options.rate / server_messages_per_second;
-    EngineRunOptions run_options = make_run(options, files, std::move(demo));
-    ProgressBar progress("recording", expected);
-    run_options.on_progress = [&](const fs::path& trace) { progress.show(int(trace::count_views(trace))); };
     const auto start = std::chrono::steady_clock::now();
-    const EngineRun run(run_options);
+    const std::unique_ptr<EngineRun> run = record_demo(options, files);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    progress.finish();
-    const trace::TraceReader reader(run.trace());
+    const trace::TraceReader reader(run->trace());
     const size_t frames = reader.frame_count();
-    if (frames == 0 || reader.cut_at())
-        throw Failure(fmt::format("the engine drew no frame of {}", options.demo));
-    output.take(run.trace());
+    output.take(run->trace());
     output.commit();
     const double shown = reader.seconds(frames - 1);
     fmt::print("{}: {} frames, {:.1f} s, {:.0f} kB ({:.1f} kB a second), recorded in {:.1f} s\n", options.output,

@@ -21,6 +21,7 @@ struct View {
     ViewLights lights;
     std::optional<SceneSnapshot> snapshot;
     bool is_frozen = false;
+    bool blends_next = false; // see Extension::blend_next_view
 
     // On the device.
     ViewBuffers buffers;

@@ -137,7 +137,7 @@ const Extension& extension_table()
         [] {}, info, [](const IrradianceProbe*, size_t, uint32_t, float*) { return false; },
         [](const TracedRay*, size_t, const TraceRequest*, TracedHit*) { return -1.0; }, [] {}, fake_times,
         [] { forgotten_frames = frames_done; }, [](SceneContents*) { return false; },
-        [](uint32_t view) { return view < view_count; }, inspect_pixel };
+        [](uint32_t view) { return view < view_count; }, inspect_pixel, [] { note("blend_next_view"); } };
     return table;
 }
 

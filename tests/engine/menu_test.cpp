@@ -114,9 +114,11 @@ TEST(Engine, SettingsPageIsWorkedByKeys)
 TEST(Engine, PhotoModeIsWorkedByKeys)
 {
     EngineOptions options;
+    options.width = 128; // photo mode renders all pixels
+    options.height = 72;
     options.waits_at_marks = false; // the keys would reach a console that lines run in
-    const std::string keys = display_mark + repeat("wait_100\n", 4);
-    options.script = "wait_25\npt_photo\nwait_25\npt_photo info\npt_photo save castle\nwait_25\n" + keys
+    const std::string keys = display_mark + repeat("wait_100\n", 2);
+    options.script = "wait_25\npt_photo\nwait_5\npt_photo info\npt_photo save castle\nwait_5\n" + keys
         + "pt_photo info\necho photo\npaused\n" + keys + "echo game\nwait_25\npaused\nquit\n";
     options.display_commands = {
         press({ "w", "Right", "Up", "Return" }),
