@@ -92,6 +92,7 @@ std::string_view argument(int index)
 }
 
 void run_later(const std::string& text) { imports.execute_text(EXEC_APPEND, text.c_str()); }
+void run_next(const std::string& text) { imports.execute_text(EXEC_INSERT, text.c_str()); }
 
 FileData::~FileData()
 {

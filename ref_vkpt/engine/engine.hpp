@@ -56,6 +56,8 @@ int argument_count();
 std::string_view argument(int index);
 // Appends console text; it runs in the next engine frame.
 void run_later(const std::string& text);
+// The same, before what waits there.
+void run_next(const std::string& text);
 
 // ---- files
 

@@ -147,7 +147,7 @@ void PhotoMode::hold_game()
     constexpr int max_pauses = 3, frames_between = 5;
     if (is_covered() || is_game_paused() || pauses_asked_for_ >= max_pauses || frames_to_next_-- > 0)
         return;
-    engine::run_later("pause\n");
+    engine::run_next("pause\n");
     pauses_asked_for_++;
     frames_to_next_ = frames_between;
 }
@@ -155,7 +155,7 @@ void PhotoMode::hold_game()
 void PhotoMode::release_game()
 {
     if (pauses_asked_for_ > 0 && is_game_paused())
-        engine::run_later("pause\n");
+        engine::run_next("pause\n");
 }
 
 } // namespace vkpt
