@@ -23,6 +23,15 @@ picture() {
     fi
     "$build/bin/vkpt" render "$scene" --basedir "$work" --size 384x216 --frames 48 "$@" -o "docs/gallery/$name.png"
 }
+# The same, as an average of many samples.
+photograph() {
+    local name=$1 scene=$2
+    shift 2
+    if [ ${#wanted[@]} -gt 0 ] && [[ " ${wanted[*]} " != *" $name "* ]]; then
+        return
+    fi
+    "$build/bin/vkpt" render "$scene" --basedir "$work" --size 384x216 --spp 400 "$@" -o "docs/gallery/$name.png"
+}
 wanted=("$@")
 
 picture water maps/looks.bsp@-330,-230,120,40,75
@@ -34,3 +43,4 @@ picture fog maps/looks.bsp@60,-480,150,15,90 --set pt_fog=0.002 --set pt_fog_hei
 picture physical_sky maps/vkpt1.bsp@0,520,200,-5,90 --set pt_sky=physical --set pt_sky_azimuth=120
 picture flashlight maps/vkpt1.bsp@-440,100,60,10,-135 --set pt_flashlight=1 --set pt_emission_scale=0.02
 picture wipe maps/vkpt1.bsp --set pt_wipe=0.5
+photograph lens maps/vkpt1.bsp@0,-384,46,0,90 --set pt_aperture=10 --set pt_focus=190
