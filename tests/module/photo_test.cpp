@@ -7,6 +7,7 @@
 #include "tests/module/session.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -67,6 +68,8 @@ protected:
     std::unique_ptr<Session> session_;
     engine::Entity cube_ {};
 };
+
+class PhotoLimit : public PhotoMode { };
 
 TEST_F(PhotoMode, ShowsWhatAPlayerThereWouldSee)
 {
@@ -276,6 +279,31 @@ TEST_F(PhotoMode, SaysWhatItDoesNotKnow)
     EXPECT_TRUE(session_->has_line("\"-3\" is no number from 1 to 100000"));
     run("pt_photo save a 0");
     EXPECT_TRUE(session_->has_line("\"0\" is no number of samples"));
+}
+
+// Under the label "long": all of its samples. Then the picture is shown again, and no ray is traced.
+TEST_F(PhotoLimit, TheLastSampleEndsThePicture)
+{
+    if (!std::getenv("VKPT_PHOTO_LIMIT"))
+        GTEST_SKIP() << "takes minutes";
+    start({}, { 8, 6 });
+    run("pt_photo");
+    session_->draw(65535);
+    EXPECT_EQ(session_->extension().accumulated_frames(), 65535u);
+    const Radiance before = session_->capture();
+    session_->draw();
+    const Radiance last = session_->capture();
+    EXPECT_FALSE(last == before);
+    EXPECT_EQ(session_->extension().accumulated_frames(), 65536u);
+    session_->draw(3);
+    EXPECT_EQ(session_->extension().accumulated_frames(), 65536u);
+    EXPECT_TRUE(session_->capture() == last);
+    const std::vector<std::string> passes = session_->timed_passes();
+    EXPECT_EQ(std::ranges::count(passes, "primary_visibility"), 0);
+    EXPECT_EQ(std::ranges::count(passes, "tone_map"), 1);
+    run("pt_photo move 1");
+    session_->draw();
+    EXPECT_EQ(session_->extension().accumulated_frames(), 1u);
 }
 
 // The view that it keeps refers to the map's models.
