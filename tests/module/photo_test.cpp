@@ -295,6 +295,7 @@ TEST_F(PhotoLimit, TheLastSampleEndsThePicture)
     const Radiance last = session_->capture();
     EXPECT_FALSE(last == before);
     EXPECT_EQ(session_->extension().accumulated_frames(), 65536u);
+    session_->extension().time_every_pass();
     session_->draw(3);
     EXPECT_EQ(session_->extension().accumulated_frames(), 65536u);
     EXPECT_TRUE(session_->capture() == last);
