@@ -132,10 +132,10 @@ shared::Emitter make_flashlight(const engine::RefDef& refdef)
     return emitter;
 }
 
-WorldPicture describe(const Texture& texture)
+FaceTexture describe(const Texture& texture)
 {
-    return { texture.slot, texture.packed_size, texture.width, texture.height, texture.average, texture.has_alpha,
-        texture.missing, texture.parts, false };
+    return { texture.slot, texture.packed_size, { texture.width, texture.height }, texture.average, texture.missing,
+        texture.parts, false };
 }
 
 } // namespace
@@ -164,11 +164,11 @@ void Scene::begin_registration(std::string_view map)
     load_materials(map);
     EmissionScales scales;
     scales.point_light_radius = cvars::values().pt_point_light_radius;
-    const FindWorldPicture find = [&](const std::string& name) {
+    const FindFaceTexture find = [&](const std::string& name) {
         const Texture& texture = *textures_.find(name, TextureUse::wall);
-        WorldPicture picture = describe(texture);
-        picture.glows = is_glowing(texture, materials_.find(texture.material));
-        return picture;
+        FaceTexture described = describe(texture);
+        described.glows = is_glowing(texture, materials_.find(texture.material));
+        return described;
     };
     world_ = load_world(file->bytes(), path, find, scales, load_more_entities(map));
     for (const std::string& message : world_->messages)
