@@ -219,6 +219,7 @@ constexpr Command commands[] = {
     { "pt_info", [] { run_command(print_info); } },
     { "pt_trace_measure", [] { run_command([] { module() ? measure_trace_backends(*module()) : void(); }); } },
     { "pt_preset", [] { run_command([] { module() ? module()->preset.run() : void(); }); } },
+    { "pt_lights", [] { run_command([] { module() ? module()->light_inspector.run(*module()) : void(); }); } },
     { "pt_menu", [] { run_command([] { module() ? module()->overlay.toggle_menu() : void(); }); } },
     { "mat", [] { run_command([] { module() ? run_material_command(*module()) : void(); }); } },
     { "flashlight", [] { run_command(toggle_flashlight); } },
@@ -374,6 +375,7 @@ void begin_registration(std::string_view map)
             view = {}; // gives its memory back
     m.view().begin_world({});
     m.gpu_world = {};
+    m.light_inspector.forget_map();
     m.sampler_choice.forget_world();
     m.frame.forget_world();
     fix_choices(m);
@@ -461,6 +463,7 @@ void begin_frame(float)
         fix_choices(m);
         upload_lightmaps_if_wanted(m);
         take_edited_shaders(m);
+        m.light_inspector.update(m);
     }
     if (m.view().snapshot && !m.graphics.is_recording() && m.frame.light_cache.wants_filling(m.gpu_world))
         m.frame.light_cache.fill(m.graphics, m.frame, m.view(), m.gpu_world);
@@ -538,7 +541,7 @@ static void print_speeds(const Module& m)
 static OverlayFacts overlay_facts(const Module& m)
 {
     return { m.graphics.size(), m.view().rendered_size, m.graphics.timer.frame_milliseconds(),
-        &m.graphics.timer.times(), &m.shader_reload.errors() };
+        &m.graphics.timer.times(), &m.shader_reload.errors(), m.light_inspector.describe() };
 }
 
 void end_frame()

@@ -55,8 +55,10 @@ void Overlay::draw(Draw2d& draw2d, const OverlayFacts& facts)
         draw_panel(draw2d, facts.window, PanelSide::right, describe_times(facts));
     if (menu_.is_open())
         draw_panel(draw2d, facts.window, PanelSide::left, menu_.describe(facts.frame_milliseconds));
-    else
+    else if (!facts.shader_errors->empty())
         draw_panel(draw2d, facts.window, PanelSide::left, describe_shader_errors(*facts.shader_errors));
+    else
+        draw_panel(draw2d, facts.window, PanelSide::left, facts.lights);
 }
 
 } // namespace vkpt
