@@ -14,23 +14,21 @@ namespace {
 
 using namespace vkpt;
 
-// Pictures by the texture's name, so that an input says all: missing, dark, shining all over or in parts, of any size.
-WorldPicture find_picture(const std::string& texture)
+// Textures by the texture's name, so that an input says all: missing, dark, shining all over or in parts, of any size.
+FaceTexture find_texture(const std::string& texture)
 {
     uint32_t hash = 1;
     for (const char c : texture)
         hash = hash * 31 + uint8_t(c);
-    WorldPicture picture;
-    picture.width = 1 << (hash % 11);
-    picture.height = 1 << (hash / 11 % 11);
-    picture.missing = hash % 5 == 0;
-    picture.has_alpha = hash % 3 == 0;
+    FaceTexture found;
+    found.size = { 1 << (hash % 11), 1 << (hash / 11 % 11) };
+    found.missing = hash % 5 == 0;
     if (hash % 7 == 0)
-        picture.average = glm::vec3(0);
+        found.average = glm::vec3(0);
     if (hash % 2 == 0)
-        picture.parts = { { { 0.25f, 0.25f }, { 0.5f, 0.75f }, glm::vec3(1) },
+        found.parts = { { { 0.25f, 0.25f }, { 0.5f, 0.75f }, glm::vec3(1) },
             { { 0.75f, 0 }, { 1, 1 }, glm::vec3(1, 0.5f, 0) } };
-    return picture;
+    return found;
 }
 
 void check_lights(World& world)
@@ -39,7 +37,7 @@ void check_lights(World& world)
     const LightLists& lists = world.light_lists;
     for (const uint32_t index : lists.static_indices())
         fuzz::require(index < emitters.size(), "light lists hold emitters that there are");
-    const LightMultisets multisets = make_light_multisets(world.bsp, lists, emitters);
+    const LightMultisets multisets = make_light_multisets(world.bsp, world.faces, lists, emitters);
     for (const uint32_t index : multisets.entries)
         fuzz::require((index & ((1u << shared::LIGHT_COPIES_SHIFT) - 1)) < emitters.size(),
             "multisets hold emitters that there are");
@@ -87,7 +85,7 @@ void use_world(World& world)
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
 {
     try {
-        const auto world = load_world(fuzz::bytes_of(data, size), "maps/input.bsp", find_picture, {});
+        const auto world = load_world(fuzz::bytes_of(data, size), "maps/input.bsp", find_texture, {});
         use_world(*world);
     } catch (const formats::FormatError&) {
     }

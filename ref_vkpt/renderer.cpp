@@ -223,6 +223,7 @@ constexpr Command commands[] = {
     { "pt_info", [] { run_command(print_info); } },
     { "pt_trace_measure", [] { run_command([] { module() ? measure_trace_backends(*module()) : void(); }); } },
     { "pt_preset", [] { run_command([] { module() ? module()->preset.run() : void(); }); } },
+    { "pt_lights", [] { run_command([] { module() ? module()->light_inspector.run(*module()) : void(); }); } },
     { "pt_menu", [] { run_command([] { module() ? module()->overlay.toggle_menu() : void(); }); } },
     { "pt_photo", [] { run_command([] { module() ? run_photo_command(*module()) : void(); }); } },
     { "mat", [] { run_command([] { module() ? run_material_command(*module()) : void(); }); } },
@@ -380,6 +381,7 @@ void begin_registration(std::string_view map)
             view = {}; // gives its memory back
     m.view().begin_world({});
     m.gpu_world = {};
+    m.light_inspector.forget_map();
     m.sampler_choice.forget_world();
     m.frame.forget_world();
     fix_choices(m);
@@ -469,6 +471,7 @@ void begin_frame(float)
         fix_choices(m);
         upload_lightmaps_if_wanted(m);
         take_edited_shaders(m);
+        m.light_inspector.update(m);
     }
     if (m.view().snapshot && !m.graphics.is_recording() && m.frame.light_cache.wants_filling(m.gpu_world))
         m.frame.light_cache.fill(m.graphics, m.frame, m.view(), m.gpu_world);
@@ -572,7 +575,8 @@ static void print_speeds(const Module& m)
 static OverlayFacts overlay_facts(const Module& m)
 {
     return { m.graphics.size(), m.view().rendered_size, m.graphics.timer.frame_milliseconds(),
-        &m.graphics.timer.times(), &m.shader_reload.errors(), m.photo.describe(m.view().accumulated_frames) };
+        &m.graphics.timer.times(), &m.shader_reload.errors(), m.photo.describe(m.view().accumulated_frames),
+        m.light_inspector.describe() };
 }
 
 void end_frame()

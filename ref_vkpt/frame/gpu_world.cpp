@@ -9,7 +9,7 @@ SamplerTables make_sampler_tables(const World& world, uint32_t needs)
 {
     const LightLists& lists = world.light_lists;
     return make_sampler_tables(
-        { lists.lists(), lists.static_indices(), world.models[0].emitters, &world.bsp, &lists }, needs);
+        { lists.lists(), lists.static_indices(), world.models[0].emitters, &world.bsp, &lists, &world.faces }, needs);
 }
 
 shared::SamplerTableAddresses GpuWorld::sampler_tables() const

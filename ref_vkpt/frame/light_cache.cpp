@@ -32,8 +32,8 @@ void upload_guides(Graphics& graphics, const World& world, const std::vector<flo
     std::vector<shared::CacheValue> values(count);
     std::memcpy(values.data(), copy.mapped() + count * sizeof(shared::CacheValue), count * sizeof(shared::CacheValue));
     std::vector<glm::vec3> colours;
-    for (const WorldPicture& picture : world.pictures)
-        colours.push_back(picture.average);
+    for (const FaceTexture& texture : world.textures)
+        colours.push_back(texture.average);
     const LightCacheGuides guides
         = choose_guides({ world.bsp, world.light_cache, world.light_lists, lightstyles, colours }, values);
     engine::print_developer("light cache: {} cells of {} units with {} values, {} guides in {} entries of lists",

@@ -30,6 +30,29 @@ NoWorld make_no_world(size_t emitter_count)
     return result;
 }
 
+// What of the emitters and triangles stays the same from frame to frame.
+struct FixedPart {
+    const std::vector<shared::Emitter>& emitters;
+    const std::vector<shared::Triangle>& triangles;
+};
+
+FixedPart fixed_part(const SceneSnapshot& scene)
+{
+    static const std::vector<shared::Emitter> no_emitters;
+    static const std::vector<shared::Triangle> no_triangles;
+    if (!scene.world)
+        return { no_emitters, no_triangles };
+    if (scene.shown_lights)
+        return { scene.shown_lights->emitters, scene.shown_lights->triangles };
+    return { scene.world->models[0].emitters, scene.world->models[0].triangles };
+}
+
+// Another number for every map, and whenever lights of it are muted.
+uint64_t version_of_lights(const SceneSnapshot& scene, uint64_t map_version)
+{
+    return scene.shown_lights ? map_version + (uint64_t(scene.shown_lights->version) << 32) : map_version;
+}
+
 } // namespace
 
 SceneUpload::Kept::Kept(const Gpu& gpu, const Bindings& bindings)
@@ -96,10 +119,9 @@ void SceneUpload::record_copies(const Job& job)
 // The map's triangles, and room for what moves.
 MovingTarget SceneUpload::reserve_moving(const Job& job)
 {
-    static const std::vector<shared::Triangle> no_triangles;
     const MovingGeometry& moving = job.scene.moving;
-    const Upload triangles = job.kept.triangles.reserve(graphics_.slot(),
-        job.scene.world ? job.scene.world->models[0].triangles : no_triangles, job.version, moving.triangle_count());
+    const Upload triangles = job.kept.triangles.reserve(graphics_.slot(), fixed_part(job.scene).triangles,
+        version_of_lights(job.scene, job.version), moving.triangle_count());
     job.out.triangles = triangles.address;
     job.out.first_moving = UINT32_MAX;
     MovingTarget target;
@@ -116,8 +138,8 @@ MovingTarget SceneUpload::reserve_moving(const Job& job)
 
 void SceneUpload::fill_emitters(const Job& job)
 {
-    static const std::vector<shared::Emitter> no_emitters;
     const SceneSnapshot& scene = job.scene;
+    const uint64_t version = version_of_lights(scene, job.version);
     const uint32_t slot = graphics_.slot();
     const LightLists* lights = scene.world ? scene.light_lists : nullptr;
     const bool repeats = lights && lights->has_changed() && job.use.finds_reprojected;
@@ -125,8 +147,8 @@ void SceneUpload::fill_emitters(const Job& job)
     // Lights that have gone stay in the repeated lists: dark.
     const size_t count = std::max(
         scene.emitters.size(), repeats ? repeated.emitter_count - lights->static_emitter_count() : size_t(0));
-    const std::vector<shared::Emitter>& fixed = scene.world ? scene.world->models[0].emitters : no_emitters;
-    const Upload emitters = job.kept.emitters.reserve(slot, fixed, job.version, count);
+    const std::vector<shared::Emitter>& fixed = fixed_part(scene).emitters;
+    const Upload emitters = job.kept.emitters.reserve(slot, fixed, version, count);
     auto* const end = std::ranges::copy(scene.emitters, emitters.as<shared::Emitter>()).out;
     std::fill(end, emitters.as<shared::Emitter>() + count, shared::Emitter {});
     if (repeats) {
@@ -137,7 +159,7 @@ void SceneUpload::fill_emitters(const Job& job)
     job.out.emitters = emitters.address;
     job.out.lightstyles = uploads_.push(scene.lightstyles);
     job.out.packed_lights
-        = job.kept.packed_lights.write(slot, fixed, job.version, scene.emitters, count, scene.lightstyles);
+        = job.kept.packed_lights.write(slot, fixed, version, scene.emitters, count, scene.lightstyles);
 }
 
 void SceneUpload::bind_texels(const Job& job)

@@ -44,8 +44,7 @@ public:
     {
     }
     // Gives the emitters of a face with an animated picture their row.
-    void add(const formats::Bsp& bsp, size_t face, std::span<shared::Emitter> emitters, const AverageColour& colour,
-        const EmissionScales& scales);
+    void add(const EmissionSource& source, size_t face, std::span<shared::Emitter> emitters);
 
     bool has(uint32_t row) const { return row >= first_row_ && row - first_row_ < lights_.size(); }
     const AnimatedLight& at(uint32_t row) const { return lights_[row - first_row_]; }

@@ -12,7 +12,6 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
-#include <numeric>
 
 namespace vkpt {
 
@@ -58,32 +57,33 @@ glm::vec3 normalise_colour(glm::vec3 colour)
     return greatest > 0 ? colour / greatest : glm::vec3(0);
 }
 
-glm::vec3 average_radiance(const BspTexinfo& texinfo, const PictureColour& picture, const EmissionScales& scales)
+// The classic light compiler counts a missing texture as half as bright as any that is there.
+float strength_of(const FaceTexture& texture) { return texture.missing ? 0.5f : 1.0f; }
+
+glm::vec3 average_radiance(const BspTexinfo& texinfo, const FaceTexture& texture, const EmissionScales& scales)
 {
-    const glm::vec3 average = glm::max(picture.average, glm::vec3(0));
+    const glm::vec3 average = glm::max(texture.average, glm::vec3(0));
     if ((texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0)
-        return scales.face * float(texinfo.value) * picture.strength * normalise_colour(average);
+        return scales.face * float(texinfo.value) * strength_of(texture) * normalise_colour(average);
     return scales.sky * average;
 }
 
-// What the picture is multiplied by, so that the average over the picture is average_radiance.
-glm::vec3 emission_factor(const BspTexinfo& texinfo, const AverageColour& colour, const EmissionScales& scales)
+// What the texture is multiplied by, so that the average over it is average_radiance.
+glm::vec3 emission_factor(const BspTexinfo& texinfo, const FaceTexture& texture, const EmissionScales& scales)
 {
-    const PictureColour picture = colour(texinfo.texture);
-    if (is_glowing(texinfo, picture))
+    if (is_glowing(texinfo, texture))
         return glm::vec3(scales.glow);
-    if (classify(texinfo) != Emission::face)
+    if (!has_light_value(texinfo))
         return glm::vec3(0);
-    const float greatest = max_component(picture.average);
-    return greatest > 0 ? glm::vec3(scales.face * float(texinfo.value) * picture.strength / greatest) : glm::vec3(0);
+    const float greatest = max_component(texture.average);
+    return greatest > 0 ? glm::vec3(scales.face * float(texinfo.value) * strength_of(texture) / greatest)
+                        : glm::vec3(0);
 }
 
 // Where in the tree a face's front lies: leaves are numbered in tree order, so near numbers are near places.
 size_t find_leaf_before(const Bsp& bsp, size_t face)
 {
-    const std::vector<glm::vec3> outline = face_outline(bsp, face);
-    const glm::vec3 sum = std::accumulate(outline.begin(), outline.end(), glm::vec3(0));
-    return bsp.find_leaf(sum / std::max(1.0f, float(outline.size())) + bsp.face_normal(face), find_world_root(bsp));
+    return bsp.find_leaf(face_centre(bsp, face) + bsp.face_normal(face), find_world_root(bsp));
 }
 
 // A face or a point light, to be put in order.
@@ -106,21 +106,23 @@ bool has_light_before(const std::vector<shared::Emitter>& face, const std::vecto
     return false;
 }
 
-std::vector<Piece> collect_faces(const Bsp& bsp, const AverageColour& colour, const EmissionScales& scales,
-    const std::vector<shared::Emitter>& lights)
+std::vector<Piece> collect_faces(
+    const EmissionSource& source, FaceTriangles& faces, const std::vector<shared::Emitter>& lights)
 {
     constexpr uint64_t comparisons_per_step = 64;
+    const Bsp& bsp = source.bsp;
     std::vector<Piece> pieces;
     WorkLimit work = limit_of_pieces(bsp);
     const formats::BspModel& world = bsp.models[0];
-    for (int32_t i = 0; i < world.face_count; i++) {
-        const size_t face = size_t(world.first_face + i);
-        std::vector<shared::Emitter> emitters = emitters_of_face(bsp, face, colour, scales, work);
-        if (const BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
-            !emitters.empty() && is_glowing(texinfo, colour(texinfo.texture))) {
+    for (size_t face = size_t(world.first_face); face < size_t(world.first_face + world.face_count); face++) {
+        const uint32_t texinfo = bsp.faces[face].texinfo;
+        std::vector<shared::Emitter> emitters = emitters_of_face(source, face, faces.of(face));
+        if (!emitters.empty() && is_glowing(bsp.texinfos[texinfo], source.textures[texinfo])) {
             work.spend(emitters.size() * lights.size() / comparisons_per_step, "face", face);
-            if (has_light_before(emitters, lights))
+            if (has_light_before(emitters, lights)) {
+                number_emitters(faces.of(face), -1);
                 continue;
+            }
         }
         if (!emitters.empty())
             pieces.push_back({ find_leaf_before(bsp, face), int64_t(face), std::move(emitters) });
@@ -129,15 +131,16 @@ std::vector<Piece> collect_faces(const Bsp& bsp, const AverageColour& colour, co
 }
 
 // Names the textures that were meant to emit and do not.
-void report_unused(const Bsp& bsp, const AverageColour& colour, std::vector<std::string>& messages)
+void report_unused(const EmissionSource& source, std::vector<std::string>& messages)
 {
+    const Bsp& bsp = source.bsp;
     std::map<std::string, size_t> black, undrawn;
     for (const formats::BspFace& face : bsp.faces) {
         const BspTexinfo& texinfo = bsp.texinfos[face.texinfo];
         const bool meant = (texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0;
         if (meant && classify(texinfo) == Emission::none)
             undrawn[texinfo.texture]++;
-        else if (meant && !(max_component(colour(texinfo.texture).average) > 0))
+        else if (meant && !(max_component(source.textures[face.texinfo].average) > 0))
             black[texinfo.texture]++;
     }
     for (const auto& [texture, count] : undrawn)
@@ -150,28 +153,19 @@ void report_unused(const Bsp& bsp, const AverageColour& colour, std::vector<std:
 
 } // namespace
 
-bool is_glowing(const BspTexinfo& texinfo, const PictureColour& picture)
+bool is_glowing(const BspTexinfo& texinfo, const FaceTexture& texture)
 {
-    return picture.glows && !picture.parts.empty() && texinfo.next < 0 && classify(texinfo) == Emission::none
+    return texture.glows && !texture.parts.empty() && texinfo.next < 0 && classify(texinfo) == Emission::none
         && !(texinfo.flags & (formats::SURF_NODRAW | formats::SURF_WARP));
 }
 
-std::vector<FaceTriangle> triangles_of_face(const Bsp& bsp, size_t face, const PictureColour& picture, WorkLimit& work)
+bool has_light_value(const BspTexinfo& texinfo) { return classify(texinfo) == Emission::face; }
+
+void number_emitters(std::span<FaceTriangle> triangles, int first_emitter)
 {
-    const glm::vec3 normal = bsp.face_normal(face);
-    std::vector<FaceTriangle> triangles;
-    const auto append = [&](const std::vector<glm::vec3>& outline, int part) {
-        for (const auto& [a, b, c] : triangulate(outline, normal))
-            triangles.push_back({ { outline[a], outline[b], outline[c] }, part });
-    };
-    const BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
-    const bool shines = classify(texinfo) == Emission::face || is_glowing(texinfo, picture);
-    if (shines && texinfo.next < 0) // an animation's pictures shine in different places
-        for (const FacePiece& piece : cut_face(bsp, face, picture.parts, picture.size, work))
-            append(piece.outline, piece.part);
-    if (triangles.empty())
-        append(face_outline(bsp, face), FaceTriangle::whole);
-    return triangles;
+    for (FaceTriangle& triangle : triangles)
+        triangle.emitter
+            = first_emitter < 0 || triangle.part == FacePiece::dark ? shared::EMITTER_SAMPLED_APART : first_emitter++;
 }
 
 namespace {
@@ -181,7 +175,7 @@ float area_of(const FaceTriangle& t) { return triangle_area(t.corners[0], t.corn
 // What the parts' colours are multiplied by, so that together they send what the whole face would if it had its average
 // radiance.
 float scale_of_parts(
-    const std::vector<FaceTriangle>& triangles, const std::vector<BrightPart>& parts, glm::vec3 average_radiance)
+    std::span<const FaceTriangle> triangles, const std::vector<BrightPart>& parts, glm::vec3 average_radiance)
 {
     float of_face = 0, of_parts = 0;
     for (const FaceTriangle& t : triangles) {
@@ -203,17 +197,17 @@ uint32_t face_lightstyle(const formats::BspFace& face)
     return steady;
 }
 
-glm::vec3 frame_radiance(const Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales)
+glm::vec3 frame_radiance(const EmissionSource& source, uint32_t texinfo)
 {
-    const BspTexinfo& frame = bsp.texinfos[texinfo];
-    return classify(frame) == Emission::face ? average_radiance(frame, colour(frame.texture), scales) : glm::vec3(0);
+    const BspTexinfo& frame = source.bsp.texinfos[texinfo];
+    return has_light_value(frame) ? average_radiance(frame, source.textures[texinfo], source.scales) : glm::vec3(0);
 }
 
-glm::vec3 face_radiance(const Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales)
+glm::vec3 face_radiance(const EmissionSource& source, uint32_t texinfo)
 {
     glm::vec3 brightest(0);
-    for_each_frame(bsp, texinfo, [&](uint32_t frame) {
-        const glm::vec3 radiance = frame_radiance(bsp, frame, colour, scales);
+    for_each_frame(source.bsp, texinfo, [&](uint32_t frame) {
+        const glm::vec3 radiance = frame_radiance(source, frame);
         if (luminance(radiance) > luminance(brightest))
             brightest = radiance;
     });
@@ -221,18 +215,18 @@ glm::vec3 face_radiance(const Bsp& bsp, uint32_t texinfo, const AverageColour& c
 }
 
 std::vector<shared::Emitter> emitters_of_face(
-    const Bsp& bsp, size_t face, const AverageColour& colour, const EmissionScales& scales, WorkLimit& work)
+    const EmissionSource& source, size_t face, std::span<const FaceTriangle> triangles)
 {
-    const BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
+    const formats::BspFace& of_map = source.bsp.faces[face];
+    const BspTexinfo& texinfo = source.bsp.texinfos[of_map.texinfo];
+    const FaceTexture& texture = source.textures[of_map.texinfo];
     const bool is_sky = classify(texinfo) == Emission::sky;
-    const PictureColour picture = colour(texinfo.texture);
-    const glm::vec3 radiance = is_sky ? average_radiance(texinfo, picture, scales)
-                                      : face_radiance(bsp, bsp.faces[face].texinfo, colour, scales);
-    const bool glows = is_glowing(texinfo, picture);
+    const glm::vec3 radiance
+        = is_sky ? average_radiance(texinfo, texture, source.scales) : face_radiance(source, of_map.texinfo);
+    const bool glows = is_glowing(texinfo, texture);
     if (!(max_component(radiance) > 0) && !is_sky && !glows)
         return {};
-    const std::vector<FaceTriangle> triangles = triangles_of_face(bsp, face, picture, work);
-    const float scale = glows ? scales.glow : scale_of_parts(triangles, picture.parts, radiance);
+    const float scale = glows ? source.scales.glow : scale_of_parts(triangles, texture.parts, radiance);
     std::vector<shared::Emitter> emitters;
     for (const FaceTriangle& triangle : triangles) {
         if (triangle.part == FacePiece::dark || (glows && triangle.part == FaceTriangle::whole))
@@ -243,53 +237,42 @@ std::vector<shared::Emitter> emitters_of_face(
         emitter.p2 = triangle.corners[2];
         emitter.type = emitter_type(texinfo);
         emitter.area = area_of(triangle);
-        emitter.lightstyle = is_sky ? 0 : face_lightstyle(bsp.faces[face]);
+        emitter.lightstyle = is_sky ? 0 : face_lightstyle(of_map);
         emitter.radiance
-            = triangle.part == FaceTriangle::whole ? radiance : scale * picture.parts[size_t(triangle.part)].average;
+            = triangle.part == FaceTriangle::whole ? radiance : scale * texture.parts[size_t(triangle.part)].average;
         emitters.push_back(emitter);
     }
     return emitters;
 }
 
-StaticEmitters extract_emitters(const Bsp& bsp, const AverageColour& colour, const EmissionScales& scales)
+StaticEmitters extract_emitters(const EmissionSource& source, FaceTriangles& faces)
 {
+    const Bsp& bsp = source.bsp;
     StaticEmitters result;
     result.first_of_face.assign(bsp.faces.size(), -1);
     result.count_of_face.assign(bsp.faces.size(), 0);
-    for (const BspTexinfo& texinfo : bsp.texinfos)
-        result.face_emission.push_back(emission_factor(texinfo, colour, scales));
+    for (size_t i = 0; i < bsp.texinfos.size(); i++)
+        result.face_emission.push_back(emission_factor(bsp.texinfos[i], source.textures[i], source.scales));
 
     std::vector<Piece> pieces;
-    const std::vector<shared::Emitter> lights = extract_point_lights(bsp, scales, result.messages);
+    const std::vector<shared::Emitter> lights = extract_point_lights(bsp, source.scales, result.messages);
     if (!bsp.models.empty())
-        pieces = collect_faces(bsp, colour, scales, lights);
+        pieces = collect_faces(source, faces, lights);
     for (const shared::Emitter& light : lights)
         pieces.push_back({ bsp.find_leaf(light.p0, find_world_root(bsp)), -1, { light } });
     std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.leaf < b.leaf; });
 
     for (const Piece& piece : pieces) {
         if (piece.face >= 0) {
-            result.first_of_face[size_t(piece.face)] = int32_t(result.emitters.size());
-            result.count_of_face[size_t(piece.face)] = uint32_t(piece.emitters.size());
+            const size_t face = size_t(piece.face);
+            result.first_of_face[face] = int32_t(result.emitters.size());
+            result.count_of_face[face] = uint32_t(piece.emitters.size());
+            number_emitters(faces.of(face), result.first_of_face[face]);
         }
         result.emitters.insert(result.emitters.end(), piece.emitters.begin(), piece.emitters.end());
     }
-    report_unused(bsp, colour, result.messages);
+    report_unused(source, result.messages);
     return result;
-}
-
-std::vector<shared::Emitter> emitters_of_brush_model(
-    const Bsp& bsp, size_t model, const AverageColour& colour, const EmissionScales& scales)
-{
-    std::vector<shared::Emitter> emitters;
-    WorkLimit work = limit_of_pieces(bsp);
-    const formats::BspModel& source = bsp.models[model];
-    for (int32_t i = 0; i < source.face_count; i++) {
-        const std::vector<shared::Emitter> of_face
-            = emitters_of_face(bsp, size_t(source.first_face + i), colour, scales, work);
-        emitters.insert(emitters.end(), of_face.begin(), of_face.end());
-    }
-    return emitters;
 }
 
 shared::Emitter make_dynamic_light(glm::vec3 origin, glm::vec3 colour, float intensity, float radius)

@@ -3,12 +3,11 @@
 #pragma once
 
 #include "formats/bsp.hpp"
-#include "ref_vkpt/lights/face_pieces.hpp"
+#include "ref_vkpt/lights/face_triangles.hpp"
 #include "shaders/shared/scene.h"
 
-#include <array>
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,79 +35,45 @@ struct EmissionScales {
     float point_light_radius = 4; // of the spheres that stand for point lights, units; less where walls are nearer
 };
 
-// What a picture lends to the light that its surface emits.
-struct PictureColour {
-    PictureColour(glm::vec3 average_, float strength_ = 1)
-        : average(average_)
-        , strength(strength_)
-    {
-    }
-    glm::vec3 average; // linear RGB 0..1
-    float strength; // of the light: missing_picture_strength where `average` is that of a stand-in
-    std::vector<BrightPart> parts; // where it shines; none: all over
-    glm::ivec2 size { 64 }; // texels of texinfo space
-    bool glows = false; // its parts shine on faces without a light value, too
+// What emission depends on.
+struct EmissionSource {
+    const formats::Bsp& bsp;
+    std::span<const FaceTexture> textures; // per texinfo
+    EmissionScales scales {};
 };
-// The classic light compiler counts a missing picture as half as bright as any that is there.
-inline constexpr float missing_picture_strength = 0.5f;
-// Asked for by texinfo texture name.
-using AverageColour = std::function<PictureColour(const std::string& texture)>;
 
 struct StaticEmitters {
     // Spatially coherent: in the order of BSP leaves, so that strided subsets are representative.
     std::vector<shared::Emitter> emitters;
     // Where the shining triangles of face f went: emitters[first_of_face[f] .. first_of_face[f] + count_of_face[f]), in
-    // the order of triangles_of_face; -1: none.
+    // the order of its triangles; -1: none.
     std::vector<int32_t> first_of_face;
     std::vector<uint32_t> count_of_face;
     std::vector<glm::vec3> face_emission; // what Material::emission has to be for that face's texinfo (per texinfo)
     std::vector<std::string> messages; // what could not be used, by name
 };
 
-// A face's outline where it is drawn, used for geometry and emitters alike: Bsp::face_polygon, but for liquids that
-// stand `liquid_lift` in front of their plane. The surface of a liquid is two faces in one plane that look away from
-// each other; apart, a ray meets the one whose front it sees, and no chance of rounding decides which. Less than the
-// distance from which rays leave a surface (offset_ray_origin in shaders/lib/surfaces.glsl): what passes one of the two
-// has passed both.
-inline constexpr float liquid_lift = 1.0f / 128;
-std::vector<glm::vec3> face_outline(const formats::Bsp& bsp, size_t face);
-
-// Cuts a convex outline: indices into it, front as in Triangle, `normal` being the face's. All corners are used, also
-// those on straight edges (neighbours may end there), as far as triangles with an area allow it. Slivers of zero area
-// are left out.
-std::vector<std::array<uint32_t, 3>> triangulate(const std::vector<glm::vec3>& outline, glm::vec3 normal);
-
-// Every face's triangles, used for geometry and emitters alike. Where the face emits and its picture has bright parts,
-// those emit all of the face's light, in their colours. `work`: see cut_face.
-struct FaceTriangle {
-    static constexpr int whole = -2; // the face is in one piece
-    std::array<glm::vec3, 3> corners;
-    int part; // whose light: an index of the picture's parts, FacePiece::dark or `whole`
-};
-std::vector<FaceTriangle> triangles_of_face(
-    const formats::Bsp& bsp, size_t face, const PictureColour& picture, WorkLimit& work);
-
-// Emitters of the world model (faces of models[0], and entities). Brush models: emitters_of_brush_model, model space.
+// Emitters of the world model (faces of models[0], and entities), and which triangle is which emitter.
 // Throws formats::FormatError where that takes far more work than a map of its size may.
-StaticEmitters extract_emitters(const formats::Bsp& bsp, const AverageColour& colour, const EmissionScales& scales);
-std::vector<shared::Emitter> emitters_of_brush_model(
-    const formats::Bsp& bsp, size_t model, const AverageColour& colour, const EmissionScales& scales);
+StaticEmitters extract_emitters(const EmissionSource& source, FaceTriangles& faces);
 
-// Whether a face without a light value shines where its picture's bright parts are.
-bool is_glowing(const formats::BspTexinfo& texinfo, const PictureColour& picture);
+// The shining triangles of one face as emitters, in the order of its triangles; empty: the face emits nothing.
+std::vector<shared::Emitter> emitters_of_face(
+    const EmissionSource& source, size_t face, std::span<const FaceTriangle> triangles);
+// Their place among the emitters of the face's model: -1: another light sends what the face is seen to send.
+void number_emitters(std::span<FaceTriangle> triangles, int first_emitter);
+
+// SURF_LIGHT with a value, and drawn.
+bool has_light_value(const formats::BspTexinfo& texinfo);
+// Whether a face without a light value shines where its texture's bright parts are.
+bool is_glowing(const formats::BspTexinfo& texinfo, const FaceTexture& texture);
 
 // What a switched or flickering lamp goes with: the face's first lightstyle that is not the steady one. 0: none is.
 uint32_t face_lightstyle(const formats::BspFace& face);
 
 // Average radiance of a SURF_LIGHT texinfo's front, 0 of others; of an animation's frame that is brightest.
-glm::vec3 frame_radiance(
-    const formats::Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales);
-glm::vec3 face_radiance(
-    const formats::Bsp& bsp, uint32_t texinfo, const AverageColour& colour, const EmissionScales& scales);
-
-// The shining triangles of one face as emitters, in the order of triangles_of_face; empty: the face emits nothing.
-std::vector<shared::Emitter> emitters_of_face(
-    const formats::Bsp& bsp, size_t face, const AverageColour& colour, const EmissionScales& scales, WorkLimit& work);
+glm::vec3 frame_radiance(const EmissionSource& source, uint32_t texinfo);
+glm::vec3 face_radiance(const EmissionSource& source, uint32_t texinfo);
 
 // The engine's dynamic light: it adds colour * (intensity - distance), in lightmap units, to what is nearer than
 // `intensity`. The sphere's inverse-square light, faded to nothing there, equals that at half the distance. Negative

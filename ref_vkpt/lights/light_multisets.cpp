@@ -60,18 +60,14 @@ bool holds(const Bounds& bounds, glm::vec3 p)
 // The lit faces of a cluster as triangles to draw points from.
 class ClusterFaces {
 public:
-    void add(const formats::Bsp& bsp, size_t face)
+    void add(const formats::Bsp& bsp, size_t face, std::span<const FaceTriangle> triangles)
     {
         if (bsp.texinfos[bsp.faces[face].texinfo].flags & (formats::SURF_SKY | formats::SURF_NODRAW))
             return;
-        const std::vector<glm::vec3> outline = bsp.face_polygon(face);
-        for (size_t i = 2; i < outline.size(); i++) {
-            const glm::vec3 a = outline[0], b = outline[i - 1], c = outline[i];
-            const float area = glm::length(glm::cross(b - a, c - a));
-            if (!(area > 0))
-                continue;
+        for (const FaceTriangle& triangle : triangles) {
+            const auto& [a, b, c] = triangle.corners;
             triangles_.push_back({ a, b, c, bsp.face_normal(face) });
-            areas_.push_back((areas_.empty() ? 0 : areas_.back()) + area);
+            areas_.push_back((areas_.empty() ? 0 : areas_.back()) + triangle_area(a, b, c));
         }
     }
 
@@ -115,13 +111,15 @@ std::vector<std::vector<uint32_t>> collect_leaves(const formats::Bsp& bsp, size_
     return clusters;
 }
 
-ClusterFaces collect_faces(const formats::Bsp& bsp, const std::vector<uint32_t>& leaves)
+ClusterFaces collect_faces(const formats::Bsp& bsp, const FaceTriangles& all, const std::vector<uint32_t>& leaves)
 {
     ClusterFaces faces;
     for (const uint32_t index : leaves) {
         const formats::BspLeaf& leaf = bsp.leaves[index];
-        for (size_t i = 0; i < leaf.leaf_face_count; i++)
-            faces.add(bsp, bsp.leaf_faces[leaf.first_leaf_face + i]);
+        for (size_t i = 0; i < leaf.leaf_face_count; i++) {
+            const size_t face = bsp.leaf_faces[leaf.first_leaf_face + i];
+            faces.add(bsp, face, all.of(face));
+        }
     }
     return faces;
 }
@@ -158,8 +156,8 @@ uint32_t round_to_exponent(float copies)
 
 } // namespace
 
-LightMultisets make_light_multisets(
-    const formats::Bsp& bsp, const LightLists& lists, std::span<const Emitter> static_emitters)
+LightMultisets make_light_multisets(const formats::Bsp& bsp, const FaceTriangles& faces, const LightLists& lists,
+    std::span<const Emitter> static_emitters)
 {
     LightMultisets result;
     result.entries = lists.static_indices();
@@ -182,8 +180,8 @@ LightMultisets make_light_multisets(
         for (const uint32_t index : indices)
             listed.push_back(sources[index]);
         const Bounds bounds = lists.cluster_bounds(cluster);
-        const ClusterFaces faces = collect_faces(bsp, leaves[cluster]); // one cluster's at a time: they are large
-        const std::vector<float> sizes = measure_sizes(listed, faces.draw(bounds, points, rng), bounds);
+        const ClusterFaces lit = collect_faces(bsp, faces, leaves[cluster]); // one cluster's at a time: they are large
+        const std::vector<float> sizes = measure_sizes(listed, lit.draw(bounds, points, rng), bounds);
         float total = 0;
         for (const float size : sizes)
             total += size;
@@ -203,7 +201,7 @@ void add_light_multisets(const SamplerTableSource& source, SamplerTables& tables
 {
     if (!source.bsp)
         return;
-    LightMultisets multisets = make_light_multisets(*source.bsp, *source.light_lists, source.emitters);
+    LightMultisets multisets = make_light_multisets(*source.bsp, *source.faces, *source.light_lists, source.emitters);
     tables.multisets = std::move(multisets.ranges);
     tables.indices = std::move(multisets.entries);
 }

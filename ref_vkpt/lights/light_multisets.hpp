@@ -5,6 +5,7 @@
 #pragma once
 
 #include "formats/bsp.hpp"
+#include "ref_vkpt/lights/face_triangles.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "shaders/shared/scene.h"
 
@@ -24,7 +25,7 @@ struct LightMultisets {
 // a second moment of sum s^2 / q, so that q, the root of the mean square of s over the points, makes it least on
 // average. A little is added for what a light may have at its nearest place in the cluster, where no point may lie, and
 // every light is there at least once.
-LightMultisets make_light_multisets(
-    const formats::Bsp& bsp, const LightLists& lists, std::span<const shared::Emitter> static_emitters);
+LightMultisets make_light_multisets(const formats::Bsp& bsp, const FaceTriangles& faces, const LightLists& lists,
+    std::span<const shared::Emitter> static_emitters);
 
 } // namespace vkpt

@@ -6,6 +6,7 @@ add_library(vkpt_lights STATIC
     ${CMAKE_CURRENT_LIST_DIR}/dynamic_lights.cpp
     ${CMAKE_CURRENT_LIST_DIR}/emitters.cpp
     ${CMAKE_CURRENT_LIST_DIR}/face_pieces.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/face_triangles.cpp
     ${CMAKE_CURRENT_LIST_DIR}/guides.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_aim.cpp
     ${CMAKE_CURRENT_LIST_DIR}/light_entities.cpp

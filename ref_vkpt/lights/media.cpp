@@ -2,12 +2,12 @@
 #include "ref_vkpt/lights/media.hpp"
 
 #include "ref_vkpt/lights/cluster_finder.hpp"
+#include "ref_vkpt/lights/face_triangles.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <glm/common.hpp>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -63,10 +63,7 @@ uint32_t medium_of_face(const Bsp& bsp, size_t face, size_t model)
     const formats::BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
     if (!(texinfo.flags & formats::SURF_WARP))
         return shared::MEDIUM_NONE;
-    const std::vector<glm::vec3> outline = bsp.face_polygon(face);
-    const glm::vec3 normal = bsp.face_normal(face),
-                    centre
-        = std::accumulate(outline.begin(), outline.end(), glm::vec3(0)) / std::max(1.0f, float(outline.size()));
+    const glm::vec3 normal = bsp.face_normal(face), centre = face_centre(bsp, face);
     const uint32_t before = medium_at(bsp, centre + normal * beside_face, model),
                    behind = medium_at(bsp, centre - normal * beside_face, model);
     if (before != shared::MEDIUM_NONE && behind == shared::MEDIUM_NONE)

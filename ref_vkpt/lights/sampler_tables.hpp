@@ -2,6 +2,7 @@
 // What some light samplers read beside the light lists (shaders/shared/sampler_tables.def).
 #pragma once
 
+#include "ref_vkpt/lights/face_triangles.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "shaders/shared/light_sampler.h"
 #include "shaders/shared/scene.h"
@@ -20,6 +21,7 @@ struct SamplerTableSource {
     // nullptr: lists without a map. Then no table is made that has to know where clusters are.
     const formats::Bsp* bsp = nullptr;
     const LightLists* light_lists = nullptr;
+    const FaceTriangles* faces = nullptr;
 };
 
 namespace sampler_table_rows {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Cuts convex face outlines into triangles. Outlines carry corners on straight edges, where a neighbour's corner lies;
 // a plain fan would lose those and leave pinholes, so we search for the cut whose flattest triangle is the least flat.
-#include "ref_vkpt/lights/emitters.hpp"
+#include "ref_vkpt/lights/face_triangles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -77,15 +77,6 @@ private:
 };
 
 } // namespace
-
-std::vector<glm::vec3> face_outline(const formats::Bsp& bsp, size_t face)
-{
-    std::vector<glm::vec3> outline = bsp.face_polygon(face);
-    if (bsp.texinfos[bsp.faces[face].texinfo].flags & formats::SURF_WARP)
-        for (glm::vec3& corner : outline)
-            corner += bsp.face_normal(face) * liquid_lift;
-    return outline;
-}
 
 Triangles triangulate(const std::vector<glm::vec3>& outline, glm::vec3 normal)
 {

@@ -69,7 +69,7 @@ void Overlay::draw(Draw2d& draw2d, const OverlayFacts& facts)
     else if (!facts.shader_errors->empty())
         draw_panel(draw2d, facts.window, PanelSide::left, describe_shader_errors(*facts.shader_errors));
     else
-        draw_panel(draw2d, facts.window, PanelSide::left, facts.photo);
+        draw_panel(draw2d, facts.window, PanelSide::left, facts.photo.empty() ? facts.lights : facts.photo);
 }
 
 } // namespace vkpt

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What this renderer draws over the game's own picture: pt_show_times, pt_menu, and errors in shaders that are edited.
+// What this renderer draws over the game's own picture: pt_show_times, pt_menu, pt_show_lights, and errors in shaders
+// that are edited.
 #pragma once
 
 #include "ref_vkpt/overlay/settings_menu.hpp"
@@ -16,6 +17,7 @@ struct OverlayFacts {
     const std::vector<PassTime>* passes;
     const std::vector<std::string>* shader_errors; // see ShaderReload
     std::vector<PanelLine> photo; // photo mode's panel
+    std::vector<PanelLine> lights; // pt_show_lights
 };
 
 class Overlay {

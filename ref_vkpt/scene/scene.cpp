@@ -132,10 +132,10 @@ shared::Emitter make_flashlight(const engine::RefDef& refdef)
     return emitter;
 }
 
-WorldPicture describe(const Texture& texture)
+FaceTexture describe(const Texture& texture)
 {
-    return { texture.slot, texture.packed_size, texture.width, texture.height, texture.average, texture.has_alpha,
-        texture.missing, texture.parts, false };
+    return { texture.slot, texture.packed_size, { texture.width, texture.height }, texture.average, texture.missing,
+        texture.parts, false };
 }
 
 } // namespace
@@ -152,6 +152,7 @@ void Scene::begin_registration(std::string_view map)
     textures_.begin_registration();
     // Not two maps in memory at once, and none where the new one cannot be read. Its brush models go with it: the next
     // map's number 5 is another one, or none.
+    map_lights_.reset();
     world_ = nullptr;
     for (Model& model : models_)
         if (std::holds_alternative<Model::Brush>(model.shape))
@@ -164,11 +165,11 @@ void Scene::begin_registration(std::string_view map)
     load_materials(map);
     EmissionScales scales;
     scales.point_light_radius = cvars::values().pt_point_light_radius;
-    const FindWorldPicture find = [&](const std::string& name) {
+    const FindFaceTexture find = [&](const std::string& name) {
         const Texture& texture = *textures_.find(name, TextureUse::wall);
-        WorldPicture picture = describe(texture);
-        picture.glows = is_glowing(texture, materials_.find(texture.material));
-        return picture;
+        FaceTexture described = describe(texture);
+        described.glows = is_glowing(texture, materials_.find(texture.material));
+        return described;
     };
     world_ = load_world(file->bytes(), path, find, scales, load_more_entities(map));
     for (const std::string& message : world_->messages)
@@ -433,6 +434,13 @@ std::vector<Sun> Scene::find_suns_of_moment(const shared::Sky& sky) const
     return suns;
 }
 
+MapLights& Scene::map_lights()
+{
+    if (!map_lights_)
+        map_lights_.emplace(*world_);
+    return *map_lights_;
+}
+
 SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef, ViewLights& lights, const engine::RefDef* player)
 {
     const CvarValues& cvars = cvars::values();
@@ -449,6 +457,8 @@ SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef, ViewLights& lig
     const MaterialDefaults defaults { cvars.pt_roughness_default, cvars.pt_metallic_default, &materials_ };
     if (!(refdef.flags & engine::RDF_NOWORLDMODEL) && world_) {
         snapshot.world = world_.get();
+        if (map_lights_)
+            snapshot.shown_lights = map_lights_->shown();
         snapshot.has_alpha_test = world_->models[0].has_alpha_test;
         snapshot.moving = MovingGeometry(uint32_t(world_->models[0].triangles.size()));
         snapshot.materials = world_->make_materials(refdef.time, defaults);

@@ -62,6 +62,9 @@ public:
     const std::string& map_path() const { return map_path_; } // "maps/NAME.bsp"
     const World* world() const { return world_.get(); }
 
+    // Of the map, which there has to be.
+    MapLights& map_lights();
+
     MaterialLibrary& materials() { return materials_; }
     const MaterialLibrary& materials() const { return materials_; }
 
@@ -99,6 +102,7 @@ private:
     TextureStore& textures_;
     std::string map_path_;
     std::unique_ptr<World> world_;
+    std::optional<MapLights> map_lights_; // of world_; made when first asked for
     // The engine sorts entities by model pointer: handing out ascending addresses makes runs alike.
     std::vector<Model> models_; // never reallocated
     uint32_t registration_ = 0;

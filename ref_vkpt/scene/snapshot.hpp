@@ -2,6 +2,7 @@
 // Everything that one 3D view shows and that may differ in the next one. CPU side.
 #pragma once
 
+#include "ref_vkpt/scene/map_lights.hpp"
 #include "ref_vkpt/scene/moving_geometry.hpp"
 #include "ref_vkpt/scene/world.hpp"
 #include "shaders/shared/frame.h"
@@ -22,6 +23,7 @@ struct MovingThing {
 
 struct SceneSnapshot {
     const World* world = nullptr; // nullptr: models alone (menus)
+    std::shared_ptr<const ShownLights> shown_lights; // instead of the world's own; nullptr: none of them is muted
     const LightLists* light_lists = nullptr; // of the view, where there is a world: as they are with these emitters
     // What moves: ids continue after the world's triangles, emitters after the world's emitters, materials after the
     // world's.

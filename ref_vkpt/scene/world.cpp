@@ -22,7 +22,6 @@ namespace {
 using namespace formats;
 
 constexpr int several_clusters = -2;
-constexpr uint64_t max_triangles = 300'000; // per megabyte of the map; faces of many corners make 220,000
 
 // The PVS cluster of each face that lies in one alone; else several_clusters.
 std::vector<int> find_face_clusters(const Bsp& bsp)
@@ -35,11 +34,6 @@ std::vector<int> find_face_clusters(const Bsp& bsp)
             cluster = cluster == none || cluster == leaf.cluster ? leaf.cluster : several_clusters;
         }
     return clusters;
-}
-
-bool is_drawn(const BspTexinfo& texinfo)
-{
-    return (texinfo.flags & (SURF_NODRAW | SURF_SKIP | SURF_HINT)) == 0 || (texinfo.flags & SURF_SKY) != 0;
 }
 
 bool is_translucent(const BspTexinfo& texinfo) { return (texinfo.flags & (SURF_TRANS33 | SURF_TRANS66)) != 0; }
@@ -62,58 +56,30 @@ bool has_holes(const Bsp& bsp, uint32_t texinfo)
     return holes;
 }
 
-struct FaceContext {
-    const Bsp& bsp;
-    const std::vector<WorldPicture>& pictures;
-    const std::vector<int>& face_clusters;
-    WorkLimit& pieces;
-    WorkLimit& triangles;
-    size_t model; // 0: the world
-};
-
-PictureColour colour_of(const WorldPicture& picture)
+// `cluster`: the PVS cluster of the face, or -1.
+void append_face(MapGeometry& geometry, const World& world, size_t face, size_t model, int cluster)
 {
-    PictureColour colour(picture.average, picture.missing ? missing_picture_strength : 1.0f);
-    colour.parts = picture.parts;
-    colour.glows = picture.glows;
-    colour.size = { picture.width, picture.height };
-    return colour;
-}
-
-// `first_emitter`: where this face's emitters start in the model's list, -1: it has none.
-void append_face(MapGeometry& geometry, const FaceContext& context, size_t face, int first_emitter)
-{
-    const Bsp& bsp = context.bsp;
+    const Bsp& bsp = world.bsp;
     const uint32_t texinfo_index = bsp.faces[face].texinfo;
     const BspTexinfo& texinfo = bsp.texinfos[texinfo_index];
-    const WorldPicture& picture = context.pictures[texinfo_index];
+    const FaceTexture& texture = world.textures[texinfo_index];
     const uint32_t normal = encode_octahedral(bsp.face_normal(face));
     const uint8_t holes = has_holes(bsp, texinfo_index) ? 1 : 0;
-    const PictureColour colour = colour_of(picture);
-    const bool glows = is_glowing(texinfo, colour);
-    const uint32_t medium = medium_of_face(bsp, face, context.model);
-    const std::vector<FaceTriangle> parts = triangles_of_face(bsp, face, colour, context.pieces);
-    context.triangles.spend(parts.size(), "face", face);
-    for (const FaceTriangle& part : parts) {
+    const bool glows = is_glowing(texinfo, texture);
+    const uint32_t medium = medium_of_face(bsp, face, model);
+    for (const FaceTriangle& part : world.faces.of(face)) {
         shared::Triangle triangle {};
         for (int i = 0; i < 3; i++) {
             triangle.positions[i] = part.corners[size_t(i)];
-            triangle.uvs[i]
-                = bsp.texture_coordinates(texinfo, triangle.positions[i]) / glm::vec2(picture.width, picture.height);
+            triangle.uvs[i] = bsp.texture_coordinates(texinfo, triangle.positions[i]) / glm::vec2(texture.size);
             triangle.normals[i] = normal;
         }
+        const bool is_dark = glows && part.part < 0;
         triangle.material = texinfo_index;
-        triangle.emitter = shared::EMITTER_UNLISTED;
-        triangle.lightstyle = face_lightstyle(bsp.faces[face]);
-        if (glows && part.part < 0)
-            triangle.lightstyle = lightstyle_none;
-        else if (first_emitter >= 0)
-            triangle.emitter = part.part == FacePiece::dark ? shared::EMITTER_SAMPLED_APART : first_emitter++;
-        else if (glows)
-            triangle.emitter = shared::EMITTER_SAMPLED_APART; // a light entity sends its light
-        const bool is_world = context.model == 0;
-        triangle.cluster = is_world ? std::max(context.face_clusters[face], -1) : -1;
-        triangle.cache_face = is_world ? uint32_t(face) + 1 : 0;
+        triangle.emitter = is_dark ? shared::EMITTER_UNLISTED : part.emitter;
+        triangle.lightstyle = is_dark ? lightstyle_none : face_lightstyle(bsp.faces[face]);
+        triangle.cluster = cluster;
+        triangle.cache_face = model == 0 ? uint32_t(face) + 1 : 0;
         triangle.medium = medium;
         geometry.triangles.push_back(triangle);
         geometry.masks.push_back(triangle_mask(texinfo));
@@ -136,33 +102,35 @@ void find_filter_boxes(MapGeometry& geometry)
     }
 }
 
-MapGeometry make_world_geometry(const FaceContext& context, StaticEmitters emitters)
+MapGeometry make_world_geometry(const World& world, std::vector<shared::Emitter> emitters)
 {
     MapGeometry geometry;
-    const BspModel& model = context.bsp.models[0];
+    const std::vector<int> clusters = find_face_clusters(world.bsp);
+    const BspModel& model = world.bsp.models[0];
     for (size_t face = size_t(model.first_face); face < size_t(model.first_face + model.face_count); face++)
-        if (is_drawn(context.bsp.texinfos[context.bsp.faces[face].texinfo]))
-            append_face(geometry, context, face, emitters.first_of_face[face]);
-    geometry.filter_boxes = find_liquid_boxes(context.bsp);
+        if (is_drawn(world.bsp.texinfos[world.bsp.faces[face].texinfo]))
+            append_face(geometry, world, face, 0, std::max(clusters[face], -1));
+    geometry.filter_boxes = find_liquid_boxes(world.bsp);
     find_filter_boxes(geometry);
-    geometry.emitters = std::move(emitters.emitters);
+    geometry.emitters = std::move(emitters);
     for (shared::Emitter& emitter : geometry.emitters)
         if (emitter.type == shared::EMITTER_SKY)
             emitter.lightstyle = lightstyle_sky;
     return geometry;
 }
 
-MapGeometry make_brush_geometry(const FaceContext& context, size_t index, const AverageColour& colour,
-    const EmissionScales& scales, AnimatedLights& animated)
+MapGeometry make_brush_geometry(World& world, size_t index, const EmissionSource& source)
 {
     MapGeometry geometry;
-    const BspModel& model = context.bsp.models[index];
+    const BspModel& model = world.bsp.models[index];
     for (size_t face = size_t(model.first_face); face < size_t(model.first_face + model.face_count); face++) {
-        if (!is_drawn(context.bsp.texinfos[context.bsp.faces[face].texinfo]))
+        if (!is_drawn(world.bsp.texinfos[world.bsp.faces[face].texinfo]))
             continue;
-        std::vector<shared::Emitter> emitters = emitters_of_face(context.bsp, face, colour, scales, context.pieces);
-        animated.add(context.bsp, face, emitters, colour, scales);
-        append_face(geometry, context, face, emitters.empty() ? -1 : int(geometry.emitters.size()));
+        std::vector<shared::Emitter> emitters = emitters_of_face(source, face, world.faces.of(face));
+        world.animated_lights.add(source, face, emitters);
+        if (!emitters.empty())
+            number_emitters(world.faces.of(face), int(geometry.emitters.size()));
+        append_face(geometry, world, face, index, -1);
         geometry.emitters.insert(geometry.emitters.end(), emitters.begin(), emitters.end());
     }
     find_filter_boxes(geometry);
@@ -183,6 +151,39 @@ float find_lit_sky_luminance(const Bsp& bsp, const StaticEmitters& emitters)
         }
     }
     return area > 0 ? power / area : 0;
+}
+
+// Each name's texture is asked for once.
+std::vector<FaceTexture> find_textures(const Bsp& bsp, const FindFaceTexture& find_texture)
+{
+    std::map<std::string, FaceTexture> by_name;
+    std::vector<FaceTexture> textures(bsp.texinfos.size());
+    for (size_t i = 0; i < textures.size(); i++) {
+        const BspTexinfo& texinfo = bsp.texinfos[i];
+        if (!is_drawn(texinfo) || (texinfo.flags & SURF_SKY))
+            continue;
+        const auto [entry, is_new] = by_name.try_emplace(texinfo.texture);
+        if (is_new)
+            entry->second = find_texture(texinfo.texture);
+        textures[i] = entry->second;
+    }
+    return textures;
+}
+
+// The emitters of the world model; those of animated textures have their rows.
+StaticEmitters find_world_emitters(World& world, const EmissionSource& source)
+{
+    StaticEmitters emitters = extract_emitters(source, world.faces);
+    for (size_t face = 0; face < world.bsp.faces.size(); face++)
+        if (emitters.first_of_face[face] >= 0)
+            world.animated_lights.add(source, face,
+                std::span(emitters.emitters)
+                    .subspan(size_t(emitters.first_of_face[face]), emitters.count_of_face[face]));
+    world.emission = emitters.face_emission;
+    world.messages.insert(world.messages.end(), emitters.messages.begin(), emitters.messages.end());
+    // Under a sun, the light value of a sky face only says that sunlight comes from there.
+    world.lit_sky_luminance = world.suns.empty() ? find_lit_sky_luminance(world.bsp, emitters) : 0;
+    return emitters;
 }
 
 Bvh build_world_bvh(const MapGeometry& geometry)
@@ -223,8 +224,8 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
         material.emission = emission[i];
         material.roughness = surface.roughness;
         material.metallic = surface.metallic;
-        material.texture = pictures[i].slot;
-        material.texture_size = pictures[i].packed_size;
+        material.texture = textures[i].slot;
+        material.texture_size = textures[i].packed_size;
         material.flags = (texinfo.flags & SURF_SKY ? shared::MATERIAL_SKY : 0)
             | (texinfo.flags & SURF_WARP ? shared::MATERIAL_WARP : 0)
             | (is_translucent(texinfo) ? shared::MATERIAL_TRANSLUCENT : 0)
@@ -250,7 +251,7 @@ uint32_t World::animation_frame(uint32_t texinfo, int frame) const
     return count + texinfo;
 }
 
-std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture,
+std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, const FindFaceTexture& find_texture,
     const EmissionScales& scales, std::string_view more_entities)
 {
     // In place from the start: the light lists keep a pointer to the map.
@@ -264,45 +265,19 @@ std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, 
     world.bsp.entity_text += more_entities;
     world.media = find_texinfo_media(world.bsp);
     light_lava(world.bsp, world.media);
-    std::vector<std::string> messages;
-    const std::vector<EntityText> entities = read_entities(world.bsp, messages);
+    const std::vector<EntityText> entities = read_entities(world.bsp, world.messages);
     world.suns = find_suns(entities);
-    world.fog_boxes = find_fog_boxes(entities, world.bsp.name, messages);
+    world.fog_boxes = find_fog_boxes(entities, world.bsp.name, world.messages);
 
-    std::map<std::string, WorldPicture> by_name;
-    for (const BspTexinfo& texinfo : world.bsp.texinfos) {
-        auto [entry, is_new] = by_name.try_emplace(texinfo.texture);
-        if (is_new && is_drawn(texinfo) && !(texinfo.flags & SURF_SKY))
-            entry->second = find_picture(texinfo.texture);
-        world.pictures.push_back(entry->second);
+    world.textures = find_textures(world.bsp, find_texture);
+    for (const BspTexinfo& texinfo : world.bsp.texinfos)
         world.material_names.push_back(material_name(texinfo.texture));
-    }
-    const AverageColour colour = [&](const std::string& texture) -> PictureColour {
-        const auto entry = by_name.find(texture);
-        return colour_of(entry != by_name.end() ? entry->second : WorldPicture());
-    };
-    StaticEmitters emitters = extract_emitters(world.bsp, colour, scales);
-    for (size_t face = 0; face < world.bsp.faces.size(); face++)
-        if (emitters.first_of_face[face] >= 0)
-            world.animated_lights.add(world.bsp, face,
-                std::span(emitters.emitters)
-                    .subspan(size_t(emitters.first_of_face[face]), emitters.count_of_face[face]),
-                colour, scales);
-    world.emission = emitters.face_emission;
-    messages.insert(messages.end(), emitters.messages.begin(), emitters.messages.end());
-    world.messages = std::move(messages);
-    // Under a sun, the light value of a sky face only says that sunlight comes from there.
-    world.lit_sky_luminance = world.suns.empty() ? find_lit_sky_luminance(world.bsp, emitters) : 0;
-
-    const std::vector<int> face_clusters = find_face_clusters(world.bsp);
-    WorkLimit pieces = limit_of_pieces(world.bsp), triangles(world.bsp, max_triangles, "triangles");
-    world.models.push_back(
-        make_world_geometry({ world.bsp, world.pictures, face_clusters, pieces, triangles, 0 }, std::move(emitters)));
+    world.faces = FaceTriangles(world.bsp, world.textures);
+    const EmissionSource source { world.bsp, world.textures, scales };
+    world.models.push_back(make_world_geometry(world, find_world_emitters(world, source).emitters));
     world.brush_meshes.emplace_back();
     for (size_t i = 1; i < world.bsp.models.size(); i++) {
-        const MapGeometry& geometry = world.models.emplace_back(
-            make_brush_geometry({ world.bsp, world.pictures, face_clusters, pieces, triangles, i }, i, colour, scales,
-                world.animated_lights));
+        const MapGeometry& geometry = world.models.emplace_back(make_brush_geometry(world, i, source));
         world.brush_meshes.push_back(make_brush_mesh(geometry.triangles, geometry.masks));
     }
     world.bvh_future

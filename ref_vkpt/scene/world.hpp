@@ -33,23 +33,13 @@ inline constexpr uint32_t lightstyle_count = 260; // and then those of World::an
 struct MapGeometry {
     std::vector<shared::Triangle> triangles; // material = texinfo; emitter = index into `emitters`
     std::vector<uint32_t> masks; // MASK_* per triangle
-    std::vector<uint8_t> has_holes; // per triangle, 1: the alpha of one of its pictures decides what is met
+    std::vector<uint8_t> has_holes; // per triangle, 1: the alpha of one of its textures decides what is met
     std::vector<shared::Emitter> emitters;
     std::vector<shared::FilterBox> filter_boxes; // around what colours light, at most MAX_FILTER_BOXES
     bool has_alpha_test = false;
 };
 
-// A picture as materials need it.
-struct WorldPicture {
-    uint32_t slot = 0, packed_size = 0x10001; // see Texture
-    int width = 64, height = 64; // texels of texinfo space
-    glm::vec3 average { 0.5f }; // linear
-    bool has_alpha = false;
-    bool missing = false; // a stand-in
-    std::vector<BrightPart> parts;
-    bool glows = false; // see PictureColour
-};
-using FindWorldPicture = std::function<WorldPicture(const std::string& texture)>;
+using FindFaceTexture = std::function<FaceTexture(const std::string& texture)>; // by texinfo texture name
 
 class MaterialLibrary;
 
@@ -63,7 +53,8 @@ struct World {
     formats::Bsp bsp;
     std::vector<MapGeometry> models; // 0: the world
     std::vector<BrushMesh> brush_meshes; // of `models`; [0] is empty
-    std::vector<WorldPicture> pictures; // per texinfo
+    std::vector<FaceTexture> textures; // per texinfo
+    FaceTriangles faces;
     std::vector<std::string> material_names; // per texinfo
     std::vector<glm::vec3> emission; // per texinfo: Material::emission
     std::vector<uint32_t> media; // per texinfo: MEDIUM_* that its faces bound
@@ -72,7 +63,7 @@ struct World {
     AnimatedLights animated_lights { lightstyle_count };
     LightLists light_lists; // of the map's own emitters
     LightCacheLayout light_cache;
-    // Of model 0: made on a thread of its own while pictures and models are read.
+    // Of model 0: made on a thread of its own while textures and models are read.
     const Bvh& bvh() const { return bvh_future.get(); }
     std::shared_future<Bvh> bvh_future; // behind `models`, which it reads
     // Mean luminance of the sky faces that the map's author gave a light value; 0: none. Their sky is as bright as
@@ -80,8 +71,8 @@ struct World {
     float lit_sky_luminance = 0;
     std::vector<std::string> messages; // what could not be used; for the console
 
-    // The materials of a moment: [0, n) animate with time; [n, 2n) show each texinfo's own picture, for brush models
-    // that choose their picture by frame (see animation_frame).
+    // The materials of a moment: [0, n) animate with time; [n, 2n) show each texinfo's own texture, for brush models
+    // that choose their texture by frame (see animation_frame).
     std::vector<shared::Material> make_materials(float time, const MaterialDefaults& defaults) const;
     size_t material_count() const { return bsp.texinfos.size() * 2; }
     // The material that a brush model's frame shows in place of texinfo material `texinfo`.
@@ -90,10 +81,10 @@ struct World {
 
 // Reads and prepares maps/NAME.bsp. Throws formats::FormatError.
 // `more_entities`: entity text that counts as if it stood behind the map's own.
-std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, const FindWorldPicture& find_picture,
+std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, const FindFaceTexture& find_texture,
     const EmissionScales& scales, std::string_view more_entities = {});
 
-// Sets what sky emitters are expected to send, once the sky is known: the average of its pictures.
+// Sets what sky emitters are expected to send, once the sky is known: the average of its textures.
 void set_sky_radiance(World& world, glm::vec3 average);
 
 } // namespace vkpt

@@ -13,26 +13,27 @@
 namespace vkpt::tests {
 namespace {
 
-// A picture with as many lamps in it as one can have.
-WorldPicture make_picture()
+// A texture with as many lamps in it as one can have.
+FaceTexture make_texture()
 {
-    WorldPicture picture;
+    FaceTexture texture;
     for (const float x : { 0.1f, 0.6f })
         for (const float y : { 0.2f, 0.7f })
-            picture.parts.push_back({ { x, y }, { x + 0.2f, y + 0.2f }, glm::vec3(0.9f, 0.8f, x) });
-    return picture;
+            texture.parts.push_back({ { x, y }, { x + 0.2f, y + 0.2f }, glm::vec3(0.9f, 0.8f, x) });
+    return texture;
 }
 
 // What the module makes of a map at load.
 void use_map(const std::vector<std::byte>& file)
 {
-    const auto find_picture = [](const std::string&) { return make_picture(); };
-    const auto world = load_world(file, "maps/bad.bsp", find_picture, {});
+    const auto find_texture = [](const std::string&) { return make_texture(); };
+    const auto world = load_world(file, "maps/bad.bsp", find_texture, {});
     world->bvh();
     world->make_materials(1, {});
     read_lightmaps(world->bsp);
     const LightLists& lists = world->light_lists;
-    make_sampler_tables({ lists.lists(), lists.static_indices(), world->models[0].emitters, &world->bsp, &lists },
+    make_sampler_tables(
+        { lists.lists(), lists.static_indices(), world->models[0].emitters, &world->bsp, &lists, &world->faces },
         shared::SAMPLER_NEEDS);
 }
 

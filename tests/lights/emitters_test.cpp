@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "map_emitters.hpp"
 #include "ref_vkpt/lights/animated_lights.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/spot_cone.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 constexpr float pi = 3.14159265358979f;
 
-glm::vec3 reddish(const std::string&) { return { 0.4f, 0.2f, 0.1f }; }
+const FaceTexture reddish = make_texture({ 0.4f, 0.2f, 0.1f });
 
 StaticEmitters extract_with_entities(const std::string& entities, const EmissionScales& scales = {})
 {
@@ -67,13 +68,13 @@ TEST(Emitters, FacesBecomeTriangles)
 TEST(Emitters, MaterialEmissionAgreesWithRadiance)
 {
     const formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
-    const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
+    const StaticEmitters emitters = extract_emitters(bsp, reddish);
     ASSERT_EQ(emitters.face_emission.size(), bsp.texinfos.size());
     EXPECT_EQ(emitters.face_emission[0], glm::vec3(0));
     EXPECT_EQ(emitters.face_emission[3], glm::vec3(0)); // sky: not from its own picture
     for (size_t face = 1; face < 3; face++) {
         const shared::Emitter& e = emitters.emitters[size_t(emitters.first_of_face[face])];
-        const glm::vec3 shown = emitters.face_emission[bsp.faces[face].texinfo] * reddish("");
+        const glm::vec3 shown = emitters.face_emission[bsp.faces[face].texinfo] * reddish.average;
         EXPECT_NEAR(glm::distance(shown, e.radiance), 0, 1e-5);
     }
 }
@@ -93,7 +94,7 @@ TEST(Emitters, SkyEmitsThoughItIsNotDrawn)
 {
     formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
     bsp.texinfos[3].flags |= formats::SURF_NODRAW;
-    const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
+    const StaticEmitters emitters = extract_emitters(bsp, reddish);
     EXPECT_EQ(emitters.count_of_face[3], 2u);
     EXPECT_TRUE(emitters.messages.empty());
 }
@@ -102,8 +103,9 @@ TEST(Emitters, UndrawnAndBlackLightsAreNamed)
 {
     formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
     bsp.texinfos[1].flags |= formats::SURF_NODRAW;
-    const StaticEmitters emitters = extract_emitters(
-        bsp, [](const std::string& name) { return name == "test/c" ? glm::vec3(0) : glm::vec3(1); }, {});
+    MapFaces faces(bsp);
+    faces.textures[2].average = glm::vec3(0);
+    const StaticEmitters emitters = extract_emitters(faces.source(), faces.triangles);
     EXPECT_EQ(emitters.first_of_face[1], -1);
     EXPECT_EQ(emitters.first_of_face[2], -1);
     EXPECT_TRUE(mentions(emitters, "test/b"));
@@ -116,7 +118,7 @@ TEST(Emitters, WhatLetsRaysThroughIsTransparent)
     for (const int32_t flag : { formats::SURF_TRANS33, formats::SURF_TRANS66, formats::SURF_ALPHATEST }) {
         formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
         bsp.texinfos[1].flags |= flag;
-        const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
+        const StaticEmitters emitters = extract_emitters(bsp, reddish);
         EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[1])].type, shared::EMITTER_TRANSPARENT) << flag;
         EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[2])].type, shared::EMITTER_TRIANGLE) << flag;
     }
@@ -125,7 +127,7 @@ TEST(Emitters, WhatLetsRaysThroughIsTransparent)
 TEST(Emitters, FollowTheOrderOfLeaves)
 {
     const formats::Bsp bsp = make_cell_map(16, make_random_cells(16, 0.7, 3));
-    const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
+    const StaticEmitters emitters = extract_emitters(bsp, reddish);
     size_t last = 0;
     for (const shared::Emitter& e : emitters.emitters) {
         const size_t leaf = bsp.find_leaf((e.p0 + e.p1 + e.p2) / 3.0f + glm::vec3(0, 0, 1));
@@ -145,7 +147,7 @@ TEST(Emitters, FollowTheFirstLightstyleThatIsNotSteady)
         formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
         for (const size_t face : { 1, 3 })
             std::copy_n(styles, 4, bsp.faces[face].styles);
-        const StaticEmitters emitters = extract_emitters(bsp, reddish, {});
+        const StaticEmitters emitters = extract_emitters(bsp, reddish);
         EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[1])].lightstyle, wanted);
         EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[2])].lightstyle, 0u);
         EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[3])].lightstyle, 0u) << "a sky is not switched";
@@ -162,13 +164,14 @@ TEST(Emitters, FollowAnAnimation)
     bsp.texinfos[2].next = 0;
     bsp.faces[2].styles[0] = 9;
     const EmissionScales scales { .face = 0.01f };
-    StaticEmitters emitters = extract_emitters(bsp, reddish, scales);
+    MapFaces faces(bsp, reddish);
+    StaticEmitters emitters = extract_emitters(faces.source(scales), faces.triangles);
     AnimatedLights animated(300);
     for (size_t face = 0; face < 3; face++) {
         ASSERT_EQ(emitters.count_of_face[face], 2u);
         const std::span of_face = std::span(emitters.emitters).subspan(size_t(emitters.first_of_face[face]), 2);
         EXPECT_FLOAT_EQ(of_face[0].radiance.x, 2);
-        animated.add(bsp, face, of_face, reddish, scales);
+        animated.add(faces.source(scales), face, of_face);
         EXPECT_EQ(of_face[0].lightstyle, 300u + uint32_t(face));
         EXPECT_EQ(of_face[1].lightstyle, of_face[0].lightstyle);
     }
@@ -184,20 +187,20 @@ TEST(Emitters, FollowAnAnimation)
     EXPECT_FALSE(animated.has(299) || animated.has(303));
 }
 
-// A picture with a lamp in its middle on faces without a light value.
-PictureColour make_glowing(const std::string&)
+// A texture with a lamp in its middle on faces without a light value.
+FaceTexture make_glowing()
 {
-    PictureColour picture(glm::vec3(0.1f));
-    picture.parts = { { { 0.25f, 0.25f }, { 0.5f, 0.5f }, { 0.8f, 0.4f, 0.2f } } };
-    picture.glows = true;
-    return picture;
+    FaceTexture texture = make_texture(glm::vec3(0.1f));
+    texture.parts = { { { 0.25f, 0.25f }, { 0.5f, 0.5f }, { 0.8f, 0.4f, 0.2f } } };
+    texture.glows = true;
+    return texture;
 }
 
 TEST(Emitters, GlowWithoutALightValueWherePicturesAreBright)
 {
     formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
     const EmissionScales scales { .glow = 3 };
-    const StaticEmitters emitters = extract_emitters(bsp, make_glowing, scales);
+    const StaticEmitters emitters = extract_emitters(bsp, make_glowing(), scales);
     ASSERT_GE(emitters.first_of_face[0], 0);
     float area = 0;
     for (uint32_t i = 0; i < emitters.count_of_face[0]; i++) {
@@ -211,11 +214,11 @@ TEST(Emitters, GlowWithoutALightValueWherePicturesAreBright)
     const shared::Emitter& lamp = emitters.emitters[size_t(emitters.first_of_face[0])];
     const glm::vec3 before = (lamp.p0 + lamp.p1 + lamp.p2) / 3.0f + glm::vec3(0, 0, 20);
     bsp.entity_text = fmt::format(R"({{ "classname" "light" "origin" "{} {} {}" }})", before.x, before.y, before.z);
-    const StaticEmitters with_light = extract_emitters(bsp, make_glowing, scales);
+    const StaticEmitters with_light = extract_emitters(bsp, make_glowing(), scales);
     EXPECT_EQ(with_light.first_of_face[0], -1);
     EXPECT_EQ(with_light.face_emission[0], glm::vec3(3)); // it is still seen to shine
     bsp.texinfos[0].flags |= formats::SURF_NODRAW;
-    EXPECT_EQ(extract_emitters(bsp, make_glowing, scales).first_of_face[0], -1);
+    EXPECT_EQ(extract_emitters(bsp, make_glowing(), scales).first_of_face[0], -1);
 }
 
 TEST(Emitters, BrushModelsAreSeparate)
@@ -226,8 +229,11 @@ TEST(Emitters, BrushModelsAreSeparate)
         = int32_t(add_face(bsp, { { 0, 0, 8 }, { 9, 0, 8 }, { 9, 9, 8 }, { 0, 9, 8 } }, glm::vec3(0, 0, 1), 2));
     door.face_count = 1;
     bsp.models.push_back(door);
-    EXPECT_EQ(extract_emitters(bsp, reddish, {}).emitters.size(), 6u);
-    EXPECT_EQ(emitters_of_brush_model(bsp, 1, reddish, {}).size(), 2u);
+    EXPECT_EQ(extract_emitters(bsp, reddish).emitters.size(), 6u);
+    const MapFaces faces(bsp, reddish);
+    EXPECT_EQ(
+        emitters_of_face(faces.source(), size_t(door.first_face), faces.triangles.of(size_t(door.first_face))).size(),
+        2u);
 }
 
 TEST(PointLights, HaveTheirValueColourAndStyle)

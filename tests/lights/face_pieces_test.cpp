@@ -2,6 +2,7 @@
 // Faces of which a part shines: the pieces cover the face, without cracks, and send the light that the whole face
 // would.
 #include "common/colour.hpp"
+#include "map_emitters.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "synthetic_bsp.hpp"
 
@@ -123,13 +124,16 @@ TEST(FacePieces, AreNoneWhereTheWholeFaceShines)
 TEST(FacePieces, SendWhatTheWholeFaceWould)
 {
     const Panel panel(square(100), vec2(3, 9));
-    PictureColour whole(vec3(0.4f, 0.2f, 0.1f)), parted = whole;
+    const FaceTexture whole = make_texture(vec3(0.4f, 0.2f, 0.1f));
+    FaceTexture parted = whole;
     parted.parts = middle;
-    WorkLimit work = limit_of_pieces(panel.bsp);
-    const auto power = [&](const PictureColour& picture) {
+    const auto emit = [&](const FaceTexture& texture) {
+        const MapFaces faces(panel.bsp, texture);
+        return emitters_of_face(faces.source(), panel.face, faces.triangles.of(panel.face));
+    };
+    const auto power = [&](const FaceTexture& texture) {
         float sum = 0;
-        for (const shared::Emitter& e : emitters_of_face(
-                 panel.bsp, panel.face, [&](const std::string&) { return picture; }, {}, work)) {
+        for (const shared::Emitter& e : emit(texture)) {
             EXPECT_GT(e.area, 0);
             sum += e.area * luminance(e.radiance);
         }
@@ -137,15 +141,18 @@ TEST(FacePieces, SendWhatTheWholeFaceWould)
     };
     EXPECT_GT(power(whole), 0);
     EXPECT_NEAR(power(parted), power(whole), 1e-4f * power(whole));
-    const auto emitters = emitters_of_face(
-        panel.bsp, panel.face, [&](const std::string&) { return parted; }, {}, work);
-    const auto triangles = triangles_of_face(panel.bsp, panel.face, parted, work);
+    const auto emitters = emit(parted);
+    MapFaces faces(panel.bsp, parted);
+    const std::span<FaceTriangle> triangles = faces.triangles.of(panel.face);
+    number_emitters(triangles, 7);
     size_t next = 0;
     for (const FaceTriangle& t : triangles)
         if (t.part != FacePiece::dark) {
             ASSERT_LT(next, emitters.size());
-            EXPECT_EQ(emitters[next++].p0, t.corners[0]);
-        }
+            EXPECT_EQ(emitters[next].p0, t.corners[0]);
+            EXPECT_EQ(t.emitter, 7 + int(next++));
+        } else
+            EXPECT_EQ(t.emitter, shared::EMITTER_SAMPLED_APART);
     EXPECT_EQ(next, emitters.size());
     EXPECT_LT(next, triangles.size());
     EXPECT_NEAR(emitters[0].radiance.y, 0.5f * emitters[0].radiance.x, 1e-5f * emitters[0].radiance.x);

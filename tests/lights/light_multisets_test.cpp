@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "glsl_libraries.hpp"
 #include "lamp_hall.hpp"
+#include "map_emitters.hpp"
 #include "ref_vkpt/lights/light_multisets.hpp"
 #include "sampler_case.hpp"
 
@@ -18,7 +19,7 @@ class Hall : public LampHall, public testing::Test {
 protected:
     explicit Hall(size_t lamp_count = 120)
         : LampHall(lamp_count)
-        , multisets(make_light_multisets(bsp, lists, lamps))
+        , multisets(make_light_multisets(bsp, MapFaces(bsp).triangles, lists, lamps))
     {
     }
 
@@ -168,7 +169,7 @@ TEST(LightMultisets, MapsWithoutClustersOrLightsHaveThem)
     bsp.models[0].head_node = -1;
     LightLists lists;
     lists.build(bsp, {});
-    const LightMultisets none = make_light_multisets(bsp, lists, {});
+    const LightMultisets none = make_light_multisets(bsp, {}, lists, {});
     ASSERT_EQ(none.ranges.size(), 1u);
     EXPECT_EQ(none.ranges[0].count, 0u);
 
@@ -176,7 +177,7 @@ TEST(LightMultisets, MapsWithoutClustersOrLightsHaveThem)
     for (Emitter& lamp : lamps)
         lamp.radiance = glm::vec3(1);
     lists.build(bsp, lamps);
-    EXPECT_EQ(make_light_multisets(bsp, lists, lamps).ranges[0].count, 2u);
+    EXPECT_EQ(make_light_multisets(bsp, {}, lists, lamps).ranges[0].count, 2u);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 // worth is tested in our own map in any case.
 #include "common/quantile.hpp"
 #include "glsl_libraries.hpp"
+#include "map_emitters.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "ref_vkpt/lights/light_multisets.hpp"
@@ -44,8 +45,6 @@ formats::Bsp load_map(const std::filesystem::path& path)
     const std::vector<char> bytes { std::istreambuf_iterator<char>(file), {} };
     return formats::read_bsp(std::as_bytes(std::span(bytes)), path.filename().string());
 }
-
-glm::vec3 grey(const std::string&) { return glm::vec3(0.5f); }
 
 double measure_milliseconds(auto work)
 {
@@ -126,7 +125,7 @@ TEST(RealMaps, EmittersInSightAreListed)
         GTEST_SKIP() << "VKPT_TEST_MAPS names no folder with maps";
     for (const std::filesystem::path& path : find_maps()) {
         const formats::Bsp bsp = load_map(path);
-        const StaticEmitters emitters = extract_emitters(bsp, grey, {});
+        const StaticEmitters emitters = extract_emitters(bsp, {});
         LightLists lists;
         lists.build(bsp, emitters.emitters);
         const SightCount count = count_missed(bsp, emitters.emitters, lists, 1'000'000);
@@ -165,12 +164,13 @@ TEST(RealMaps, ListsAreMadeFast)
     std::mt19937 rng(3);
     for (const std::filesystem::path& path : find_maps()) {
         const formats::Bsp bsp = load_map(path);
-        const StaticEmitters emitters = extract_emitters(bsp, grey, {});
+        MapFaces faces(bsp);
+        const StaticEmitters emitters = extract_emitters(faces.source(), faces.triangles);
         LightLists lists;
         const double build = measure_milliseconds([&] { lists.build(bsp, emitters.emitters); });
         LightMultisets multisets;
-        const double build_multisets
-            = measure_milliseconds([&] { multisets = make_light_multisets(bsp, lists, emitters.emitters); });
+        const double build_multisets = measure_milliseconds(
+            [&] { multisets = make_light_multisets(bsp, faces.triangles, lists, emitters.emitters); });
         LightTrees trees;
         const double build_trees = measure_milliseconds(
             [&] { trees = make_light_trees(lists.lists(), lists.static_indices(), emitters.emitters); });
@@ -200,10 +200,12 @@ struct LitMap {
     explicit LitMap(const formats::Bsp& bsp_)
         : bsp(bsp_)
     {
-        scene.emitters = extract_emitters(bsp, grey, {}).emitters;
+        MapFaces cut(bsp);
+        scene.emitters = extract_emitters(cut.source(), cut.triangles).emitters;
+        const FaceTriangles& faces = cut.triangles;
         lists.build(bsp, scene.emitters);
         tables = make_sampler_tables(
-            { lists.lists(), lists.static_indices(), scene.emitters, &bsp, &lists }, shared::SAMPLER_NEEDS);
+            { lists.lists(), lists.static_indices(), scene.emitters, &bsp, &lists, &faces }, shared::SAMPLER_NEEDS);
         scene.static_indices = tables.indices;
         scene.tables = tables;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Suns from what mappers write, and where they are listed.
+#include "map_emitters.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"
 #include "ref_vkpt/lights/suns.hpp"
@@ -90,7 +91,7 @@ TEST(Suns, AreListedWhereSkyMayBeSeen)
         open[size_t(cell)] = true;
     formats::Bsp half = make_cell_map(size, open);
     half.faces[7].texinfo = 0;
-    const StaticEmitters of_half = extract_emitters(half, [](const std::string&) { return glm::vec3(0.5f); }, {});
+    const StaticEmitters of_half = extract_emitters(half, {});
     LightLists lists;
     lists.build(half, of_half.emitters);
     const shared::Emitter sun = make_sun({ .light = 64, .half_angle = 0.01f }, glm::vec3(1));

@@ -55,6 +55,17 @@ protected:
     static inline std::unique_ptr<Session> session_;
 };
 
+TEST_F(OverlayOfModule, LightsUnderTheCrosshairStandOnTheLeftAndGo)
+{
+    const Halves before = count_text();
+    session_->set("pt_show_lights", 1);
+    const Halves with_lights = count_text();
+    EXPECT_GT(with_lights.left, before.left + 100);
+    EXPECT_EQ(with_lights.right, before.right);
+    session_->set("pt_show_lights", 0);
+    EXPECT_EQ(count_text().left, before.left);
+}
+
 TEST_F(OverlayOfModule, TimesStandOnTheRightAndGo)
 {
     const Halves before = count_text();

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "ref_vkpt/scene/world.hpp"
+#include "tests/lights/synthetic_bsp.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+namespace vkpt::test {
+namespace {
+
+FaceTexture make_panel(const std::string&)
+{
+    FaceTexture texture;
+    texture.slot = 7;
+    texture.parts = { { { 0.25f, 0.25f }, { 0.5f, 0.5f }, { 0.8f, 0.4f, 0.2f } } };
+    return texture;
+}
+
+TEST(WorldFaces, TrianglesAreTheirEmitters)
+{
+    formats::Bsp bsp = make_cell_map(3, std::vector<bool>(9, true));
+    const auto world = load_world(write_bsp(bsp), "maps/cells.bsp", make_panel, {});
+    const MapGeometry& geometry = world->models[0];
+    std::vector<int> counts(geometry.emitters.size(), 0);
+    size_t apart = 0;
+    for (const shared::Triangle& triangle : geometry.triangles) {
+        apart += triangle.emitter == shared::EMITTER_SAMPLED_APART;
+        if (triangle.emitter < 0)
+            continue;
+        ASSERT_LT(size_t(triangle.emitter), geometry.emitters.size());
+        counts[size_t(triangle.emitter)]++;
+        const shared::Emitter& emitter = geometry.emitters[size_t(triangle.emitter)];
+        EXPECT_EQ(emitter.p0, triangle.positions[0]);
+        EXPECT_EQ(emitter.p1, triangle.positions[1]);
+        EXPECT_EQ(emitter.p2, triangle.positions[2]);
+    }
+    EXPECT_GT(counts.size(), 8u);
+    EXPECT_TRUE(std::ranges::all_of(counts, [](int count) { return count == 1; }));
+    EXPECT_GT(apart, 8u) << "what is dark of a lamp";
+}
+
+// A texture may be on faces that nobody sees, too, and those may come first.
+TEST(WorldTextures, AreFoundForWhateverIsDrawnOfTheirName)
+{
+    formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+    bsp.texinfos[0].flags |= formats::SURF_NODRAW;
+    bsp.texinfos[1].texture = bsp.texinfos[2].texture = bsp.texinfos[0].texture;
+    int asked = 0;
+    const auto find = [&](const std::string& name) {
+        asked++;
+        return make_panel(name);
+    };
+    const auto world = load_world(write_bsp(bsp), "maps/cells.bsp", find, {});
+    EXPECT_EQ(asked, 1);
+    EXPECT_EQ(world->textures[1].slot, 7u);
+    EXPECT_EQ(world->textures[2].slot, 7u);
+    EXPECT_EQ(world->textures[0].slot, 0u) << "not drawn";
+    EXPECT_EQ(world->textures[3].slot, 0u) << "a sky";
+}
+
+} // namespace
+} // namespace vkpt::test
