@@ -11,7 +11,7 @@ namespace {
 
 void print_version(Module& module, const Command& command)
 {
-    const Host& host = module.host();
+    Host& host = module.host();
     host.say(command.sender,
         fmt::format("vkpt: wraps {}; {} of {} entities in use; writes to {}", module.library().path().string(),
             host.game->edict_count, host.game->max_edicts, host.write_folder.string()));

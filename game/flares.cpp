@@ -17,7 +17,8 @@ constexpr size_t max_flares = 24;
 constexpr Box flare_box { { -2, -2, -2 }, { 2, 2, 2 } };
 constexpr float throw_speed = 550, throw_lift = 120; // units a second
 constexpr float gravity = 800, bounce = 0.45f, rolling_drag = 2.2f, water_drag = 4, water_gravity = 0.12f;
-constexpr float rest_speed = 15, steepest_rest = 0.7f; // normal's z
+constexpr float rest_speed = 15, max_rolling_fall = 60; // units a second
+constexpr float steepest_rest = 0.7f; // normal's z
 constexpr float life = 30, dying = 4; // seconds, of which the last grow darker
 constexpr float flare_value = 320, flare_reach = 1400, flare_radius = 1;
 constexpr glm::vec3 flare_colour(1, 0.13f, 0.035f);
@@ -66,28 +67,55 @@ void Flares::move(Flare& flare, float seconds)
     flare.velocity.z -= gravity * (in_liquid ? water_gravity : 1) * seconds;
     if (in_liquid)
         flare.velocity *= std::max(0.0f, 1 - water_drag * seconds);
-    const glm::vec3 to = flare.origin + flare.velocity * seconds;
-    const Trace hit = host_.trace(flare.origin, to, flare_box, nullptr, mask_solid);
-    if (is_true(hit.all_solid)) { // in a door or a lift that came
-        flare.velocity = glm::vec3(0);
-        return;
-    }
-    flare.origin = to_vec3(hit.end);
+    bool rolls = false;
     flare.angles += flare.spin * seconds;
-    if (hit.fraction == 1)
-        return;
-    const glm::vec3 normal = to_vec3(hit.plane.normal);
-    const float into = glm::dot(flare.velocity, normal);
-    const bool rolls = normal.z > steepest_rest && std::abs(into) < 60;
-    flare.velocity -= normal * (into * (rolls ? 1 : 1 + bounce));
+    // What it meets turns it for the rest of the time: gravity alone would hold it to the floor that it rolls on.
+    constexpr int max_bumps = 4;
+    float left = seconds;
+    for (int bump = 0; bump < max_bumps && left > 0; bump++) {
+        const glm::vec3 to = flare.origin + flare.velocity * left;
+        const Trace hit = host_.trace(flare.origin, to, flare_box, nullptr, mask_solid);
+        if (is_true(hit.all_solid)) { // in a door or a lift that came
+            flare.velocity = glm::vec3(0);
+            return;
+        }
+        flare.origin = to_vec3(hit.end);
+        left *= 1 - hit.fraction;
+        if (hit.fraction == 1)
+            break;
+        rolls |= turn_at(flare, to_vec3(hit.plane.normal));
+    }
     if (rolls)
-        flare.velocity *= std::max(0.0f, 1 - rolling_drag * seconds);
-    // It lies down: the spin of the flight becomes that of rolling, across the way.
+        roll(flare, seconds);
+}
+
+// Where it meets a plane. True: it rolls along it.
+bool Flares::turn_at(Flare& flare, glm::vec3 normal)
+{
+    const float into = glm::dot(flare.velocity, normal);
+    const bool rolls = normal.z > steepest_rest && std::abs(into) < max_rolling_fall;
+    flare.velocity -= normal * (into * (rolls ? 1 : 1 + bounce));
+    if (!rolls)
+        flare.spin *= 0.6f;
+    return rolls;
+}
+
+// It lies down: the spin of the flight becomes that of rolling, across the way.
+void Flares::roll(Flare& flare, float seconds)
+{
+    flare.velocity *= std::max(0.0f, 1 - rolling_drag * seconds);
     const float speed = glm::length(flare.velocity);
-    flare.spin = rolls ? glm::vec3(-flare.angles.x * 4, 0, speed * 20) : flare.spin * 0.6f;
-    flare.rests = rolls && speed < rest_speed;
+    flare.spin = glm::vec3(-flare.angles.x * 4, 0, speed * 20);
+    flare.rests = speed < rest_speed;
     if (flare.rests)
         flare.velocity = flare.spin = glm::vec3(0);
+}
+
+// What it lay on may have gone: a door, a lift.
+bool Flares::has_ground(const Flare& flare) const
+{
+    const glm::vec3 below = flare.origin - glm::vec3(0, 0, 2);
+    return host_.trace(flare.origin, below, flare_box, nullptr, mask_solid).fraction < 1;
 }
 
 void Flares::show(const Flare& flare)
@@ -129,6 +157,7 @@ void Flares::update()
     constexpr uint32_t rarely = 3;
     for (Flare& flare : flares_) {
         flare.age += frame_seconds;
+        flare.rests = flare.rests && has_ground(flare);
         for (int part = 0; part < move_parts && !flare.rests; part++)
             move(flare, frame_seconds / move_parts);
         show(flare);

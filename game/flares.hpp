@@ -31,6 +31,9 @@ private:
         bool rests = false;
     };
     void move(Flare& flare, float seconds);
+    static bool turn_at(Flare& flare, glm::vec3 normal);
+    static void roll(Flare& flare, float seconds);
+    bool has_ground(const Flare& flare) const;
     void show(const Flare& flare);
     void smoke(const Flare& flare);
 

@@ -6,10 +6,12 @@
 
 namespace vkpt::game {
 
-void Host::say(Edict* player, std::string_view text) const
+void Host::say(Edict* player, std::string_view text)
 {
-    const std::string line(text);
-    engine.client_print(player, PRINT_HIGH, "%s\n", line.c_str());
+    if (player)
+        replies.say(engine, player, std::string(text));
+    else // the console takes all at once
+        engine.client_print(nullptr, PRINT_HIGH, "%s\n", std::string(text).c_str());
 }
 
 Trace Host::trace(glm::vec3 from, glm::vec3 to, const Box& box, const Edict* ignored, int mask) const

@@ -5,6 +5,7 @@
 #include "game/contract.hpp"
 #include "game/files.hpp"
 #include "game/own_entities.hpp"
+#include "game/replies.hpp"
 
 #include <glm/vec3.hpp>
 #include <string>
@@ -21,6 +22,7 @@ struct Host {
     Imports engine {}; // as the server gave them
     Exports* game = nullptr; // the real game's
     OwnEntities entities;
+    Replies replies;
     int frame = 0; // server frames since the level began
     std::string map; // its name, without folder and ending
     std::filesystem::path write_folder; // empty: the engine's was not found
@@ -35,7 +37,7 @@ struct Host {
     float cvar_number(const char* name, const char* value) const { return engine.cvar(name, value, 0)->number; }
 
     // To one player, or with nullptr to the server's console. Ends the line.
-    void say(Edict* player, std::string_view text) const;
+    void say(Edict* player, std::string_view text);
     Trace trace(glm::vec3 from, glm::vec3 to, const Box& box, const Edict* ignored, int mask) const;
     int contents(glm::vec3 p) const { return engine.point_contents(&p.x); }
 };

@@ -5,11 +5,11 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <sstream>
+#include <span>
 
 namespace vkpt::game {
 
@@ -53,6 +53,12 @@ int frame_of_cone(int degrees)
         if (std::abs(formats::spot_cones[i] - degrees) < std::abs(formats::spot_cones[nearest] - degrees))
             nearest = i;
     return int(nearest);
+}
+
+// Engines go to the folder of saved games before they tell the game a file's name.
+std::filesystem::path folder_of(const std::filesystem::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : ".";
 }
 
 std::string place_text(glm::vec3 p) { return fmt::format("{:.0f} {:.0f} {:.0f}", p.x, p.y, p.z); }
@@ -291,23 +297,28 @@ std::string Lights::own_file(const std::string& level_file) const
     return level_file.substr(0, level_file.rfind('.')) + ".lights.sav"; // the engine copies and removes *.sav
 }
 
+// No link is followed, and no file of somebody else's replaced, in the folder of saved games either.
 void Lights::write_level(const std::string& file) const
 {
+    const std::filesystem::path path = own_file(file);
     const std::string text = write_light_file(list_lights(), host_.map);
-    std::ofstream stream(own_file(file), std::ios::binary);
-    if (!(stream << text).flush())
-        host_.say(nullptr, fmt::format("vkpt: cannot write {}: the saved game has no lights", own_file(file)));
+    try {
+        OutputFolder(folder_of(path), {})
+            .write(path.filename().string(), std::as_bytes(std::span(text)), light_file_mark);
+    } catch (const std::exception& error) {
+        host_.say(nullptr, fmt::format("vkpt: the saved game has no lights: {}", error.what()));
+    }
 }
 
 void Lights::read_level(const std::string& file)
 {
-    std::ifstream stream(own_file(file), std::ios::binary);
-    if (!stream)
+    const std::filesystem::path path = own_file(file);
+    std::error_code error_code;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(path, error_code)))
         return; // saved without this module
-    std::ostringstream text;
-    text << stream.rdbuf();
     try {
-        replace(parse_light_file(text.str(), own_file(file)), false);
+        const std::string text = OutputFolder(folder_of(path), {}).read(path.filename().string(), TextFiles::max_bytes);
+        replace(parse_light_file(text, path.string()), false);
     } catch (const std::exception& error) {
         host_.say(nullptr, fmt::format("vkpt: the saved game's lights cannot be read: {}", error.what()));
     }

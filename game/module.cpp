@@ -98,6 +98,7 @@ void Module::shutdown()
 void Module::spawn_entities(const char* map, char* entity_text, const char* spawn_point)
 {
     host_.entities.clear();
+    host_.replies.forget(nullptr);
     host_.frame = 0;
     host_.map = map;
     is_full_ = false;
@@ -138,6 +139,7 @@ void Module::client_begin(Edict* client) { host_.game->client_begin(client); }
 void Module::client_disconnect(Edict* client)
 {
     is_client_[size_t(host_.number_of(client))] = is_local_[size_t(host_.number_of(client))] = false;
+    host_.replies.forget(client);
     host_.game->client_disconnect(client);
 }
 
@@ -163,6 +165,7 @@ void Module::run_frame()
 {
     was_frame_ = true;
     host_.frame++;
+    host_.replies.begin_frame(host_.engine);
     run_start_commands();
     walker_.drive();
     host_.game->run_frame();

@@ -17,16 +17,48 @@ int OwnEntities::add()
         entries_.emplace_back();
     entries_[handle] = {};
     entries_[handle].in_use = entries_[handle].is_new = true;
+    while (free_places_.size() <= spare_places)
+        free_places_.push_back(place_count_++);
+    std::ranges::sort(free_places_);
+    entries_[handle].place = free_places_.front();
+    free_places_.pop_front();
     return int(handle);
 }
 
 void OwnEntities::remove(int handle)
 {
     // Its slot is as the game left it: entities change only while they are hidden.
+    free_places_.push_back(entries_[size_t(handle)].place);
     entries_[size_t(handle)] = {};
 }
 
-void OwnEntities::clear() { entries_.clear(); }
+void OwnEntities::clear()
+{
+    entries_.clear();
+    free_places_.clear();
+    place_count_ = 0;
+    next_renewed_ = 0;
+}
+
+void OwnEntities::begin_frame()
+{
+    new_ones_ = 0;
+    if (std::ranges::any_of(entries_, [](const Entry& entry) { return entry.in_use && entry.is_new; }))
+        return; // they come first
+    for (int i = 0; i < renewed_per_frame && size_t(i) < entries_.size(); i++) {
+        Entry& entry = entries_[next_renewed_++ % entries_.size()];
+        if (entry.in_use)
+            renew(entry);
+    }
+}
+
+void OwnEntities::renew(Entry& entry)
+{
+    free_places_.push_back(entry.place);
+    entry.place = free_places_.front();
+    free_places_.pop_front();
+    entry.moved = true; // to be linked there
+}
 
 void OwnEntities::touch(int handle, float reach)
 {
@@ -66,11 +98,10 @@ int OwnEntities::show(const Exports& game, const Imports& engine)
     int end = game.edict_count;
     without_slot_ = 0;
     const int last_slot = std::min(game.max_edicts, max_edicts) - 1;
-    for (size_t i = 0; i < entries_.size(); i++) {
-        Entry& entry = entries_[i];
+    for (Entry& entry : entries_) {
         if (!entry.in_use)
             continue;
-        const int slot = last_slot - int(i);
+        const int slot = last_slot - entry.place;
         if (slot < game.edict_count) {
             without_slot_++;
             continue;

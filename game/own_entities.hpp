@@ -6,6 +6,7 @@
 #include "game/contract.hpp"
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace vkpt::game {
@@ -21,6 +22,11 @@ public:
     static constexpr int most = 256;
     // New ones that one message may show: a message of more would not fit what the protocol sends at once.
     static constexpr int max_new_per_frame = 12;
+    // So many take another slot in each frame, and are sent as new ones. Where a client asks for everything at once, as
+    // when it begins to record a demo, the server leaves out what does not fit and later believes that it was sent: so
+    // all are sent again within seconds.
+    static constexpr int renewed_per_frame = 3;
+    static constexpr int spare_places = 24; // a slot rests for some frames: clients would blend what was in it
 
     // A handle, or -1: there are too many.
     int add();
@@ -36,7 +42,7 @@ public:
     void hide(const Exports& game);
     int show(const Exports& game, const Imports& engine);
     // What was shown so far has been sent.
-    void begin_frame() { new_ones_ = 0; }
+    void begin_frame();
     // Entities that found no slot at the last show().
     int without_slot() const { return without_slot_; }
 
@@ -45,10 +51,15 @@ private:
         Edict edict {};
         bool in_use = false, is_new = false, moved = false;
         int slot = -1; // where it is shown now
+        int place = -1; // its slot, counted from the top of the array
     };
     void place(Entry& entry, int slot, const Exports& game, const Imports& engine);
+    void renew(Entry& entry);
 
     std::vector<Entry> entries_;
+    std::deque<int> free_places_; // the longest unused first
+    int place_count_ = 0; // free or taken
+    size_t next_renewed_ = 0;
     int new_ones_ = 0, without_slot_ = 0;
 };
 

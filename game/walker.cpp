@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 namespace vkpt::game {
 
@@ -102,6 +103,7 @@ void Walker::start(Mode mode, const Command& command, const std::vector<bool>& i
     last_origin_ = view.origin;
     was_alive_ = true;
     own_input_.reset();
+    pressed_ = {};
     mode_ = mode;
     level_frame_ = host_.frame;
     if (explorer_) {
@@ -341,6 +343,10 @@ bool Walker::swallow(const Edict* client, const UserCommand& command)
     if (mode_ == Mode::none || !player() || client != player())
         return false;
     own_input_ = command;
+    // Keys may be pressed for less than a server frame.
+    pressed_.jump |= command.up > 0;
+    pressed_.duck |= command.up < 0;
+    pressed_.attack |= (command.buttons & BUTTON_ATTACK) != 0;
     return is_walking();
 }
 
@@ -349,13 +355,10 @@ void Walker::record_frame()
     const Edict* edict = player();
     if (mode_ != Mode::record || !own_input_ || !edict || !edict->client)
         return;
-    Step step;
+    Step step = std::exchange(pressed_, {});
     step.place = to_vec3(edict->state.origin);
     const glm::vec3 angles = to_vec3(edict->client->state.view_angles);
     step.angles = { std::clamp(angles.x, -90.0f, 90.0f), wrap_degrees(angles.y), 0 };
-    step.jump = own_input_->up > 0;
-    step.duck = own_input_->up < 0;
-    step.attack = (own_input_->buttons & BUTTON_ATTACK) != 0;
     if (actions_.size() < max_walk_actions)
         actions_.push_back(step);
 }

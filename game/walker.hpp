@@ -75,6 +75,7 @@ private:
     int action_frames_ = 0; // since it began
     glm::vec3 angles_ { 0 }, start_angles_ { 0 };
     std::optional<UserCommand> own_input_; // the last of the driven or recorded player
+    Step pressed_; // what was pressed since the last recorded step
     glm::vec3 last_origin_ { 0 };
     bool was_alive_ = true, presses_ = false;
     bool must_begin_ = false; // the fake client, in a new level

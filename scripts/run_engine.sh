@@ -8,6 +8,7 @@
 #               Files below RUN_DIR/files/ are copied into the engine's writable game folder first.
 # VKPT_DATA     the game data (default: the build's own)
 # VKPT_BUILD_DIR, VKPT_ENGINE   as in ./play;  VKPT_CACHE_DIR   where drivers and module keep what they compiled
+# VKPT_GAME     another game directory than baseq2, as our game module's: vkpt
 # VKPT_RENDERER another renderer than vkpt
 # The exit status is the engine's.
 set -uo pipefail
@@ -21,13 +22,15 @@ run_dir=$1
 size=$2
 shift 2
 
+game_name=${VKPT_GAME:-baseq2}
 log_dir=$run_dir
 trap stop_children EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 prepare_run_dir home
-[[ ! -d $run_dir/files ]] || as_player cp -r "$run_dir/files/." "$home_dir/.yq2/baseq2/"
+[[ ! -d $run_dir/files ]] || as_player cp -r "$run_dir/files/." "$home_dir/.yq2/$game_name/"
 data=$(use_data "${VKPT_DATA:-$build_dir/game}") || exit 1
+[[ $game_name == baseq2 ]] || set -- +set game "$game_name" "$@"
 start_xvfb 1280 960
 (exec_engine "$data" +set s_openal 0 +set s_sdldriver dummy +set vid_fullscreen 0 +set r_mode -1 \
     +set r_customwidth "${size%x*}" +set r_customheight "${size#*x}" "$@") </dev/null &

@@ -117,7 +117,7 @@ void EngineRun::make_folder(const EngineOptions& options)
         std::filesystem::create_directories((folder / "files" / path).parent_path());
         std::ofstream(folder / "files" / path, std::ios::binary) << contents;
     }
-    outcome.game_folder = folder / "home" / ".yq2" / "baseq2";
+    outcome.game_folder = folder / "home" / ".yq2" / options.game;
 }
 
 int EngineRun::start(const EngineOptions& options)
@@ -138,6 +138,7 @@ int EngineRun::start(const EngineOptions& options)
     setsid(); // its own process group, so that all of it can be ended
     setenv("VKPT_BUILD_DIR", VKPT_TEST_BUILD_DIR, 1);
     setenv("VKPT_CACHE_DIR", VKPT_TEST_BUILD_DIR "/tests/engine/cache", 1);
+    setenv("VKPT_GAME", options.game.c_str(), 1);
     for (const std::string& variable : options.environment)
         setenv(variable.substr(0, variable.find('=')).c_str(), variable.substr(variable.find('=') + 1).c_str(), 1);
     const int output = open((folder / "output.txt").c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0644);

@@ -22,6 +22,7 @@ inline constexpr const char* capture_name = "shots"; // for pt_capture_dir
 struct EngineOptions {
     std::vector<std::string> arguments; // the engine's, in order
     std::string script; // console commands, one a line; run with "+exec test.cfg"
+    std::string game = "baseq2"; // game directory
     std::map<std::string, std::string> files; // contents by path in the writable game folder
     std::vector<std::string> environment; // NAME=VALUE
     std::vector<std::string> display_commands; // one for each `display_mark`; run by a shell on the engine's display

@@ -96,6 +96,35 @@ TEST_F(OwnEntitiesTest, ComeAFewAFrame)
     }
 }
 
+// Each is sent as a new one every few frames, in a slot that has rested.
+TEST_F(OwnEntitiesTest, AllAreRenewedInTurn)
+{
+    constexpr int count = 8;
+    std::vector<int> last_used(max_edicts, -100), renewals(count, 0);
+    for (int i = 0; i < count; i++)
+        own.state(own.add()).skin = i + 1;
+    std::vector<int> slot_of(count, -1);
+    for (int frame = 0; frame < 12; frame++) {
+        own.begin_frame();
+        own.show(game, engine);
+        EXPECT_EQ(count_shown(), count);
+        for (int slot = 0; slot < max_edicts; slot++) {
+            if (!array[size_t(slot)].in_use)
+                continue;
+            const size_t light = size_t(array[size_t(slot)].state.skin) - 1;
+            if (slot_of[light] != slot) {
+                EXPECT_LT(last_used[size_t(slot)], frame - 4);
+                renewals[light] += frame > 0;
+            }
+            slot_of[light] = slot;
+            last_used[size_t(slot)] = frame;
+        }
+        own.hide(game);
+    }
+    for (const int number : renewals)
+        EXPECT_GE(number, 3) << "in 12 frames";
+}
+
 TEST_F(OwnEntitiesTest, ThereIsAnEndOfThem)
 {
     for (int i = 0; i < OwnEntities::most; i++)

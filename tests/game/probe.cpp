@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A game library for tests that hands every call to another one and notes what happens. Names come from the
 // environment:
-//   VKPT_PROBE_OUTSIDE / VKPT_PROBE_INSIDE   the library to load, for the copy that the engine loads and for the one
-//   that our
-//                                            module loads (its file is called inside.so)
-//   VKPT_PROBE_STATES   outside: a line per server frame is added to this file: a hash of all that the server sees of
-//   the
-//                       entities, their number, and the first player's place and health
-//   VKPT_PROBE_CALLS    inside: every call is added to this file. outside, with VKPT_PROBE_REPLAY=1: the calls about
-//   players
-//                       in this file are made again, in the same order between the server's own calls
-//   VKPT_PROBE_SCRIPT   outside: lines "FRAME COMMAND" for the server's console, and "FRAME player ADDRESS COMMAND", by
-//   a
-//                       player who is connected from there; what he is told is printed as "to ADDRESS: ..."
+//   VKPT_PROBE_OUTSIDE   the library to load, for the copy that the engine loads
+//   VKPT_PROBE_INSIDE    the same for the copy that our module loads (its file is called inside.so)
+//   VKPT_PROBE_STATES    outside: a line per server frame is added to this file: a hash of all that the server sees of
+//                        the entities, their number, and the first player's place and health
+//   VKPT_PROBE_OWN       outside: a line per server frame and entity of our module is added to this file: the frame,
+//                        the slot, the place, model, skin and render flags
+//   VKPT_PROBE_CALLS     inside: every call is added to this file. outside, with VKPT_PROBE_REPLAY=1: the calls about
+//                        players in this file are made again, in the same order between the server's own calls
+//   VKPT_PROBE_SCRIPT    outside: lines "FRAME COMMAND" for the server's console, and "FRAME player ADDRESS COMMAND",
+//                        by a player who is connected from there; what he is told is printed as "to ADDRESS: ..."
 //   VKPT_PROBE_NO_MODELS=1   model numbers are left out of the hash
 // A library is loaded anew with each saved game: so files are appended to, and what has to outlast it is in the
 // environment.
@@ -76,7 +74,7 @@ struct Probe {
     Imports engine {}, for_game {};
     Exports* game = nullptr;
     Exports table {};
-    std::ofstream states, calls;
+    std::ofstream states, own, calls;
     std::ifstream recorded;
     std::vector<std::pair<long, std::string>> script;
     char* typed = nullptr; // a player's command that is repeated
@@ -162,6 +160,21 @@ void note_state()
         count, double(player.state.origin[0]), double(player.state.origin[1]), double(player.state.origin[2]),
         player.client && is_true(player.in_use) ? player.client->state.stats[stat_health] : -999, own);
     probe->states << line << std::flush;
+}
+
+void note_own_entities(long frame)
+{
+    if (!probe->own.is_open())
+        return;
+    for (int number = hashed_edicts; number < probe->table.edict_count; number++) {
+        const Edict& edict = *edict_of(number);
+        if (!is_true(edict.in_use))
+            continue;
+        const EntityState& state = edict.state;
+        probe->own << frame << ' ' << number << ' ' << state.origin[0] << ' ' << state.origin[1] << ' '
+                   << state.origin[2] << ' ' << state.model << ' ' << state.skin << ' ' << state.render_flags << '\n';
+    }
+    probe->own.flush();
 }
 
 // ---- calls
@@ -309,6 +322,7 @@ void run_frame()
         return;
     note_state();
     const long frame = std::atol(variable("VKPT_PROBE_FRAME").c_str()) + 1;
+    note_own_entities(frame);
     setenv("VKPT_PROBE_FRAME", std::to_string(frame).c_str(), 1);
     // What is typed while a level is changed waits for a player of the server's: the end is asked for again and again.
     constexpr long again = 20;
@@ -361,6 +375,8 @@ void open_files()
     if (!probe->is_inside) {
         if (!variable("VKPT_PROBE_STATES").empty())
             probe->states.open(variable("VKPT_PROBE_STATES"), std::ios::app);
+        if (!variable("VKPT_PROBE_OWN").empty())
+            probe->own.open(variable("VKPT_PROBE_OWN"), std::ios::app);
         std::ifstream script(variable("VKPT_PROBE_SCRIPT"));
         for (std::string line; std::getline(script, line);) {
             std::istringstream words(line);

@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
@@ -50,6 +52,7 @@ ServerRun::ServerRun(const ServerOptions& options)
     status_ = took_too_long ? -1 : WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     console_ = read_text(folder_ / "output.txt");
     read_states();
+    read_own_entities();
 }
 
 ServerRun::~ServerRun()
@@ -71,6 +74,10 @@ void ServerRun::make_folder(const ServerOptions& options)
     for (const auto& [path, contents] : options.files) {
         fs::create_directories((files / path).parent_path());
         std::ofstream(files / path, std::ios::binary) << contents;
+    }
+    for (const auto& [path, target] : options.links) {
+        fs::create_directories((files / path).parent_path());
+        fs::create_symlink(target, files / path);
     }
     for (const fs::path& map : options.maps)
         fs::copy_file(map, files / "maps" / map.filename());
@@ -108,6 +115,7 @@ int ServerRun::start(const ServerOptions& options)
     setenv("VKPT_PROBE_OUTSIDE", (options.replay ? stock_game().string() : module).c_str(), 1);
     setenv("VKPT_PROBE_INSIDE", stock_game().c_str(), 1);
     setenv("VKPT_PROBE_STATES", (folder_ / "states").c_str(), 1);
+    setenv("VKPT_PROBE_OWN", (folder_ / "own").c_str(), 1);
     setenv("VKPT_PROBE_CALLS", (options.replay ? options.replayed : folder_ / "calls").c_str(), 1);
     setenv("VKPT_PROBE_SCRIPT", (folder_ / "script").c_str(), 1);
     if (options.replay)
@@ -143,6 +151,23 @@ void ServerRun::read_states()
         state.has_player = state.health != -999;
         states_.push_back(state);
     }
+}
+
+void ServerRun::read_own_entities()
+{
+    std::ifstream file(folder_ / "own");
+    OwnEntity entity;
+    while (file >> entity.frame >> entity.slot >> entity.origin.x >> entity.origin.y >> entity.origin.z >> entity.model
+        >> entity.skin >> entity.render_flags)
+        own_entities_.push_back(entity);
+}
+
+std::vector<OwnEntity> ServerRun::own_entities_at(long frame) const
+{
+    std::vector<OwnEntity> found;
+    std::ranges::copy_if(
+        own_entities_, std::back_inserter(found), [frame](const OwnEntity& entity) { return entity.frame == frame; });
+    return found;
 }
 
 std::vector<glm::vec3> ServerRun::way() const

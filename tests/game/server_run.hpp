@@ -16,6 +16,7 @@ struct ServerOptions {
     std::map<long, std::string> script; // console commands by frame; the run ends at `frames`
     long frames = 100; // server frames, over all levels
     std::map<std::string, std::string> files; // contents by path in the writable game folder
+    std::map<std::string, std::filesystem::path> links; // where symbolic ones point to, by path in that folder
     std::vector<std::filesystem::path> maps; // copied to the writable game folder, by their names
     std::string game_library; // for vkpt_game_library; empty: the stock game
     bool probe_inside = false; // between our module and the stock game: notes calls
@@ -33,6 +34,15 @@ struct ServerState {
     bool has_player = false;
 };
 
+// An entity of our module as the server sees it in one frame.
+struct OwnEntity {
+    long frame = 0; // as in ServerOptions::script
+    int slot = 0;
+    glm::vec3 origin { 0 };
+    int model = 0, skin = 0, render_flags = 0;
+    bool operator==(const OwnEntity&) const = default;
+};
+
 class ServerRun {
 public:
     explicit ServerRun(const ServerOptions& options);
@@ -43,6 +53,8 @@ public:
     const std::string& console() const { return console_; }
     const std::vector<ServerState>& states() const { return states_; }
     std::vector<glm::vec3> way() const;
+    const std::vector<OwnEntity>& own_entities() const { return own_entities_; }
+    std::vector<OwnEntity> own_entities_at(long frame) const;
     std::filesystem::path calls() const { return folder_ / "calls"; }
     std::filesystem::path game_folder() const { return folder_ / "home/.yq2/vkpt"; }
     // Ended by itself, after all frames.
@@ -52,12 +64,14 @@ private:
     void make_folder(const ServerOptions& options);
     int start(const ServerOptions& options);
     void read_states();
+    void read_own_entities();
 
     std::filesystem::path folder_;
     long frames_;
     int status_ = -1;
     std::string console_;
     std::vector<ServerState> states_;
+    std::vector<OwnEntity> own_entities_;
 };
 
 } // namespace vkpt::tests

@@ -163,6 +163,57 @@ TEST(GameModule, LibrariesThatAreNoneAreToldAndTheStockGamePlays)
     }
 }
 
+// What it says: the game that the module wraps, and that this one plays.
+TEST(GameModule, WrapsAModAndHandsItsCommandsOn)
+{
+    ServerOptions options;
+    options.game_library = VKPT_STAND_IN_MOD;
+    options.settings = { "coop", "1", "vkpt_start", "walk explore 0" };
+    options.files["lights/vkpt1.txt"] = "# vkpt lights\nlight 0 0 100 0 0 red\n";
+    options.script = { { 40, "sv stand_in" }, { 41, "sv light list" }, { 50, "save test" }, { 70, "load test" },
+        { 100, "sv light list" } };
+    options.frames = 120;
+    const ServerRun run(options);
+    run.expect_clean();
+    EXPECT_NE(run.console().find("around the game of " VKPT_STAND_IN_MOD), std::string::npos) << run.console();
+    EXPECT_NE(run.console().find("stand-in: "), std::string::npos) << run.console();
+    EXPECT_NE(run.console().find("1 of 96 lights"), run.console().rfind("1 of 96 lights")) << run.console();
+    EXPECT_EQ(run.states().back().own_entities, 1);
+}
+
+// A game of other people's, with larger entities than the stock one's: Debian's engine brings it.
+TEST(GameModule, WrapsCaptureTheFlag)
+{
+    const fs::path library = "/usr/lib/yamagi-quake2/ctf/game.so";
+    if (!fs::exists(library))
+        GTEST_SKIP() << "no " << library;
+    ServerOptions options;
+    options.game_library = library.string();
+    options.settings = { "deathmatch", "1", "ctf", "1", "vkpt_start", "walk explore 0" };
+    options.files["lights/vkpt1.txt"] = "# vkpt lights\nlight 0 0 100 0 0 red\n";
+    options.script = { { 60, "sv flare" }, { 80, "sv stress 32" }, { 200, "sv walk status" } };
+    options.frames = 400;
+    const ServerRun run(options);
+    run.expect_clean();
+    EXPECT_NE(run.console().find("around the game of " + library.string()), std::string::npos) << run.console();
+    EXPECT_EQ(run.states()[300].own_entities, 34) << run.console();
+    EXPECT_NE(run.console().find(" places seen of "), std::string::npos) << run.console();
+}
+
+TEST(GameModule, AGameThatCannotBeWrappedIsPlayedAsItIs)
+{
+    ServerOptions options;
+    options.game_library = VKPT_INCOMPLETE_MOD;
+    options.files["lights/vkpt1.txt"] = "# vkpt lights\nlight 0 0 100 0 0 red\n";
+    const ServerRun run(options);
+    run.expect_clean();
+    EXPECT_NE(run.console().find(VKPT_INCOMPLETE_MOD
+                  " is played as it is, without lights, flares and walks: it lacks functions of the interface"),
+        std::string::npos)
+        << run.console();
+    EXPECT_EQ(run.states().back().own_entities, 0);
+}
+
 TEST(GameModule, OnlyAPlayerAtTheServersMachineMayCommand)
 {
     for (const bool is_local : { false, true }) {
@@ -178,6 +229,45 @@ TEST(GameModule, OnlyAPlayerAtTheServersMachineMayCommand)
         EXPECT_EQ(fs::exists(run.game_folder() / "lights/mine.txt"), is_local) << run.console();
         EXPECT_EQ(run.states().back().own_entities > 0, is_local) << run.console();
     }
+}
+
+// Names that lead out of the folders, and links, pipes and devices in place of files.
+TEST(GameModule, PlayersReachNoFileOutsideItsFolders)
+{
+    const std::string victim = "mine\n", lights = "# vkpt lights\nlight 0 0 100 0 0 red\n";
+    ServerOptions options;
+    options.settings = { "coop", "1" };
+    options.files = { { "victim.txt", victim }, { "lights/other.txt", "somebody's\n" }, { "outside/a.txt", lights },
+        { "outside/walk.txt", "# vkpt walk\nwait 1\n" } };
+    options.links = { { "lights/victim.txt", "../victim.txt" }, { "lights/linked.txt", "../outside/a.txt" },
+        { "lights/device.txt", "/dev/zero" }, { "lights/gone.txt", "../made.txt" }, { "walks", "outside" } };
+    long frame = 30;
+    const auto type = [&](const std::string& command) { options.script[frame++] = "player loopback " + command; };
+    for (const char* name : { "../victim", "/tmp/vkpt-victim", "lights/../../victim", "victim", "linked", "device",
+             "gone", "other", "a.txt", "..", "." }) {
+        type(std::string("light save ") + name);
+        type(std::string("light load ") + name);
+    }
+    for (const char* name : { "../victim", "/tmp/vkpt-victim", "walk", "new" }) {
+        type(std::string("walk record ") + name);
+        type("walk stop");
+        type(std::string("walk ") + name);
+    }
+    type("light save mine");
+    options.frames = frame + 20;
+    const ServerRun run(options);
+    run.expect_clean();
+    const fs::path folder = run.game_folder();
+    EXPECT_EQ(read_file(folder / "victim.txt"), victim);
+    EXPECT_EQ(read_file(folder / "lights/other.txt"), "somebody's\n");
+    EXPECT_EQ(read_file(folder / "outside/a.txt"), lights);
+    EXPECT_EQ(read_file(folder / "outside/walk.txt"), "# vkpt walk\nwait 1\n");
+    for (const char* name : { "made.txt", "outside/new.txt", "a.txt", "new.txt" })
+        EXPECT_FALSE(fs::exists(folder / name)) << name;
+    EXPECT_FALSE(fs::exists("/tmp/vkpt-victim.txt"));
+    EXPECT_TRUE(fs::is_symlink(folder / "lights/victim.txt"));
+    EXPECT_TRUE(fs::exists(folder / "lights/mine.txt")) << run.console();
+    EXPECT_EQ(run.console().find("lights loaded from"), std::string::npos) << run.console();
 }
 
 TEST(GameModule, FilesOutsideItsFoldersAreRefused)
