@@ -3,6 +3,7 @@
 #include "client/trace/trace_reader.hpp"
 #include "client/trace/trace_writer.hpp"
 #include "client/trace/view_codec.hpp"
+#include "tests/client/make_call.hpp"
 #include "tests/client/run_program.hpp"
 
 #include <bit>
@@ -148,15 +149,6 @@ TEST(ViewCodec, EvenMotionCostsAByteANumber)
         bytes = encoder.size();
     }
     EXPECT_LT(bytes, view.entities.size() * 20 + 60);
-}
-
-Call make_call(CallKind kind, const std::string& name = "", int32_t number = 0)
-{
-    Call call;
-    call.kind = kind;
-    call.name = name;
-    call.numbers[0] = number;
-    return call;
 }
 
 constexpr int sample_frames = 150; // more than one chunk

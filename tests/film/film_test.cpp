@@ -2,6 +2,7 @@
 // `vkpt film` from the outside, with an ffmpeg that counts what it gets.
 #include "client/trace/trace_writer.hpp"
 #include "formats/image.hpp"
+#include "tests/client/make_call.hpp"
 #include "tests/client/run_program.hpp"
 
 #include <filesystem>
@@ -14,15 +15,6 @@ namespace {
 
 using trace::Call;
 using trace::CallKind;
-
-Call make_call(CallKind kind, const std::string& name = "", int32_t number = 0)
-{
-    Call call;
-    call.kind = kind;
-    call.name = name;
-    call.numbers[0] = number;
-    return call;
-}
 
 class Film : public testing::Test {
 protected:
