@@ -7,7 +7,6 @@
 #include "tests/module/session.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -69,7 +68,7 @@ protected:
     engine::Entity cube_ {};
 };
 
-class PhotoLimit : public PhotoMode { };
+class PhotoLimitLong : public PhotoMode { };
 
 TEST_F(PhotoMode, ShowsWhatAPlayerThereWouldSee)
 {
@@ -282,10 +281,8 @@ TEST_F(PhotoMode, SaysWhatItDoesNotKnow)
 }
 
 // Under the label "long": all of its samples. Then the picture is shown again, and no ray is traced.
-TEST_F(PhotoLimit, TheLastSampleEndsThePicture)
+TEST_F(PhotoLimitLong, TheLastSampleEndsThePicture)
 {
-    if (!std::getenv("VKPT_PHOTO_LIMIT"))
-        GTEST_SKIP() << "takes minutes";
     start({}, { 8, 6 });
     run("pt_photo");
     session_->draw(65535);
