@@ -14,6 +14,8 @@ constexpr float seen_distance = 52; // units
 constexpr uint32_t stuck_frames = 12, blocked_frames = 600; // of a tenth of a second
 constexpr float min_progress = 24; // units in stuck_frames
 constexpr int stray_frames = 8;
+constexpr float min_area = 160; // units: who wanders leaves so small an area within area_frames
+constexpr uint32_t area_frames = 80;
 constexpr uint8_t max_tries = 3; // for a place
 constexpr float goal_distance = 32; // units
 constexpr uint32_t idle_frames = 10; // before looking for a way again where there was none
@@ -70,6 +72,28 @@ void Explorer::watch_progress(const PlayerView& player)
     if (time_ - progress_time_ < stuck_frames)
         return;
     progress_time_ = time_;
+    leave_way();
+}
+
+// To and fro on one staircase is no progress, either.
+void Explorer::watch_area(const PlayerView& player)
+{
+    if (glm::distance(player.origin, area_place_) > min_area) {
+        area_place_ = player.origin;
+        area_time_ = time_;
+        return;
+    }
+    if (time_ - area_time_ < area_frames)
+        return;
+    area_time_ = time_;
+    if (pilot_.has_path() && !seen_.empty())
+        give_up(pilot_.goal());
+    leave_way();
+}
+
+// Not on along this way for a while: anywhere.
+void Explorer::leave_way()
+{
     if (pilot_.has_path()) {
         if (pilot_.behind() != Navigation::none)
             navigation_.block(pilot_.behind(), pilot_.target(), time_ + blocked_frames);
@@ -206,6 +230,8 @@ void Explorer::think(const Space& space, const PlayerView& player, Arrival arriv
     look_around(player.origin);
     if (purpose_ != Purpose::nothing)
         watch_progress(player);
+    if (purpose_ == Purpose::wander)
+        watch_area(player);
     steer_flight(player);
     if (stray_ > 0)
         stray_--;

@@ -39,6 +39,8 @@ private:
     void look_around(glm::vec3 origin);
     void note_landing(const Space& space, const PlayerView& player, Arrival arrival);
     void watch_progress(const PlayerView& player);
+    void watch_area(const PlayerView& player);
+    void leave_way();
     void stray();
     void steer_flight(const PlayerView& player);
     void choose_path(const Space& space, const PlayerView& player);
@@ -64,6 +66,8 @@ private:
     int in_air_ = 0; // frames
     glm::vec3 progress_place_ { 0 };
     uint32_t progress_time_ = 0;
+    glm::vec3 area_place_ { 0 };
+    uint32_t area_time_ = 0;
     int stray_ = 0; // frames that it goes anywhere, to come free
     glm::vec3 stray_direction_ { 0 };
     uint32_t plan_again_ = 0;
