@@ -79,11 +79,16 @@ std::vector<glm::vec3> read_steps(const fs::path& path)
     return steps;
 }
 
+// To the way between its places: in a tenth of a second a player runs 30 units.
 float find_distance(const std::vector<glm::vec3>& way, glm::vec3 place)
 {
-    float nearest = INFINITY;
-    for (const glm::vec3 p : way)
-        nearest = std::min(nearest, glm::distance(p, place));
+    float nearest = way.empty() ? INFINITY : glm::distance(way[0], place);
+    for (size_t i = 1; i < way.size(); i++) {
+        const glm::vec3 along = way[i] - way[i - 1];
+        const float length2 = glm::dot(along, along);
+        const float at = length2 > 0 ? std::clamp(glm::dot(place - way[i - 1], along) / length2, 0.0f, 1.0f) : 0;
+        nearest = std::min(nearest, glm::distance(way[i - 1] + along * at, place));
+    }
     return nearest;
 }
 
