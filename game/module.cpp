@@ -157,8 +157,10 @@ void Module::server_command()
 
 void Module::client_think(Edict* client, UserCommand* command)
 {
-    if (!walker_.swallow(client, *command))
-        host_.game->client_think(client, command);
+    if (walker_.swallows(client))
+        return;
+    host_.game->client_think(client, command);
+    walker_.record_input(client, *command);
 }
 
 void Module::run_frame()
@@ -169,7 +171,6 @@ void Module::run_frame()
     run_start_commands();
     walker_.drive();
     host_.game->run_frame();
-    walker_.record_frame();
     lights_.update(first_player());
     flares_.update();
     stress_.update();

@@ -17,6 +17,7 @@ public:
     {
     }
     bool empty() const { return words_.empty(); }
+    bool has_number() const { return !empty() && words_.front().find_first_of("0123456789") == 0; }
     std::string word(std::string_view what)
     {
         if (empty())
@@ -76,9 +77,11 @@ Step parse_step(Line& line)
     step.angles = line.angles();
     while (!line.empty()) {
         const std::string word = line.word("");
-        if (word == "jump")
+        if (word == "jump") {
             step.jump = true;
-        else if (word == "duck")
+            if (line.has_number())
+                step.jump_share = line.number("the share", 0, 1);
+        } else if (word == "duck")
             step.duck = true;
         else if (word == "attack")
             step.attack = true;
@@ -128,7 +131,7 @@ std::string write(const TimedInput& a)
 std::string write(const Step& a)
 {
     return fmt::format("step {} {} {} {:.2f} {:.2f}{}{}{}", a.place.x, a.place.y, a.place.z, a.angles.x, a.angles.y,
-        a.jump ? " jump" : "", a.duck ? " duck" : "", a.attack ? " attack" : "");
+        a.jump ? fmt::format(" jump {:.2f}", a.jump_share) : "", a.duck ? " duck" : "", a.attack ? " attack" : "");
 }
 
 } // namespace

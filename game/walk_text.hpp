@@ -31,9 +31,11 @@ struct TimedInput {
     glm::vec3 angles { 0 };
     bool operator==(const TimedInput&) const = default;
 };
-// step X Y Z PITCH YAW [jump] [duck] [attack]: is there in the next tenth of a second; what `walk record` writes.
+// step X Y Z PITCH YAW [jump [SHARE]] [duck] [attack]: is there in the next tenth of a second, of which it jumps after
+// a SHARE of 0 to 1; what `walk record` writes.
 struct Step {
     glm::vec3 place { 0 }, angles { 0 };
+    float jump_share = 0;
     bool jump = false, duck = false, attack = false;
     bool operator==(const Step&) const = default;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <utility>
@@ -15,12 +16,15 @@ namespace vkpt::game {
 namespace {
 
 constexpr int parts = 4; // inputs in a server frame
-constexpr int part_milliseconds = 25;
+constexpr int part_milliseconds = 25, frame_milliseconds = parts * part_milliseconds;
 constexpr float part_seconds = 0.001f * part_milliseconds;
 constexpr float run_speed = 400; // of inputs; the engine walks at 300
 constexpr float jump_input = 400;
 constexpr float farthest_step = 160; // units in a frame; more is a teleporter
-constexpr int patience = 80; // frames that a step may wait for a door or a lift
+constexpr int patience = 80 * parts; // inputs that steps may wait for a door or a lift
+constexpr float farthest_lag = 8; // units behind a step's place at which it waits
+constexpr float approach_seconds = 0.1f; // in which a lag is made good
+constexpr float inertia = 3; // the share of a wrong velocity that an input goes against
 constexpr int settle_frames = 4; // of a new level before a player may act
 
 constexpr std::string_view usage = "walk FILE, walk record FILE, walk explore SECONDS [SEED] (0 seconds: until walk "
@@ -28,7 +32,15 @@ constexpr std::string_view usage = "walk FILE, walk record FILE, walk explore SE
 
 int16_t to_short_angle(float degrees) { return int16_t(uint16_t(int(std::lround(degrees * 65536 / 360)) & 65535)); }
 int frames_of(float seconds) { return std::max(1, int(std::lround(seconds / frame_seconds))); }
+int parts_of(float seconds) { return frames_of(seconds) * parts; }
 float level_length(glm::vec3 v) { return std::hypot(v.x, v.y); }
+
+// How far a player is behind a place that moves, along the ground.
+float find_distance_behind(glm::vec3 lag, glm::vec3 velocity)
+{
+    const float speed = level_length(velocity);
+    return speed > 1 ? (lag.x * velocity.x + lag.y * velocity.y) / speed : level_length(lag);
+}
 
 } // namespace
 
@@ -72,7 +84,8 @@ void Walker::run(const Command& command, const std::vector<bool>& is_client)
     actions_ = parse_walk_file(files().read(verb), files().describe(verb));
     name_ = verb;
     action_ = 0;
-    action_frames_ = 0;
+    action_parts_ = 0;
+    step_from_.reset();
     explorer_ = std::make_unique<Explorer>(0);
     start(Mode::file, command, is_client);
 }
@@ -102,8 +115,8 @@ void Walker::start(Mode mode, const Command& command, const std::vector<bool>& i
     start_angles_ = angles_;
     last_origin_ = view.origin;
     was_alive_ = true;
-    own_input_.reset();
     pressed_ = {};
+    step_milliseconds_ = 0;
     mode_ = mode;
     level_frame_ = host_.frame;
     if (explorer_) {
@@ -195,10 +208,10 @@ void Walker::drive()
     if (explorer_ && is_alive && explorer_->is_trapped())
         fake_client_.type(edict, "kill");
     presses_ = !presses_; // the dead press a button again and again, as to live anew
-    for (int part = 0; part < parts; part++) {
+    for (int part = 0; part < parts && is_walking(); part++) {
         UserCommand input {};
         if (is_alive)
-            input = next_input(*edict, part);
+            input = next_input(*edict);
         else
             input.buttons = presses_ ? BUTTON_ATTACK | BUTTON_ANY : 0;
         input.milliseconds = part_milliseconds;
@@ -208,10 +221,10 @@ void Walker::drive()
         stop(fake_client_.is_fake(edict) ? nullptr : edict);
 }
 
-UserCommand Walker::next_input(const Edict& edict, int part)
+UserCommand Walker::next_input(const Edict& edict)
 {
     const PlayerView view = view_of(edict);
-    const Inputs inputs = mode_ == Mode::explore ? explorer_->steer(view, part_seconds) : follow_file(view, part);
+    const Inputs inputs = mode_ == Mode::explore ? explorer_->steer(view, part_seconds) : follow_file(view);
     angles_ = inputs.angles;
     return make_command(edict, inputs);
 }
@@ -232,33 +245,35 @@ UserCommand Walker::make_command(const Edict& edict, const Inputs& inputs) const
     return command;
 }
 
-Inputs Walker::follow_file(const PlayerView& view, int part)
+Inputs Walker::follow_file(const PlayerView& view)
 {
-    if (action_frames_ == 0 && part == 0)
-        begin_action();
+    if (action_parts_ == 0)
+        begin_action(view);
     Inputs inputs;
     inputs.angles = angles_;
-    if (action_ < actions_.size()) {
-        const WalkAction& action = actions_[action_];
-        if (std::holds_alternative<GoTo>(action))
-            inputs = explorer_->steer(view, part_seconds);
-        else if (const auto* look = std::get_if<Look>(&action))
-            inputs.angles = look->angles;
-        else if (const auto* input = std::get_if<TimedInput>(&action))
-            inputs = follow_input(*input, part);
-        else if (const auto* step = std::get_if<Step>(&action))
-            inputs = follow_step(*step, view, part);
+    if (action_ >= actions_.size())
+        return inputs;
+    const WalkAction& action = actions_[action_];
+    action_parts_++;
+    if (std::holds_alternative<GoTo>(action))
+        inputs = explorer_->steer(view, part_seconds);
+    else if (const auto* look = std::get_if<Look>(&action))
+        inputs.angles = look->angles;
+    else if (const auto* input = std::get_if<TimedInput>(&action))
+        inputs = follow_input(*input);
+    else if (const auto* step = std::get_if<Step>(&action))
+        inputs = follow_step(*step, view);
+    if (is_done(action, view)) {
+        angles_ = inputs.angles;
+        next_action();
     }
-    if (part + 1 == parts)
-        end_part(view);
     return inputs;
 }
 
-Inputs Walker::follow_input(const TimedInput& input, int part)
+Inputs Walker::follow_input(const TimedInput& input) const
 {
     Inputs inputs;
-    const float share
-        = std::min(1.0f, (float(action_frames_) + float(part + 1) / parts) / float(frames_of(input.seconds)));
+    const float share = std::min(1.0f, float(action_parts_) / float(parts_of(input.seconds)));
     inputs.angles = start_angles_;
     if (input.turns_pitch)
         inputs.angles.x += (input.angles.x - start_angles_.x) * share;
@@ -273,26 +288,37 @@ Inputs Walker::follow_input(const TimedInput& input, int part)
     return inputs;
 }
 
-Inputs Walker::follow_step(const Step& step, const PlayerView& view, int part)
+// The player is led along the line from the last place to this one.
+Inputs Walker::follow_step(const Step& step, const PlayerView& view)
 {
     Inputs inputs;
-    const float left = frame_seconds - part_seconds * float(part);
-    const glm::vec3 wanted = (step.place - view.origin) / left;
+    float share = float(action_parts_) / parts;
+    const bool is_teleport = glm::distance(*step_from_, step.place) > farthest_step;
+    const glm::vec3 lag = (is_teleport ? step.place : glm::mix(*step_from_, step.place, share)) - view.origin;
+    if (!is_teleport)
+        step_velocity_ = (step.place - *step_from_) / frame_seconds;
+    if (!is_teleport && find_distance_behind(lag, step_velocity_) <= farthest_lag) {
+        step_waits_ = 0;
+    } else if (step_waits_ < patience) {
+        step_waits_++;
+        action_parts_--; // the line's end waits
+    }
+    const glm::vec3 velocity = is_teleport ? step_velocity_ : step_velocity_ + lag / approach_seconds;
+    const glm::vec3 wanted = velocity + inertia * (velocity - view.velocity);
     const float speed = level_length(wanted);
     if (speed > 8)
         inputs.move = glm::vec3(wanted.x, wanted.y, 0) / std::max(speed, run_speed);
     if (view.in_water)
         inputs.climb = std::clamp(wanted.z / run_speed, -1.0f, 1.0f);
     else
-        inputs.climb = step.jump ? 1.0f : step.duck ? -1.0f : 0.0f;
-    const float share = float(part + 1) / parts;
-    inputs.angles.x = start_angles_.x + (step.angles.x - start_angles_.x) * share;
+        inputs.climb = step.jump && share > step.jump_share ? 1.0f : step.duck ? -1.0f : 0.0f;
+    inputs.angles.x = glm::mix(start_angles_.x, step.angles.x, share);
     inputs.angles.y = wrap_degrees(start_angles_.y + wrap_degrees(step.angles.y - start_angles_.y) * share);
     inputs.attack = step.attack;
     return inputs;
 }
 
-void Walker::begin_action()
+void Walker::begin_action(const PlayerView& view)
 {
     start_angles_ = angles_;
     if (action_ >= actions_.size()) {
@@ -301,66 +327,59 @@ void Walker::begin_action()
     }
     if (const auto* target = std::get_if<GoTo>(&actions_[action_]))
         explorer_->set_goal(target->place);
+    if (!step_from_)
+        step_from_ = view.origin;
 }
 
 void Walker::next_action()
 {
+    const auto* step = std::get_if<Step>(&actions_[action_]);
+    step_from_ = step ? std::optional(step->place) : std::nullopt;
     action_++;
-    action_frames_ = 0;
+    action_parts_ = 0;
     explorer_->clear_goal();
     explorer_->reset_view(angles_);
 }
 
-// The last part of a frame: whether the action is done.
-void Walker::end_part(const PlayerView& view)
+bool Walker::is_done(const WalkAction& action, const PlayerView& view) const
 {
-    action_frames_++;
-    if (action_ >= actions_.size())
-        return;
-    const WalkAction& action = actions_[action_];
-    bool done = true;
     if (const auto* wait = std::get_if<Wait>(&action))
-        done = action_frames_ >= frames_of(wait->seconds);
-    else if (const auto* input = std::get_if<TimedInput>(&action))
-        done = action_frames_ >= frames_of(input->seconds);
-    else if (const auto* step = std::get_if<Step>(&action))
-        // Something is in the way, as a door that opens: it is waited for.
-        done = level_length(step->place - view.origin) < 48 || action_frames_ >= patience;
-    else if (std::holds_alternative<GoTo>(action)) {
-        done = explorer_->has_arrived(view);
-        if (!done && explorer_->has_given_up()) {
-            host_.say(fake_client_.is_fake(player()) ? nullptr : player(),
-                fmt::format("walk: {}: no way to the place of line {}; it is left out", name_, action_ + 1));
-            done = true;
-        }
-    }
-    if (done)
-        next_action();
+        return action_parts_ >= parts_of(wait->seconds);
+    if (const auto* input = std::get_if<TimedInput>(&action))
+        return action_parts_ >= parts_of(input->seconds);
+    if (std::holds_alternative<Step>(action))
+        return action_parts_ >= parts;
+    if (!std::holds_alternative<GoTo>(action) || explorer_->has_arrived(view))
+        return true;
+    if (explorer_->has_given_up())
+        host_.say(fake_client_.is_fake(player()) ? nullptr : player(),
+            fmt::format("walk: {}: no way to the place of line {}; it is left out", name_, action_ + 1));
+    return explorer_->has_given_up();
 }
 
-bool Walker::swallow(const Edict* client, const UserCommand& command)
+bool Walker::swallows(const Edict* client) const { return is_walking() && player() && client == player(); }
+
+void Walker::record_input(const Edict* client, const UserCommand& command)
 {
-    if (mode_ == Mode::none || !player() || client != player())
-        return false;
-    own_input_ = command;
-    // Keys may be pressed for less than a server frame.
-    pressed_.jump |= command.up > 0;
+    if (mode_ != Mode::record || !player() || client != player() || !client->client)
+        return;
+    // Keys may be pressed for less than a step.
+    if (command.up > 0 && !std::exchange(pressed_.jump, true))
+        pressed_.jump_share = float(step_milliseconds_) / frame_milliseconds;
     pressed_.duck |= command.up < 0;
     pressed_.attack |= (command.buttons & BUTTON_ATTACK) != 0;
-    return is_walking();
-}
-
-void Walker::record_frame()
-{
-    const Edict* edict = player();
-    if (mode_ != Mode::record || !own_input_ || !edict || !edict->client)
-        return;
-    Step step = std::exchange(pressed_, {});
-    step.place = to_vec3(edict->state.origin);
-    const glm::vec3 angles = to_vec3(edict->client->state.view_angles);
-    step.angles = { std::clamp(angles.x, -90.0f, 90.0f), wrap_degrees(angles.y), 0 };
-    if (actions_.size() < max_walk_actions)
-        actions_.push_back(step);
+    const glm::vec3 angles = to_vec3(client->client->state.view_angles);
+    pressed_.angles = { std::clamp(angles.x, -90.0f, 90.0f), wrap_degrees(angles.y), 0 };
+    const glm::vec3 from = std::exchange(last_origin_, to_vec3(client->state.origin));
+    const bool was_moved = glm::distance(from, last_origin_) > farthest_step;
+    for (step_milliseconds_ += command.milliseconds; step_milliseconds_ >= frame_milliseconds;) {
+        step_milliseconds_ -= frame_milliseconds;
+        const float share = 1 - float(step_milliseconds_) / float(command.milliseconds);
+        pressed_.place = was_moved ? last_origin_ : glm::mix(from, last_origin_, share);
+        if (actions_.size() < max_walk_actions)
+            actions_.push_back(pressed_);
+        pressed_ = { .angles = pressed_.angles };
+    }
 }
 
 void Walker::show_view()

@@ -26,10 +26,11 @@ public:
     void begin_level(std::string_view entity_text);
     // Before each server frame of the game's: the driven player's inputs.
     void drive();
-    // Behind it: what is recorded.
-    void record_frame();
-    // A player's own input. True: the walk drives that player, and the input is not to count.
-    bool swallow(const Edict* client, const UserCommand& command);
+    // True: the walk drives that player, and its own inputs are not to count.
+    bool swallows(const Edict* client) const;
+    // Behind each input of a player's: where it is after every tenth of a second of its own time, of which a slow
+    // machine may put two into one server frame and none into the next.
+    void record_input(const Edict* client, const UserCommand& command);
 
     // So that the driven player's screen shows what the server says, blended, and not what its own keys would do: what
     // the server tells of the player between calls into the game.
@@ -51,13 +52,13 @@ private:
     Edict* player() const { return player_ > 0 ? host_.edict(player_) : nullptr; }
     PlayerView view_of(const Edict& edict) const;
     Explorer::Arrival note_arrival(const PlayerView& view, bool is_alive);
-    // The inputs of one part of a frame, `part` of `parts`.
-    UserCommand next_input(const Edict& edict, int part);
-    Inputs follow_file(const PlayerView& view, int part);
-    Inputs follow_step(const Step& step, const PlayerView& view, int part);
-    Inputs follow_input(const TimedInput& input, int part);
-    void begin_action();
-    void end_part(const PlayerView& view);
+    // The inputs of one part of a frame.
+    UserCommand next_input(const Edict& edict);
+    Inputs follow_file(const PlayerView& view);
+    Inputs follow_step(const Step& step, const PlayerView& view);
+    Inputs follow_input(const TimedInput& input) const;
+    void begin_action(const PlayerView& view);
+    bool is_done(const WalkAction& action, const PlayerView& view) const;
     void next_action();
     UserCommand make_command(const Edict& edict, const Inputs& inputs) const;
 
@@ -72,10 +73,13 @@ private:
     std::string name_; // of the file
     std::vector<WalkAction> actions_;
     size_t action_ = 0;
-    int action_frames_ = 0; // since it began
+    int action_parts_ = 0; // parts of frames since it began
+    std::optional<glm::vec3> step_from_; // where a step's line begins
+    glm::vec3 step_velocity_ { 0 }; // of the last step, in units a second
+    int step_waits_ = 0; // parts that the player has been too far behind
     glm::vec3 angles_ { 0 }, start_angles_ { 0 };
-    std::optional<UserCommand> own_input_; // the last of the driven or recorded player
     Step pressed_; // what was pressed since the last recorded step
+    int step_milliseconds_ = 0; // since then, of the recorded player's time
     glm::vec3 last_origin_ { 0 };
     bool was_alive_ = true, presses_ = false;
     bool must_begin_ = false; // the fake client, in a new level

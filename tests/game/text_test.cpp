@@ -125,7 +125,10 @@ TEST(WalkText, WhatIsWrittenIsReadAgain)
 {
     TimedInput input { 1.5f, 200, -100, 0, false, true, true, { 0, 90, 0 } };
     const std::vector<WalkAction> actions { GoTo { { 1, 2, 3 } }, Wait { 0.5f }, Look { { -10, 20, 0 } }, input,
-        Step { { 1.125f, -2, 3 }, { 5.25f, -90, 0 }, true, false, true } };
+        Step { { 1.125f, -2, 3 }, { 5.25f, -90, 0 }, 0.25f, true, false, true },
+        Step { { 0, 0, 0 }, { 0, 0, 0 }, 0, false, true, false } };
+    EXPECT_EQ(parse_walk_file("step 1 2 3 4 5 jump duck", "x"),
+        (std::vector<WalkAction> { Step { { 1, 2, 3 }, { 4, 5, 0 }, 0, true, true, false } }));
     EXPECT_EQ(parse_walk_file(write_walk_file(actions, "m"), "x"), actions);
 }
 
