@@ -119,9 +119,13 @@ list_packages() { inside "$1" root 'dpkg-query -W -f "\${Package} \${Version}\n"
 clone() {
     local home=root
     [[ $1 == root ]] || home=home/$1
-    [[ -d $folder/build/$home/ref_vkpt ]] && return 0
-    git clone --quiet "$root" "$folder/build/$home/ref_vkpt" || die "cannot clone $root"
-    chown -R --reference="$folder/build/$home" "$folder/build/$home/ref_vkpt"
+    local copy=$folder/build/$home/ref_vkpt
+    if [[ -d $copy ]]; then # of an earlier run
+        git -c safe.directory='*' -C "$copy" pull --quiet --ff-only "$root" HEAD || die "cannot bring $copy up to date"
+    else
+        git clone --quiet "$root" "$copy" || die "cannot clone $root"
+    fi
+    chown -R --reference="$folder/build/$home" "$copy"
 }
 
 test_command="./test${tests:+ -- -R '$tests'}"
