@@ -44,6 +44,7 @@ int main(int argc, char** argv)
     vkpt::client::add_render_command(program);
     vkpt::client::add_film_command(program);
     vkpt::client::add_bench_command(program);
+    vkpt::client::add_report_command(program);
     vkpt::client::add_manual_options(program);
     vkpt::client::add_compare_command(program);
     vkpt::client::add_diff_command(program);

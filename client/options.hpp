@@ -50,6 +50,7 @@ void add_film_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_record_command(CLI::App& program);
 void add_render_command(CLI::App& program);
+void add_report_command(CLI::App& program);
 void add_bench_command(CLI::App& program);
 void add_view_command(CLI::App& program);
 

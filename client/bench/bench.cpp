@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // vkpt bench: how long each part of a frame takes.
 #include "client/bench/bench_report.hpp"
+#include "client/bench/collected_times.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/frame_source.hpp"
 #include "client/host/output_file.hpp"
@@ -27,7 +28,6 @@ constexpr int default_frames = 200;
 // is timed as a whole, the other one pass by pass.
 constexpr int shortest_turn = 2, longest_turn = 16;
 constexpr int counted_frames = 8; // for rays
-constexpr std::string_view cpu_task = "cpu "; // what the module calls its CPU's tasks
 
 struct BenchOptions {
     ModuleOptions module;
@@ -55,14 +55,6 @@ std::vector<Setting> parse_ab(const std::string& text)
         throw WrongUse(fmt::format("--ab {}: write --ab NAME=VALUE,VALUE", text));
     const std::string name = text.substr(0, equals);
     return { { name, text.substr(equals + 1, comma - equals - 1) }, { name, text.substr(comma + 1) } };
-}
-
-void add_samples(std::vector<TimedTask>& tasks, std::string_view name, const PassSamples& samples)
-{
-    auto task = std::ranges::find(tasks, name, &TimedTask::name);
-    if (task == tasks.end())
-        task = tasks.insert(tasks.end(), { std::string(name), {} });
-    task->ms.insert(task->ms.end(), samples.milliseconds, samples.milliseconds + samples.count);
 }
 
 // The module runs, the scene is there; measures one variant's turns.
@@ -160,18 +152,7 @@ private:
             if (in_turns)
                 wait();
         }
-        size_t count = 0;
-        const PassSamples* samples = host_.extension().collected_times(&count);
-        for (size_t i = 0; i < count; i++) {
-            const std::string_view name = samples[i].name;
-            if (name.starts_with(cpu_task))
-                add_samples(result.cpu, name.substr(cpu_task.size()), samples[i]);
-            else if (name == "frame")
-                result.frame_ms.insert(
-                    result.frame_ms.end(), samples[i].milliseconds, samples[i].milliseconds + samples[i].count);
-            else
-                add_samples(result.passes, name, samples[i]);
-        }
+        add_collected_times(host_.extension(), result);
     }
 
     // All that is not a time, after the measurement: counting rays costs time.
@@ -195,9 +176,7 @@ private:
         result.device = info.device;
         result.driver = info.driver;
         result.trace_backend = info.trace_backend;
-        result.gpu_mib = double(info.texture_bytes + info.geometry_bytes + info.acceleration_bytes + info.light_bytes
-                             + info.image_bytes + info.staging_bytes)
-            / (1 << 20);
+        result.gpu_mib = find_device_mib(info);
         rusage usage {};
         getrusage(RUSAGE_SELF, &usage);
         result.peak_rss_mib = double(usage.ru_maxrss) / 1024; // Linux counts in KiB

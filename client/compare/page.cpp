@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/analysis/display.hpp"
+#include "client/base64.hpp"
 #include "client/compare/page_parts.hpp"
 #include "client/compare/plot.hpp"
 #include "client/compare/report.hpp"
@@ -15,21 +16,6 @@ namespace vkpt::client {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string encode_base64(formats::Bytes bytes)
-{
-    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        const size_t count = std::min<size_t>(3, bytes.size() - i);
-        uint32_t bits = 0;
-        for (size_t k = 0; k < 3; k++)
-            bits = bits << 8 | (k < count ? uint32_t(bytes[i + k]) : 0);
-        for (size_t k = 0; k < 4; k++)
-            text += k <= count ? digits[bits >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
 
 // The references' labels: this, and nothing.
 constexpr const char* centre_reference = "centre";

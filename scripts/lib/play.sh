@@ -328,6 +328,22 @@ take_set_arguments() {
     done
 }
 
+# What this machine makes of our demo and our map.
+report_gpu() {
+    local trace=$home_dir/demo.rtrace setting
+    local -a given=()
+    for setting in ${settings[@]+"${settings[@]}"}; do
+        given+=(--set "$setting")
+    done
+    [[ -z $size ]] || given+=(--size "$size")
+    choose_demo
+    rm -f "$trace"
+    run_step record "Recording $demo_name by the engine" vkpt_program record "$demo_name" --timedemo \
+        --engine "$(find_engine)" --basedir "$data_dir" -o "$trace" || exit 1
+    mkdir -p "${report_dir%/*}" 2>/dev/null
+    vkpt_program report "$trace" --basedir "$data_dir" ${given[@]+"${given[@]}"} -o "$report_dir" || die "there is no report"
+}
+
 film_frames=0 capture_path=
 film_progress() {
     local -a pictures=("$capture_path"/*.png)

@@ -64,6 +64,7 @@ else
 fi
 
 expect 1 'no demo .nothere' play --timedemo nothere
+expect 2 'gpu-report is about our own demo' play --gpu-report --timedemo
 expect 1 'no map .nothere' play --headless --map nothere
 expect 1 'no Quake II data in' play --data "$folder"
 expect 1 'no-such-gpu' play --size 96x54 --timedemo --set pt_device=no-such-gpu

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Hours of play in minutes: maps, restarts, window sizes, settings, nonsense and demos in one run of the engine, in an
 // order that a seed decides. Nothing may crash or pile up, and the validation layers have to stay silent.
-//   VKPT_SOAK_MINUTES   how long (default 1); VKPT_SOAK_SEED   the order (default 1)
+//   VKPT_SOAK_MINUTES   how long, half of it with the validation layers (default 1); VKPT_SOAK_SEED   the order
+//   (default 1)
 #include "ref_vkpt/cvars_rows.hpp"
 #include "tests/engine/engine_run.hpp"
 
@@ -26,6 +27,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int max_rounds = 100, maps_per_round = 5; // 500 map changes and 100 restarts
+constexpr size_t first_width = 160, first_height = 90;
+constexpr int settle_waits = 3;
 constexpr size_t warm_up_rounds = 2, min_rounds = warm_up_rounds + 2;
 constexpr double max_growth = 0.01; // of the memory after the warm-up
 
@@ -57,7 +60,11 @@ public:
         for (const CvarRow& row : cvar_rows)
             if (is_touched(row))
                 text += "set " + std::string(row.name) + " \"" + row.initial + "\"\n";
-        return text + "vid_restart\nmap " + own_map + "\nwait_25\nwait_25\n" + memory_mark;
+        text += write_window_size(first_width, first_height, display_commands);
+        text += "vid_restart\nmap " + std::string(own_map) + "\n";
+        for (int i = 0; i < settle_waits; i++) // shaders are compiled beside the first frames
+            text += "wait_100\n";
+        return text + memory_mark;
     }
 
     // How often each kind of action stood in the first rounds.
@@ -89,7 +96,7 @@ private:
                 break;
             case 1:
                 counts_.back()["window sizes"]++;
-                text += write_window_size(display_commands);
+                text += write_window_size(64 + pick(300), 48 + pick(200), display_commands);
                 break;
             case 2:
             case 3:
@@ -106,10 +113,10 @@ private:
         return text;
     }
 
-    std::string write_window_size(std::vector<std::string>& display_commands)
+    static std::string write_window_size(size_t width, size_t height, std::vector<std::string>& display_commands)
     {
-        const std::string width = std::to_string(64 + pick(300)), height = std::to_string(48 + pick(200));
-        display_commands.push_back("xdotool search --class quake2 windowsize " + width + " " + height);
+        display_commands.push_back(
+            "xdotool search --class quake2 windowsize " + std::to_string(width) + " " + std::to_string(height));
         return display_mark;
     }
 
@@ -170,52 +177,91 @@ private:
 
 std::string file_of_round(int round) { return "soak" + std::to_string(round) + ".cfg"; }
 
+// Plays rounds until half of the time is over: each of the two tests has one half.
+class Play {
+public:
+    explicit Play(bool validation)
+    {
+        const int seed = read_number("VKPT_SOAK_SEED", 1);
+        const std::chrono::duration<double, std::ratio<60>> minutes(read_number("VKPT_SOAK_MINUTES", 1) / 2.0);
+        Script script { unsigned(seed) };
+        EngineOptions options = write_options(script);
+        options.validation = validation;
+        const auto start = Clock::now();
+        bool told = false;
+        options.while_running = [&](const std::filesystem::path& folder) {
+            if (told || Clock::now() - start < minutes)
+                return;
+            std::ofstream(folder / "soak_end.cfg") << "quit\n";
+            told = true;
+        };
+        const EngineRun run(options);
+        run.expect_clean();
+        memory_ = run.result().marked_memory;
+        handles_ = run.result().marked_handles;
+        std::printf("seed %d, %.1f minutes: %zu rounds, %zu map changes, %zu restarts of video\n", seed,
+            std::chrono::duration<double, std::ratio<60>>(Clock::now() - start).count(), memory_.size(),
+            run.lines_with("server initialization").size(),
+            run.lines_with("Successfully loaded ref_vkpt.so").size() - 1);
+        for (const auto& [what, count] : script.counts(memory_.size()))
+            std::printf("%zu %s\n", count, what.c_str());
+        for (size_t i = 0; i < memory_.size(); i++)
+            std::printf(
+                "after round %zu: %.1f MiB, %zu open files\n", i + 1, double(memory_[i]) / (1 << 20), handles_[i]);
+        EXPECT_GE(memory_.size(), min_rounds) << "too few rounds to say anything: let it run longer";
+    }
+
+    void expect_flat_handles() const
+    {
+        for (size_t i = warm_up_rounds; i < handles_.size(); i++)
+            EXPECT_EQ(handles_[i], handles_[warm_up_rounds - 1]) << "open files after round " << i + 1;
+    }
+
+    // The least of the last half against the least of the first: what is only held for a while does not count.
+    void expect_flat_memory() const
+    {
+        ASSERT_GE(memory_.size(), min_rounds);
+        const auto middle = memory_.begin() + std::ptrdiff_t(warm_up_rounds + (memory_.size() - warm_up_rounds) / 2);
+        const double before = double(*std::min_element(memory_.begin() + warm_up_rounds, middle)),
+                     after = double(*std::min_element(middle, memory_.end()));
+        EXPECT_LT(after, before * (1 + max_growth));
+    }
+
+private:
+    static EngineOptions write_options(Script& script)
+    {
+        EngineOptions options;
+        options.width = int(first_width);
+        options.height = int(first_height);
+        options.cpu_seconds = 1e9; // as long as it was told to
+        for (int round = 0; round < max_rounds; round++)
+            options.files[file_of_round(round)] = script.write_round(options.display_commands)
+                + (size_t(round) + 1 < min_rounds ? "" : "exec soak_end.cfg\n") // a slow machine takes longer
+                + (round + 1 < max_rounds ? "exec " + file_of_round(round + 1) + "\n" : "quit\n");
+        options.files["soak_end.cfg"] = "// where the time is over, this quits\n";
+        options.script = "exec " + file_of_round(0) + "\n";
+        options.arguments = { "+exec", "test.cfg" };
+        return options;
+    }
+
+    std::vector<uint64_t> memory_; // resident bytes at the end of each round
+    std::vector<size_t> handles_; // open files
+};
+
 } // namespace
 
+// Without the layers, which keep notes of their own on all that they have seen.
 TEST(Soak, LongNothingPilesUp)
 {
-    const int seed = read_number("VKPT_SOAK_SEED", 1);
-    const std::chrono::duration<double, std::ratio<60>> minutes(read_number("VKPT_SOAK_MINUTES", 1));
-    EngineOptions options;
-    options.width = 160;
-    options.height = 90;
-    options.cpu_seconds = 1e9; // as long as it was told to
-    Script script { unsigned(seed) };
-    for (int round = 0; round < max_rounds; round++)
-        options.files[file_of_round(round)] = script.write_round(options.display_commands)
-            + (size_t(round) + 1 < min_rounds ? "" : "exec soak_end.cfg\n") // a slow machine takes longer
-            + (round + 1 < max_rounds ? "exec " + file_of_round(round + 1) + "\n" : "quit\n");
-    options.files["soak_end.cfg"] = "// where the time is over, this quits\n";
-    options.script = "exec " + file_of_round(0) + "\n";
-    options.arguments = { "+exec", "test.cfg" };
-    const auto start = Clock::now();
-    bool told = false;
-    options.while_running = [&](const std::filesystem::path& folder) {
-        if (told || Clock::now() - start < minutes)
-            return;
-        std::ofstream(folder / "soak_end.cfg") << "quit\n";
-        told = true;
-    };
-    const EngineRun run(options);
-    run.expect_clean();
+    const Play play(false);
+    play.expect_flat_handles();
+    play.expect_flat_memory();
+}
 
-    const auto& memory = run.result().marked_memory;
-    const auto& handles = run.result().marked_handles;
-    std::printf("seed %d, %.1f minutes: %zu rounds, %zu map changes, %zu restarts of video\n", seed,
-        std::chrono::duration<double, std::ratio<60>>(Clock::now() - start).count(), memory.size(),
-        run.lines_with("server initialization").size(), run.lines_with("Successfully loaded ref_vkpt.so").size() - 1);
-    for (const auto& [what, count] : script.counts(memory.size()))
-        std::printf("%zu %s\n", count, what.c_str());
-    for (size_t i = 0; i < memory.size(); i++)
-        std::printf("after round %zu: %.1f MiB, %zu open files\n", i + 1, double(memory[i]) / (1 << 20), handles[i]);
-    ASSERT_GE(memory.size(), min_rounds) << "too few rounds to say anything: let it run longer";
-    for (size_t i = warm_up_rounds; i < handles.size(); i++)
-        EXPECT_EQ(handles[i], handles[warm_up_rounds - 1]) << "open files after round " << i + 1;
-    // The least of the last half against the least of the first: what is only held for a while does not count.
-    const auto middle = memory.begin() + std::ptrdiff_t(warm_up_rounds + (memory.size() - warm_up_rounds) / 2);
-    const double before = double(*std::min_element(memory.begin() + warm_up_rounds, middle)),
-                 after = double(*std::min_element(middle, memory.end()));
-    EXPECT_LT(after, before * (1 + max_growth));
+TEST(Soak, LongTheLayersStaySilent)
+{
+    const Play play(true);
+    play.expect_flat_handles();
 }
 
 } // namespace vkpt::tests
