@@ -77,6 +77,13 @@ void add_maps()
         "# a comment\ntextures/e1u1/floor.wal,\nmodels/x/skin:\n    roughness_override 0.3\n    texture_normals "
         "overrides/floor_n.tga\n"
         "    kind CHROME\n");
+    add_text("game_text", "lights",
+        "l# vkpt lights of sample\nlight 0 0 64 0 0 #ff8040 450 2 pulse\nlight 8 8 64 30 90 red 200 1 spot 40 # a "
+        "comment\nlight 0 0 0 0 0 orbit 64 4\n");
+    add_text("game_text", "walk",
+        "w# vkpt walk in sample\ngoto 1 2 3\nwait .5\nlook -10 20\ninput 1.5 forward 200 side -100 up 10 pitch 4 yaw "
+        "90 "
+        "attack\nstep 1 2 3 4 5 jump .25 duck attack\n");
     for (const char* name : { "func_door", "func_door_rotating", "func_plat", "func_train", "func_rotating",
              "func_wall", "func_object", "func_explosive", "func_button", "func_water" })
         add_text("entities", name,

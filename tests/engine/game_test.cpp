@@ -47,7 +47,9 @@ EngineOptions play(const std::string& script)
 void watch_player(EngineOptions& options)
 {
     options.files["game.so"] = read_file(VKPT_PROBE);
-    options.environment = { "VKPT_PROBE_OUTSIDE=" VKPT_GAME_MODULE, "VKPT_PROBE_STATES=home/.yq2/vkpt/states" };
+    options.files["outside.so"] = read_file(VKPT_GAME_MODULE); // the engine's user may not look into the build folder
+    options.environment
+        = { "VKPT_PROBE_OUTSIDE=home/.yq2/vkpt/outside.so", "VKPT_PROBE_STATES=home/.yq2/vkpt/states" };
 }
 
 std::vector<glm::vec3> read_way(const EngineRun& run)
@@ -214,7 +216,7 @@ TEST(EngineGame, WhatCannotBeLoadedIsToldAndTheGameGoesOn)
     };
     const Case cases[] {
         { "/nowhere/game.so", "# vkpt lights\nlight 0 0 mauve\n", "cannot open shared object", "line 2: the place" },
-        { VKPT_OLD_GAME, "# vkpt lights\nlight 0 0 100 0 0 red -5\n", "game interface version 2, not 3",
+        { "home/.yq2/vkpt/old.so", "# vkpt lights\nlight 0 0 100 0 0 red -5\n", "game interface version 2, not 3",
             "lights/vkpt1.txt, line 2" },
         { "/usr/lib/yamagi-quake2/ref_soft.so", std::string(2 << 20, 'x'), "", "longer than" },
     };
@@ -222,6 +224,7 @@ TEST(EngineGame, WhatCannotBeLoadedIsToldAndTheGameGoesOn)
         EngineOptions options = play("map vkpt1\nwait_100\nlight add red\nlight list\nvkpt_game\nwait_25\nquit\n");
         options.arguments.insert(options.arguments.begin(), { "+set", "vkpt_game_library", bad.library });
         options.files["lights/vkpt1.txt"] = bad.lights;
+        options.files["old.so"] = read_file(VKPT_OLD_GAME);
         const EngineRun run(options);
         run.expect_clean();
         ASSERT_EQ(run.lines_with("vkpt_game_library: ").size(), 1u) << run.result().console;

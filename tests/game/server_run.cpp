@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -44,7 +45,10 @@ ServerRun::ServerRun(const ServerOptions& options)
     bool took_too_long = false;
     for (int look = 1; waitpid(process, &status, WNOHANG) == 0; look++) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        if (look % 50 == 0 && measure_cpu_seconds(process) > options.cpu_seconds) {
+        // A server that has found no game stays, and does nothing.
+        if (look % 50 == 0
+            && (measure_cpu_seconds(process) > options.cpu_seconds
+                || read_text(game_folder() / "qconsole.log").find("failed to load game DLL") != std::string::npos)) {
             took_too_long = true;
             kill(-process, SIGKILL);
         }
@@ -89,15 +93,23 @@ void ServerRun::make_folder(const ServerOptions& options)
     script << options.frames << " quit\n";
 }
 
+// The server's user may not look into the build folder: what it loads from there is copied.
+std::string ServerRun::bring(const std::string& library)
+{
+    if (!library.starts_with(VKPT_TEST_BUILD_DIR))
+        return library;
+    const fs::path copy = folder_ / fmt::format("library{}.so", ++libraries_);
+    fs::copy_file(library, copy);
+    return copy.string();
+}
+
 int ServerRun::start(const ServerOptions& options)
 {
-    std::string library = options.game_library;
-    if (options.probe_inside)
-        library = (folder_ / "inside.so").string();
+    library_ = options.probe_inside ? (folder_ / "inside.so").string() : bring(options.game_library);
     std::vector<std::string> words { VKPT_SOURCE_DIR "/scripts/run_server.sh", folder_.string(), "+set", "fixedtime",
         "100000" }; // a server frame in every loop
-    if (!library.empty())
-        words.insert(words.end(), { "+set", "vkpt_game_library", library });
+    if (!library_.empty())
+        words.insert(words.end(), { "+set", "vkpt_game_library", library_ });
     for (size_t i = 0; i + 1 < options.settings.size(); i += 2)
         words.insert(words.end(), { "+set", options.settings[i], options.settings[i + 1] });
     words.insert(words.end(), { "+map", options.map });
@@ -106,11 +118,11 @@ int ServerRun::start(const ServerOptions& options)
         argv.push_back(word.data());
     argv.push_back(nullptr);
 
+    const std::string module = bring(options.sanitized ? VKPT_SANITIZED_GAME : VKPT_GAME_MODULE);
     const int process = fork();
     if (process != 0)
         return process;
     setsid();
-    const std::string module = options.sanitized ? VKPT_SANITIZED_GAME : VKPT_GAME_MODULE;
     setenv("VKPT_BUILD_DIR", VKPT_TEST_BUILD_DIR, 1);
     setenv("VKPT_PROBE_OUTSIDE", (options.replay ? stock_game().string() : module).c_str(), 1);
     setenv("VKPT_PROBE_INSIDE", stock_game().c_str(), 1);

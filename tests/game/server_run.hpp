@@ -57,16 +57,21 @@ public:
     std::vector<OwnEntity> own_entities_at(long frame) const;
     std::filesystem::path calls() const { return folder_ / "calls"; }
     std::filesystem::path game_folder() const { return folder_ / "home/.yq2/vkpt"; }
+    // Where the server found the game library that the options name.
+    const std::string& library() const { return library_; }
     // Ended by itself, after all frames.
     void expect_clean() const;
 
 private:
     void make_folder(const ServerOptions& options);
     int start(const ServerOptions& options);
+    std::string bring(const std::string& library);
     void read_states();
     void read_own_entities();
 
     std::filesystem::path folder_;
+    std::string library_;
+    int libraries_ = 0; // that were copied
     long frames_;
     int status_ = -1;
     std::string console_;

@@ -175,7 +175,7 @@ TEST(GameModule, WrapsAModAndHandsItsCommandsOn)
     options.frames = 120;
     const ServerRun run(options);
     run.expect_clean();
-    EXPECT_NE(run.console().find("around the game of " VKPT_STAND_IN_MOD), std::string::npos) << run.console();
+    EXPECT_NE(run.console().find("around the game of " + run.library()), std::string::npos) << run.console();
     EXPECT_NE(run.console().find("stand-in: "), std::string::npos) << run.console();
     EXPECT_NE(run.console().find("1 of 96 lights"), run.console().rfind("1 of 96 lights")) << run.console();
     EXPECT_EQ(run.states().back().own_entities, 1);
@@ -207,8 +207,8 @@ TEST(GameModule, AGameThatCannotBeWrappedIsPlayedAsItIs)
     options.files["lights/vkpt1.txt"] = "# vkpt lights\nlight 0 0 100 0 0 red\n";
     const ServerRun run(options);
     run.expect_clean();
-    EXPECT_NE(run.console().find(VKPT_INCOMPLETE_MOD
-                  " is played as it is, without lights, flares and walks: it lacks functions of the interface"),
+    EXPECT_NE(run.console().find(run.library()
+                  + " is played as it is, without lights, flares and walks: it lacks functions of the interface"),
         std::string::npos)
         << run.console();
     EXPECT_EQ(run.states().back().own_entities, 0);
