@@ -3,7 +3,7 @@
 # Formats all C++ and GLSL by clang-format 14, with the settings of .clang-format and shaders/.clang-format.
 #   scripts/format_code.sh [FOLDER]           rewrites the files below FOLDER (default: the whole source tree)
 #   scripts/format_code.sh --check [FOLDER]   names the files that it would change (exit status 1: there are some)
-# Other versions of clang-format break lines elsewhere: exit status 3, and nothing is done. Tables of rows (*.def) are left alone.
+# Other versions of clang-format break lines elsewhere: exit status 77, and nothing is done. Tables of rows (*.def) are left alone.
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
 . "$root/scripts/lib/common.sh"
@@ -16,7 +16,7 @@ program=clang-format-$wanted
 has "$program" || program=clang-format
 if ! has "$program" || [[ $("$program" --version) != *"version $wanted."* ]]; then
     warn "clang-format $wanted is needed: sudo apt install clang-format-$wanted"
-    exit 3
+    exit 77
 fi
 
 list_files() {

@@ -45,8 +45,8 @@ copy_apt_state() {
         [[ -r $file ]] && cp "$file" "$plan_dir/sources/"
     done
     [[ -z $1 ]] || printf '\n%s\n' "$1" >>"$plan_dir/sources/${own_sources_file##*/}"
-    # The files, not what lies in partial/; with their times, by which apt sees what is new.
-    find "$apt_lists" -maxdepth 1 -type f ! -name lock -readable -exec cp --preserve=timestamps -t "$plan_dir/lists" {} + 2>/dev/null
+    # The files (links to archives on the same machine), not what lies in partial/; with their times, by which apt sees what is new.
+    find "$apt_lists" -maxdepth 1 \( -type f -o -type l \) ! -name lock -readable -exec cp --preserve=timestamps -t "$plan_dir/lists" {} + 2>/dev/null
     cat >"$plan_dir/apt.conf" <<CONF
 Dir::Etc::SourceList "$apt_dir/sources.list";
 Dir::Etc::SourceParts "$plan_dir/sources";

@@ -48,8 +48,7 @@ void watch_player(EngineOptions& options)
 {
     options.files["game.so"] = read_file(VKPT_PROBE);
     options.files["outside.so"] = read_file(VKPT_GAME_MODULE); // the engine's user may not look into the build folder
-    options.environment
-        = { "VKPT_PROBE_OUTSIDE=home/.yq2/vkpt/outside.so", "VKPT_PROBE_STATES=home/.yq2/vkpt/states" };
+    options.environment = { "VKPT_PROBE_OUTSIDE=home/.yq2/vkpt/outside.so", "VKPT_PROBE_STATES=home/.yq2/vkpt/states" };
 }
 
 std::vector<glm::vec3> read_way(const EngineRun& run)

@@ -31,7 +31,7 @@ mkdir "$folder/code" && cp "$root/.clang-format" "$folder/code"
 printf 'int  f( );\n' >"$folder/code/some.cpp"
 "$root/scripts/format_code.sh" --check "$folder/code" >"$folder/said"
 status=$?
-((status == 3)) && { echo "not checked: another version of clang-format"; exit 0; }
+((status == 77)) && { echo "not checked: another version of clang-format"; exit 0; }
 ((status == 1)) && grep -q 'some.cpp is not formatted' "$folder/said" || fail "code that is not formatted was not found"
 "$root/scripts/format_code.sh" "$folder/code" && "$root/scripts/format_code.sh" --check "$folder/code" || fail "formatted code is refused"
 [[ $(<"$folder/code/some.cpp") == 'int f();' ]] || fail "$(<"$folder/code/some.cpp")"

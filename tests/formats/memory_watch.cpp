@@ -11,14 +11,21 @@ namespace {
 
 std::atomic<size_t> held { 0 }, held_peak { 0 }, held_at_reset { 0 };
 
-void* take(size_t size)
+void* take_or_nothing(size_t size) noexcept
 {
     void* memory = std::malloc(std::max<size_t>(size, 1));
     if (!memory)
-        throw std::bad_alloc();
+        return nullptr;
     held += malloc_usable_size(memory);
     held_peak = std::max<size_t>(held_peak, held);
     return memory;
+}
+
+void* take(size_t size)
+{
+    if (void* memory = take_or_nothing(size))
+        return memory;
+    throw std::bad_alloc();
 }
 
 void give_back(void* memory)
@@ -33,6 +40,8 @@ void give_back(void* memory)
 
 void* operator new(size_t size) { return take(size); }
 void* operator new[](size_t size) { return take(size); }
+void* operator new(size_t size, const std::nothrow_t&) noexcept { return take_or_nothing(size); }
+void* operator new[](size_t size, const std::nothrow_t&) noexcept { return take_or_nothing(size); }
 void operator delete(void* memory) noexcept { give_back(memory); }
 void operator delete[](void* memory) noexcept { give_back(memory); }
 void operator delete(void* memory, size_t) noexcept { give_back(memory); }
