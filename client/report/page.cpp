@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/report/page.hpp"
 
+#include "client/compare/plot.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -21,29 +23,6 @@ figure img { display: block; width: 320px; }
 .bad { color: #d33; font-weight: 600; }
 pre { overflow-x: auto; padding: 1em; background: #8882; }
 )";
-
-std::string escape(std::string_view text)
-{
-    std::string out;
-    for (const char c : text)
-        switch (c) {
-        case '<':
-            out += "&lt;";
-            break;
-        case '>':
-            out += "&gt;";
-            break;
-        case '&':
-            out += "&amp;";
-            break;
-        case '"':
-            out += "&quot;";
-            break;
-        default:
-            out += c;
-        }
-    return out;
-}
 
 std::string text_of(const Json& json, const char* key)
 {
@@ -73,11 +52,11 @@ std::string make_device_table(const Json& device)
 {
     std::string table = "<table>\n";
     if (has_failed(device))
-        return fmt::format("<p class=bad>{}</p>\n", escape(text_of(device, "error")));
+        return fmt::format("<p class=bad>{}</p>\n", escape_markup(text_of(device, "error")));
     for (const char* key : { "device", "driver", "vulkan", "trace_backend" })
-        table += make_row({ key, escape(text_of(device, key)) });
+        table += make_row({ key, escape_markup(text_of(device, key)) });
     for (const auto& [backend, time] : device["ns_per_ray"].items())
-        table += make_row({ escape(backend), fmt::format("{} ns a ray", time.dump()) });
+        table += make_row({ escape_markup(backend), fmt::format("{} ns a ray", time.dump()) });
     return table + "</table>\n";
 }
 
@@ -86,9 +65,9 @@ std::string make_times_table(const Json& times)
     std::string table = "<table>\n"
         + make_row({ "size", "preset", "frame, ms", "a second", "first frame, s", "MiB", "passes, ms" }, true);
     for (const Json& time : times) {
-        const std::string size = escape(text_of(time, "size")), preset = escape(text_of(time, "preset"));
+        const std::string size = escape_markup(text_of(time, "size")), preset = escape_markup(text_of(time, "preset"));
         if (has_failed(time)) {
-            table += make_row({ size, preset, "<span class=bad>" + escape(text_of(time, "error")) + "</span>" });
+            table += make_row({ size, preset, "<span class=bad>" + escape_markup(text_of(time, "error")) + "</span>" });
             continue;
         }
         std::vector<std::pair<double, std::string>> passes;
@@ -97,7 +76,7 @@ std::string make_times_table(const Json& times)
         std::ranges::sort(passes, std::greater());
         std::string list;
         for (const auto& [value, name] : passes)
-            list += fmt::format("{}{} {:.2f}", list.empty() ? "" : ", ", escape(name), value);
+            list += fmt::format("{}{} {:.2f}", list.empty() ? "" : ", ", escape_markup(name), value);
         const bool is_timed = time["frame_ms"].is_number() && time["frame_ms"].get<double>() > 0;
         table += make_row({ size, preset, milliseconds(time, "frame_ms"),
             is_timed ? fmt::format("{:.0f}", 1000 / time["frame_ms"].get<double>()) : "-",
@@ -110,14 +89,14 @@ std::string make_validation_list(const Json& validation)
 {
     std::string list = "<table>\n";
     for (const Json& run : validation) {
-        const std::string backend = escape(text_of(run, "backend"));
+        const std::string backend = escape_markup(text_of(run, "backend"));
         if (has_failed(run)) {
-            list += make_row({ backend, escape(text_of(run, "error")) });
+            list += make_row({ backend, escape_markup(text_of(run, "error")) });
             continue;
         }
         std::string texts = text_of(run, "messages") + " messages";
         for (const Json& text : run["texts"])
-            texts += "<pre>" + escape(text.get<std::string>()) + "</pre>";
+            texts += "<pre>" + escape_markup(text.get<std::string>()) + "</pre>";
         list += make_row({ backend, texts });
     }
     return list + "</table>\n";
@@ -127,16 +106,16 @@ std::string make_pictures(const Json& checks)
 {
     std::string page;
     for (const Json& check : checks) {
-        page += fmt::format("<h3>{}</h3>\n", escape(text_of(check, "backend")));
+        page += fmt::format("<h3>{}</h3>\n", escape_markup(text_of(check, "backend")));
         if (has_failed(check)) {
-            page += fmt::format("<p class=bad>{}</p>\n", escape(text_of(check, "error")));
+            page += fmt::format("<p class=bad>{}</p>\n", escape_markup(text_of(check, "error")));
             continue;
         }
         for (const Json& picture : check["pictures"])
             page += fmt::format("<figure><img src=\"data:image/png;base64,{}\" alt=\"{}\"><figcaption{}>{}: off by "
                                 "{:.1f}, at most {:.1f} of 255</figcaption></figure>\n",
-                text_of(picture, "png"), escape(text_of(picture, "name")),
-                picture["is_right"].get<bool>() ? "" : " class=bad", escape(text_of(picture, "name")),
+                text_of(picture, "png"), escape_markup(text_of(picture, "name")),
+                picture["is_right"].get<bool>() ? "" : " class=bad", escape_markup(text_of(picture, "name")),
                 picture["mean_difference"].get<double>(), picture["max_difference"].get<double>());
     }
     return page;
@@ -148,7 +127,7 @@ std::string make_problem_list(const std::vector<std::string>& problems)
         return "<p>Nothing is wrong.</p>\n";
     std::string list = "<ul>\n";
     for (const std::string& problem : problems)
-        list += fmt::format("<li class=bad>{}</li>\n", escape(problem));
+        list += fmt::format("<li class=bad>{}</li>\n", escape_markup(problem));
     return list + "</ul>\n";
 }
 
@@ -189,14 +168,14 @@ std::string make_report_page(const Json& report)
 {
     std::string console;
     for (const Json& line : report["device"].value("console", Json::array()))
-        console += escape(line.get<std::string>()) + "\n";
+        console += escape_markup(line.get<std::string>()) + "\n";
     return fmt::format("<!doctype html>\n<html lang=en><meta charset=utf-8>\n<title>ref_vkpt on {0}</title>\n"
                        "<style>{1}</style>\n<h1>ref_vkpt on {0}</h1>\n{2}<h2>Device</h2>\n{3}<h2>Time of a frame</h2>\n"
                        "<p>{4}, medians.</p>\n{5}<h2>Validation layer</h2>\n{6}<h2>Pictures</h2>\n<p>Brightness in a "
                        "grid of 16 x 9, compared with Mesa's CPU driver.</p>\n{7}<h2>Console</h2>\n<pre>{8}</pre>\n"
                        "</html>\n",
-        escape(text_of(report["device"], "device")), style, make_problem_list(list_problems(report)),
-        make_device_table(report["device"]), escape(text_of(report, "scene")), make_times_table(report["times"]),
+        escape_markup(text_of(report["device"], "device")), style, make_problem_list(list_problems(report)),
+        make_device_table(report["device"]), escape_markup(text_of(report, "scene")), make_times_table(report["times"]),
         make_validation_list(report["validation"]), make_pictures(report["pictures"]), console);
 }
 
