@@ -173,7 +173,7 @@ try_package() {
         "apt-get update && apt-get install -y --no-install-recommends $driver xvfb xauth ./ref-vkpt_*.deb"
     check package-play 0 'vkpt1' plain player \
         'xvfb-run -a vkpt-quake2 +set vid_fullscreen 0 +set r_mode -1 +set r_customwidth 320 +set r_customheight 180 +set s_initsound 0 +set timedemo 1 +set nextdemo quit +demomap vkpt1.dm2'
-    check package-render 0 '' plain player 'vkpt render maps/vkpt1.bsp --size 160x90 --frames 2 --out picture.png && test -s picture.png'
+    check package-render 0 '' plain player 'vkpt render maps/vkpt1.bsp --size 160x90 --frames 2 -o picture.png && test -s picture.png'
     check package-remove 0 'Removing ref-vkpt' plain root \
         'apt-get remove -y --purge ref-vkpt && ! find /usr -iname "*vkpt*" -not -path "/usr/share/doc/*" | grep . '
 }
