@@ -56,6 +56,7 @@ std::vector<fs::path> usual_places()
     if (const char* home = std::getenv("HOME"))
         places.push_back(fs::path(home) / ".yq2");
     places.emplace_back("/usr/share/games/quake2");
+    places.push_back(program.parent_path() / "share/games/ref-vkpt"); // the package's free game
     return places;
 }
 
