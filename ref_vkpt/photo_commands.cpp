@@ -2,6 +2,7 @@
 #include "ref_vkpt/photo_commands.hpp"
 
 #include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/cvars_rows.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/files/output_folder.hpp"
 #include "ref_vkpt/module.hpp"
@@ -13,6 +14,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fmt/ranges.h>
 #include <vector>
 
 namespace vkpt {
@@ -71,6 +73,23 @@ void step_lens(int direction)
     cvars::set("pt_aperture", fmt::format("{:g}", next != widths.end() ? *next : widths.back()));
 }
 
+std::vector<std::string_view> projection_names()
+{
+    std::vector<std::string_view> names;
+    for (std::string_view rest = find_cvar_row("pt_projection")->choices; !rest.empty();) {
+        names.push_back(rest.substr(0, rest.find('|')));
+        rest.remove_prefix(std::min(rest.size(), names.back().size() + 1));
+    }
+    return names;
+}
+
+void step_projection()
+{
+    const std::vector<std::string_view> names = projection_names();
+    const size_t next = size_t(cvars::shader_values().pt_projection + 1) % names.size();
+    cvars::set("pt_projection", std::string(names[next]));
+}
+
 void step_exposure(Module& m, float stops)
 {
     constexpr float limit = 8;
@@ -100,6 +119,8 @@ void obey_key(Module& m, PhotoKey key)
         return m.photo.go_home();
     case PhotoKey::panel:
         return m.photo.toggle_panel();
+    case PhotoKey::projection:
+        return step_projection();
     case PhotoKey::save:
         return m.photo.wish_for({ std::exchange(m.photo.name_for_key, {}) });
     case PhotoKey::close:
@@ -119,6 +140,7 @@ void print_help()
     engine::print("pt_photo focus [DISTANCE]: focuses there, or on what the crosshair shows; pt_photo focus auto: "
                   "wherever it points");
     engine::print("pt_photo aperture UNITS: the lens's diameter; 0: all is sharp");
+    engine::print("pt_photo projection {}", fmt::join(projection_names(), "|"));
     engine::print("pt_photo save [NAME [SAMPLES]]: vkpt/photos/NAME.png and NAME.exr, once it has so many samples");
 }
 
@@ -127,10 +149,10 @@ void print_state(const Module& m)
     const PhotoCamera& camera = m.photo.camera();
     const shared::ShaderCvars lens = cvars::shader_values();
     engine::print("pt_photo: at {:.2f} {:.2f} {:.2f}, look {:.2f} {:.2f} {:.2f}, fov {:.2f}, exposure {:.2f}, aperture "
-                  "{:g}, focus {:g}{}, {} samples",
+                  "{:g}, focus {:g}{}, {}, {} samples",
         camera.eye.x, camera.eye.y, camera.eye.z, camera.angles.x, camera.angles.y, camera.angles.z, camera.fov,
         camera.exposure, lens.pt_aperture, lens.pt_focus, m.photo.follows_focus() ? " (auto)" : "",
-        m.view().accumulated_frames);
+        projection_names()[size_t(camera.projection)], m.view().accumulated_frames);
 }
 
 template <class Number> std::optional<Number> parse_number(std::string_view text)
@@ -159,6 +181,15 @@ void run_focus(Module& m)
         return set_lens(m, "pt_focus", 1, 100000);
     m.photo.follow_focus(false);
     focus_on_crosshair(m);
+}
+
+void run_projection()
+{
+    const std::vector<std::string_view> names = projection_names();
+    if (std::ranges::find(names, engine::argument(2)) == names.end())
+        return engine::print("pt_photo: \"{}\" is none of {}", engine::argument(2), fmt::join(names, ", "));
+    cvars::set("pt_projection", std::string(engine::argument(2)));
+    cvars::update();
 }
 
 void run_save(Module& m)
@@ -204,6 +235,8 @@ void run_word(Module& m, std::string_view word)
         return run_focus(m);
     if (word == "aperture")
         return set_lens(m, "pt_aperture", 0, 1000);
+    if (word == "projection")
+        return run_projection();
     if (word == "save")
         return run_save(m);
     if (word == "home")
@@ -213,10 +246,21 @@ void run_word(Module& m, std::string_view word)
     obey_camera_words(m, word);
 }
 
+// The part of the window that shows the view.
+formats::Image cut_out(const formats::Image& window, const Viewpoint& view)
+{
+    formats::Image part { int(view.size.x), int(view.size.y), {} };
+    for (int y = 0; y < part.height; y++) {
+        const auto row = window.pixels.begin() + (view.origin.y + y) * window.width + view.origin.x;
+        part.pixels.insert(part.pixels.end(), row, row + part.width);
+    }
+    return part;
+}
+
 void take_photograph(Module& m, const PhotoWish& wish, const formats::Image& picture)
 {
     const View& view = m.view();
-    Photograph photo { picture, int(view.size.x), int(view.size.y), {} };
+    Photograph photo { cut_out(picture, view.viewpoint), int(view.size.x), int(view.size.y), {} };
     photo.radiance.resize(size_t(view.size.x) * view.size.y * 3);
     if (!m.frame.read_radiance(view, photo.radiance.data()))
         return say(m, "no photograph: there is no picture yet");
@@ -279,6 +323,7 @@ void begin_photo_frame(Module& m)
     m.overlay.give_keys_to_photo(!photo.is_covered());
     if (!photo.has_view())
         return;
+    photo.set_camera(with_projection(photo.camera(), cvars::shader_values().pt_projection));
     const PhotoInput input = m.overlay.take_photo_input();
     const auto now = PhotoMode::Clock::now();
     photo.obey(input, now);

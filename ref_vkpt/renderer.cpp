@@ -485,10 +485,11 @@ void begin_frame(float)
     m.frame.begin(m.view());
 }
 
-static SceneSnapshot take_snapshot(const engine::RefDef& refdef, const engine::RefDef* player = nullptr)
+static SceneSnapshot take_snapshot(const engine::RefDef& refdef, int projection, const engine::RefDef* player = nullptr)
 {
     const CpuTimer timer("cpu scene");
-    return running->scene.take_snapshot(refdef, running->view().lights, player);
+    const bool looks_around = projection != shared::PROJECTION_PERSPECTIVE;
+    return running->scene.take_snapshot(refdef, running->view().lights, player, looks_around);
 }
 
 static void record_view(const Viewpoint& from, const SceneSnapshot& snapshot, const GpuWorld* gpu_world, bool average)
@@ -516,13 +517,22 @@ static void render_photo(const engine::RefDef& refdef, bool freeze)
     m.photo.keep(refdef);
     const engine::RefDef seen = m.photo.camera_view(m.graphics.size());
     if (m.photo.takes_scene())
-        replace_snapshot(m.view(), take_snapshot(seen, &m.photo.player_view()));
-    Viewpoint from = make_viewpoint(seen, m.graphics.size());
+        replace_snapshot(m.view(), take_snapshot(seen, m.photo.camera().projection, &m.photo.player_view()));
+    Viewpoint from = make_viewpoint(seen, m.graphics.size(), { m.photo.camera().projection });
     from.underwater = medium_at(m.scene.world()->bsp, from.camera.eye) != shared::MEDIUM_NONE;
     from.is_photo = true;
     from.exposure_stops = m.photo.camera().exposure;
     from.max_samples = PhotoMode::max_samples;
-    record_view(from, *m.view().snapshot, &m.gpu_world, freeze || !m.photo.is_moving(PhotoMode::Clock::now()));
+    // The filters of live pictures know perspective alone.
+    const bool average
+        = freeze || from.projection != shared::PROJECTION_PERSPECTIVE || !m.photo.is_moving(PhotoMode::Clock::now());
+    record_view(from, *m.view().snapshot, &m.gpu_world, average);
+}
+
+// Of pictures that are averaged.
+static Projection wanted_projection()
+{
+    return { cvars::shader_values().pt_projection, cvars::values().pt_projection_fov };
 }
 
 void render_view(const engine::RefDef& refdef)
@@ -537,7 +547,8 @@ void render_view(const engine::RefDef& refdef)
     if (m.warm_up)
         m.warm_up->wait();
     if (!has_world) {
-        record_view(make_viewpoint(refdef, m.graphics.size()), take_snapshot(refdef), nullptr, false);
+        const Viewpoint from = make_viewpoint(refdef, m.graphics.size());
+        record_view(from, take_snapshot(refdef, from.projection), nullptr, false);
         return;
     }
     if (m.gpu_world.version == 0) { // drawn during registration
@@ -548,11 +559,11 @@ void render_view(const engine::RefDef& refdef)
     if (m.photo.is_on())
         return render_photo(refdef, freeze);
     View& view = m.view();
-    const Viewpoint from = make_viewpoint(refdef, m.graphics.size());
+    const Viewpoint from = make_viewpoint(refdef, m.graphics.size(), freeze ? wanted_projection() : Projection());
     const bool blends = std::exchange(view.blends_next, false) && freeze && view.is_frozen && view.snapshot;
     if (!freeze || !view.is_frozen || !view.snapshot || blends) {
         const uint32_t averaged = blends ? view.accumulated_frames : 0;
-        replace_snapshot(view, take_snapshot(refdef));
+        replace_snapshot(view, take_snapshot(refdef, from.projection));
         view.is_frozen = freeze;
         view.accumulated_frames = averaged;
     }

@@ -272,12 +272,18 @@ void store_reprojection(uint index, Path path, vec3 direction, vec2 offset)
 const uint lens_stream = 0x6c656e73u; // apart from the numbers of the pixel's other choices
 
 // From a random point of a thin lens to where the ray through its middle, of length 1 along the camera's axis, meets
-// the plane in focus (pbrt, 5.2.3).
+// the plane in focus (pbrt, 5.2.3). In other projections than perspective it is a sphere that is in focus, and the lens
+// faces each direction.
 Ray through_lens(vec3 direction, Random random)
 {
     vec2 xi = next_vec2(random);
     float radius = 0.5 * frame.cvars.pt_aperture * sqrt(xi.x), angle = 2.0 * bsdf_pi * xi.y;
-    vec3 offset = radius * (cos(angle) * normalize(frame.camera.right) + sin(angle) * normalize(frame.camera.up));
+    vec3 across = normalize(frame.camera.right), upward = normalize(frame.camera.up);
+    if (frame.cvars.pt_projection != PROJECTION_PERSPECTIVE) {
+        across = any_tangent(direction);
+        upward = cross(direction, across);
+    }
+    vec3 offset = radius * (cos(angle) * across + sin(angle) * upward);
     return Ray(frame.camera.eye + offset, normalize(direction * frame.cvars.pt_focus - offset), 0.0, ray_far);
 }
 

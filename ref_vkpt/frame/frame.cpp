@@ -157,6 +157,7 @@ shared::FrameUniforms Frame::make_uniforms(View& view, const Viewpoint& from, gl
     uniforms.intensity = std::clamp(cvars.vk_intensity, 1.0f, 10.0f) / menu_default;
     uniforms.cvars = cvars::shader_values();
     uniforms.cvars.pt_exposure_bias += from.exposure_stops;
+    uniforms.cvars.pt_projection = from.projection;
     uniforms.cvars.pt_water_warp *= from.is_photo ? 0.0f : 1.0f;
     uniforms.picture_taps = float(max_picture_taps(graphics_.device.is_cpu));
     uniforms.flags = (from.underwater ? shared::FRAME_UNDERWATER : 0)

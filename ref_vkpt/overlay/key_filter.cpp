@@ -82,6 +82,7 @@ constexpr PhotoKeyRow photo_keys[] = {
     { 9, PhotoKey::focus }, // F
     { left_button, PhotoKey::focus }, { 10, PhotoKey::autofocus }, // G
     { right_button, PhotoKey::autofocus }, { 74, PhotoKey::home }, { 11, PhotoKey::panel }, // H
+    { 19, PhotoKey::projection }, // P
     { 40, PhotoKey::save }, // return
     { 41, PhotoKey::close }, // escape
 };

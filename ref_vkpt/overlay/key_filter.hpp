@@ -34,6 +34,7 @@ enum class PhotoKey {
     autofocus, // wherever the crosshair is
     home, // to the player's eyes
     panel, // shows it or not
+    projection, // the next one
     save,
     close,
     count

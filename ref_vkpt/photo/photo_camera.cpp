@@ -2,6 +2,7 @@
 #include "ref_vkpt/photo/photo_camera.hpp"
 
 #include "ref_vkpt/scene/entity_geometry.hpp"
+#include "ref_vkpt/scene/projection.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,7 @@ namespace vkpt {
 
 namespace {
 
-constexpr float min_fov = 2, max_fov = 160, max_pitch = 90, max_stops = 8;
+constexpr float min_fov = 2, max_fov_in_perspective = 160, max_pitch = 90, max_stops = 8;
 constexpr float max_coordinate = 65536; // far outside of any map
 
 constexpr size_t max_numbers = 3;
@@ -31,7 +32,8 @@ void keep_in_limits(PhotoCamera& camera)
     camera.angles.x = std::clamp(camera.angles.x, -max_pitch, max_pitch);
     camera.angles.y = std::remainder(camera.angles.y, 360.0f);
     camera.angles.z = std::remainder(camera.angles.z, 360.0f);
-    camera.fov = std::clamp(camera.fov, min_fov, max_fov);
+    const bool is_perspective = camera.projection == shared::PROJECTION_PERSPECTIVE;
+    camera.fov = std::clamp(camera.fov, min_fov, is_perspective ? max_fov_in_perspective : max_fov(camera.projection));
     camera.exposure = std::clamp(camera.exposure, -max_stops, max_stops);
 }
 
@@ -45,8 +47,8 @@ void move_by(PhotoCamera& camera, glm::vec3 way)
 // As a lens of so many times the focal length.
 void zoom_by(PhotoCamera& camera, float factor)
 {
-    const float tangent = std::tan(glm::radians(camera.fov) / 2) / factor;
-    camera.fov = glm::degrees(2 * std::atan(tangent));
+    const float width = plane_half_width(camera.projection, camera.fov) / factor;
+    camera.fov = fov_of_half_width(camera.projection, width);
 }
 
 struct Word {
@@ -95,6 +97,13 @@ PhotoCamera camera_of(const engine::RefDef& refdef)
     return camera;
 }
 
+PhotoCamera with_projection(PhotoCamera camera, int projection)
+{
+    camera.projection = projection;
+    keep_in_limits(camera);
+    return camera;
+}
+
 std::string obey_words(PhotoCamera& camera, std::string_view word, std::span<const std::string_view> given)
 {
     const auto* known = std::ranges::find(words, word, &Word::word);
@@ -129,7 +138,7 @@ bool obey_input(PhotoCamera& camera, const PhotoInput& input, float seconds)
         move_by(camera, glm::normalize(way) * (units_per_second * pace * seconds));
     camera.angles.z += balance(input, PhotoKey::roll_left, PhotoKey::roll_right) * roll_per_second * pace * seconds;
     // The picture follows the mouse alike, however near the lens brings it.
-    const float per_pixel = degrees_per_pixel * std::min(std::tan(glm::radians(camera.fov) / 2), 1.0f);
+    const float per_pixel = degrees_per_pixel * std::min(plane_half_width(camera.projection, camera.fov), 1.0f);
     camera.angles.x += input.mouse.y * per_pixel;
     camera.angles.y -= input.mouse.x * per_pixel;
     zoom_by(camera, std::pow(zoom_per_notch, std::clamp(input.wheel, -20.0f, 20.0f)));
@@ -141,8 +150,9 @@ bool obey_input(PhotoCamera& camera, const PhotoInput& input, float seconds)
 
 void set_fov(engine::RefDef& refdef, float fov_x, float width, float height)
 {
+    constexpr int perspective = shared::PROJECTION_PERSPECTIVE;
     refdef.fov_x = fov_x;
-    refdef.fov_y = glm::degrees(2 * std::atan(std::tan(glm::radians(fov_x) / 2) * height / width));
+    refdef.fov_y = fov_of_half_width(perspective, plane_half_width(perspective, fov_x) * height / width);
 }
 
 } // namespace vkpt

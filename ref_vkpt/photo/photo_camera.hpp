@@ -17,10 +17,13 @@ struct PhotoCamera {
     glm::vec3 angles { 0 }; // pitch, yaw, roll in degrees, as the engine's
     float fov = 90; // from left to right, in degrees
     float exposure = 0; // stops, beside pt_exposure_bias
+    int projection = 0; // PROJECTION_*
     bool operator==(const PhotoCamera&) const = default;
 };
 
 PhotoCamera camera_of(const engine::RefDef& refdef);
+// Its angle of sight kept within what the projection can show.
+PhotoCamera with_projection(PhotoCamera camera, int projection);
 
 // "move 10 0 0" and the like: `numbers` are what follows `word`. What is wrong with it; empty: it was done.
 std::string obey_words(PhotoCamera& camera, std::string_view word, std::span<const std::string_view> numbers);

@@ -52,10 +52,16 @@ void PhotoMode::keep(const engine::RefDef& refdef)
 engine::RefDef PhotoMode::camera_view(VkExtent2D window) const
 {
     engine::RefDef view = player_view();
-    view.x = view.y = 0;
-    view.width = int32_t(window.width);
-    view.height = int32_t(window.height);
-    set_fov(view, camera_.fov, float(window.width), float(window.height));
+    glm::ivec2 size(window.width, window.height);
+    if (camera_.projection == shared::PROJECTION_EQUIRECTANGULAR) {
+        size.x = std::max(std::min(size.x, 2 * size.y), 2);
+        size.y = size.x / 2;
+    }
+    view.x = (int32_t(window.width) - size.x) / 2;
+    view.y = (int32_t(window.height) - size.y) / 2;
+    view.width = size.x;
+    view.height = size.y;
+    set_fov(view, camera_.fov, float(size.x), float(size.y));
     for (int i = 0; i < 3; i++) {
         view.view_origin[i] = camera_.eye[i];
         view.view_angles[i] = camera_.angles[i];
@@ -116,7 +122,10 @@ std::vector<PanelLine> PhotoMode::describe(uint32_t samples) const
                                 : fmt::format("{} samples: done", samples) },
         { fmt::format("at {:.0f} {:.0f} {:.0f}, looks {:.0f} {:.0f} {:.0f}", camera_.eye.x, camera_.eye.y,
             camera_.eye.z, camera_.angles.x, camera_.angles.y, camera_.angles.z) },
-        { fmt::format("fov {:.1f}, exposure {:+.2f}", camera_.fov, camera_.exposure) },
+        { camera_.projection == shared::PROJECTION_EQUIRECTANGULAR
+                ? fmt::format("all around, exposure {:+.2f}", camera_.exposure)
+                : fmt::format("fov {:.1f}, exposure {:+.2f}", camera_.fov, camera_.exposure) },
+        { cvars.pt_projection + " projection" },
         { lens.pt_aperture > 0 ? fmt::format("lens {:.1f} wide, focus at {:.0f}{}", lens.pt_aperture, lens.pt_focus,
               follows_focus_ ? ", by the crosshair" : "")
                                : "all is sharp" },
@@ -128,6 +137,7 @@ std::vector<PanelLine> PhotoMode::describe(uint32_t samples) const
         { "left, right  lens" },
         { "F or click   focus here" },
         { "G or right   focus by the crosshair" },
+        { "P            projection" },
         { "Enter        saves" },
         { "home H esc   back, hide this, end" },
     };

@@ -39,7 +39,7 @@ public:
     // The first one since enter(); others are not wanted.
     void keep(const engine::RefDef& refdef);
     const engine::RefDef& player_view() const { return kept_->refdef(); }
-    // What the camera sees of it, in the whole window.
+    // What the camera sees of it, in the whole window; all around, as much of it as is twice as wide as high.
     engine::RefDef camera_view(VkExtent2D window) const;
     // Whether it is to be made anew, for the camera or a setting has changed; asked once.
     bool takes_scene() { return std::exchange(takes_scene_, false); }
@@ -49,7 +49,7 @@ public:
 
     const PhotoCamera& camera() const { return camera_; }
     void set_camera(const PhotoCamera& camera);
-    void go_home() { set_camera(camera_of(player_view())); }
+    void go_home() { set_camera(with_projection(camera_of(player_view()), camera_.projection)); }
     // Keys that are held, and the mouse.
     void obey(const PhotoInput& input, Clock::time_point now);
     // While it is moved by hand, and shortly after: then the game's live picture is shown.

@@ -9,7 +9,12 @@
 
 namespace vkpt {
 
+struct Projection {
+    int kind = shared::PROJECTION_PERSPECTIVE;
+    float fov = 0; // degrees from left to right; 0: the refdef's
+};
+
 // `picture`: the size of the whole picture, to which the view's rectangle is clipped.
-Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D picture);
+Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D picture, const Projection& projection = {});
 
 } // namespace vkpt

@@ -67,6 +67,7 @@ public:
     void add_preview_light();
 
 private:
+    Axes axes_at(glm::vec3 place) const;
     uint32_t add_material(const shared::Material& material);
     shared::Material plain_material() const;
     uint32_t entity_mask(const Entity& entity, const shared::Material& material) const;
@@ -92,6 +93,20 @@ private:
     Axes axes_;
     int emitter_base_;
 };
+
+// Of what faces the camera.
+Axes SnapshotBuilder::axes_at(glm::vec3 place) const
+{
+    const glm::vec3 way = place - eye_;
+    if (!snapshot_.looks_around || !(glm::length(way) > 1e-3f))
+        return axes_;
+    Axes axes;
+    axes.forward = glm::normalize(way);
+    const glm::vec3 across = glm::cross(axes.forward, axes_.up);
+    axes.right = glm::length(across) > 1e-3f ? glm::normalize(across) : axes_.right;
+    axes.up = glm::cross(axes.right, axes.forward);
+    return axes;
+}
 
 uint32_t SnapshotBuilder::add_material(const shared::Material& material)
 {
@@ -357,8 +372,8 @@ void SnapshotBuilder::add_sprite(const Entity& entity, const Model::Sprite& spri
     material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
     material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_ALPHA_TEST
         | (material.opacity < 1 ? shared::MATERIAL_TRANSLUCENT : 0);
-    append_sprite(
-        sprite.sp2.frames[frame], to_vec3(entity.origin), axes_, add_material(material), snapshot_.moving.loose());
+    const glm::vec3 origin = to_vec3(entity.origin);
+    append_sprite(sprite.sp2.frames[frame], origin, axes_at(origin), add_material(material), snapshot_.moving.loose());
     snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
     snapshot_.has_alpha_test = true;
 }
@@ -397,7 +412,8 @@ void SnapshotBuilder::add_particle(const Particle& particle)
     material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_TRANSLUCENT | shared::MATERIAL_PARTICLE
         | (cvars::values().gl3_particle_square != 0 ? shared::MATERIAL_SQUARE : 0u);
     const float size = std::clamp(cvars::values().gl3_particle_size / usual_particle_size, 0.0f, 10.0f);
-    append_particle(to_vec3(particle.origin), eye_, axes_, add_material(material), snapshot_.moving.loose(), size);
+    const glm::vec3 origin = to_vec3(particle.origin);
+    append_particle(origin, eye_, axes_at(origin), add_material(material), snapshot_.moving.loose(), size);
     snapshot_.moving.mask_loose(shared::MASK_TRANSLUCENT);
 }
 

@@ -441,10 +441,12 @@ MapLights& Scene::map_lights()
     return *map_lights_;
 }
 
-SceneSnapshot Scene::take_snapshot(const engine::RefDef& refdef, ViewLights& lights, const engine::RefDef* player)
+SceneSnapshot Scene::take_snapshot(
+    const engine::RefDef& refdef, ViewLights& lights, const engine::RefDef* player, bool looks_around)
 {
     const CvarValues& cvars = cvars::values();
     SceneSnapshot snapshot;
+    snapshot.looks_around = looks_around;
     snapshot.time = refdef.time;
     snapshot.lightstyles.assign(lightstyle_count, cvars.pt_emission_scale);
     for (size_t i = 0; refdef.lightstyles && i < size_t(engine::max_lightstyles); i++)

@@ -71,8 +71,8 @@ public:
     // The scene of a refdef. RDF_NOWORLDMODEL: models alone, with a light of their own; then `lights` stay as they are.
     // Else they go on by a frame, from one of this map to the next, and the snapshot refers to them.
     // `player`: what the player sees, where `refdef` is of another camera, to which the player's body is shown.
-    SceneSnapshot take_snapshot(
-        const engine::RefDef& refdef, ViewLights& lights, const engine::RefDef* player = nullptr);
+    SceneSnapshot take_snapshot(const engine::RefDef& refdef, ViewLights& lights,
+        const engine::RefDef* player = nullptr, bool looks_around = false);
 
     void print_models() const;
 

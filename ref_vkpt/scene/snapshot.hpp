@@ -36,6 +36,7 @@ struct SceneSnapshot {
     shared::Sky sky {};
     std::vector<shared::FilterBox> filter_boxes; // of moving things, at most MAX_FILTER_BOXES
     bool has_alpha_test = false;
+    bool looks_around = false; // sprites and particles face the eye, not the picture's plane
     float time = 0; // seconds of the game
 };
 
@@ -46,6 +47,7 @@ struct Viewpoint {
     glm::uvec2 size { 0 };
     glm::vec4 blend { 0 };
     bool underwater = false;
+    int projection = shared::PROJECTION_PERSPECTIVE; // any other, where pictures are averaged
     // Of photo mode:
     bool is_photo = false; // it does not sway under water
     float exposure_stops = 0; // beside pt_exposure_bias

@@ -6,12 +6,19 @@
 #include "frame.glsl"
 #include "packing.glsl"
 #include "pixel_random.glsl"
+#include "projection.glsl"
 
-// Along the camera's ray through a pixel, `offset` from its corner; 1 along the camera's axis.
+// Along the camera's ray through a pixel, `offset` from its corner; 1 along the camera's axis, or of length 1 in other
+// projections than a perspective one. Those are of averaged pictures alone: all else here is about perspective views.
 vec3 camera_direction(uvec2 pixel, vec2 offset)
 {
     vec2 screen = (vec2(pixel) + offset) / vec2(frame.size) * 2.0 - 1.0;
-    return frame.camera.forward + frame.camera.right * screen.x - frame.camera.up * screen.y;
+    Camera camera = frame.camera;
+    if (frame.cvars.pt_projection == PROJECTION_PERSPECTIVE)
+        return camera.forward + camera.right * screen.x - camera.up * screen.y;
+    float across = length(camera.right), upward = length(camera.up);
+    vec3 seen = unproject(frame.cvars.pt_projection, vec2(across, -upward) * screen);
+    return camera.right * (seen.x / across) + camera.up * (seen.y / upward) + camera.forward * seen.z;
 }
 
 struct ScreenPoint {

@@ -146,8 +146,8 @@ struct InspectPush {
 struct Camera {
     vec3 eye;
     vec3 forward;
-    vec3 right; // scaled by tan(fov_x / 2)
-    vec3 up; // scaled by tan(fov_y / 2)
+    vec3 right; // scaled by half the picture's width on the projection's plane: tan(fov_x / 2) in perspective
+    vec3 up; // scaled by half its height: tan(fov_y / 2)
 };
 
 // Six pictures, their directions turned by `rotation` (columns: sky space axes in the world).

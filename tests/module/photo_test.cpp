@@ -235,6 +235,36 @@ TEST_F(PhotoMode, SavesThePictureAloneAndNeverOverAnother)
         EXPECT_TRUE(fs::remove(file)) << file;
 }
 
+// Twice as wide as high, in the middle of the window; the rest of the window is not in the photograph.
+TEST_F(PhotoMode, PhotographsAllAround)
+{
+    start({ { "pt_photo_save", "1" } }, { 64, 48 });
+    run("pt_photo");
+    session_->draw();
+    run("pt_photo projection round");
+    EXPECT_TRUE(session_->has_line("\"round\" is none of perspective, panini"));
+    run("pt_photo projection equirectangular");
+    session_->draw();
+    run(fmt::format("pt_photo save around{} 4", getpid()));
+    session_->draw(6);
+    const fs::path png = written(".png"), exr = written(".exr");
+    ASSERT_FALSE(png.empty() || exr.empty());
+    const formats::Image shown = formats::read_common_image(read_file(png), "around.png");
+    EXPECT_EQ(shown.width, 64);
+    EXPECT_EQ(shown.height, 32);
+    run("pt_photo projection panini");
+    session_->draw();
+    run("pt_photo fov 400");
+    run("pt_photo info");
+    EXPECT_TRUE(session_->has_line("fov 340.00"));
+    run("pt_photo projection perspective");
+    session_->draw();
+    run("pt_photo info");
+    EXPECT_TRUE(session_->has_line("fov 160.00"));
+    for (const fs::path& file : { png, exr })
+        EXPECT_TRUE(fs::remove(file)) << file;
+}
+
 TEST_F(PhotoMode, RefusesNamesThatArePaths)
 {
     start({ { "pt_photo_save", "1" } });

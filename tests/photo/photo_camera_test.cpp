@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What words and keys make of photo mode's camera.
 #include "ref_vkpt/photo/photo_camera.hpp"
+#include "shaders/shared/cvars.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -52,6 +53,20 @@ TEST(PhotoCamera, ZoomIsOfTheFocalLength)
     engine::RefDef refdef {};
     set_fov(refdef, 90, 160, 90);
     EXPECT_NEAR(refdef.fov_y, 58.7155f, 1e-3f); // 16 : 9
+}
+
+// What a projection can show limits the angle; zoom is of the picture's width on its plane.
+TEST(PhotoCamera, AngleOfSightFollowsTheProjection)
+{
+    PhotoCamera camera = with_projection({}, shared::PROJECTION_FISHEYE);
+    EXPECT_EQ(obey(camera, "zoom", { "0.5" }), "");
+    EXPECT_NEAR(camera.fov, 180, 1e-3f);
+    EXPECT_EQ(obey(camera, "fov", { "500" }), "");
+    EXPECT_EQ(camera.fov, 360);
+    camera = with_projection(camera, shared::PROJECTION_PANINI);
+    EXPECT_EQ(camera.fov, 340);
+    camera = with_projection(camera, shared::PROJECTION_PERSPECTIVE);
+    EXPECT_EQ(camera.fov, 160);
 }
 
 TEST(PhotoCamera, RefusesWhatIsNoNumber)
