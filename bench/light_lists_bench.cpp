@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Time to update the light lists of a frame: of a map of about 2,000 clusters with lights that go to and fro; and, with
 // --trace FILE.rtrace --map FILE.bsp, of a recorded demo, frame by frame.
-#include "client/trace/trace_reader.hpp"
+#include "common/trace/trace_reader.hpp"
 #include "formats/light_code.hpp"
 #include "ref_vkpt/lights/dynamic_lights.hpp"
 #include "ref_vkpt/lights/light_lists.hpp"

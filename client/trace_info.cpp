@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/trace_info.hpp"
 
-#include "client/trace/trace_reader.hpp"
+#include "common/trace/trace_reader.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // make_seeds FOLDER: the inputs that fuzzing starts from, one folder below FOLDER for each harness; all made by our own
 // writers.
-#include "client/trace/trace_writer.hpp"
+#include "common/trace/trace_writer.hpp"
 #include "formats/byte_writer.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
 #include "tests/formats/samples.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The mutators must change what is behind directories, checksums and compression, and leave these whole: else readers
 // refuse everything at their door and fuzzing sees nothing of what comes after.
-#include "client/trace/file_format.hpp"
+#include "common/trace/file_format.hpp"
 #include "formats/bsp.hpp"
 #include "formats/image.hpp"
 #include "formats/model.hpp"

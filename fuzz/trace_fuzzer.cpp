@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A recorded game: opened, every frame read, forwards and backwards, as replay and viewer do.
-#include "client/trace/trace_reader.hpp"
+#include "common/trace/trace_reader.hpp"
 #include "fuzz/support/harness.hpp"
 
 #include <string>

@@ -4,9 +4,9 @@
 #include "shaders/shared/light_sampler.h"
 
 #include "client/host/errors.hpp"
-#include "client/host/hash.hpp"
 #include "client/host/output_file.hpp"
 #include "client/host/private_folder.hpp"
+#include "common/hash.hpp"
 
 #include <algorithm>
 #include <array>

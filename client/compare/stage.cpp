@@ -2,7 +2,7 @@
 #include "client/compare/stage.hpp"
 
 #include "client/host/errors.hpp"
-#include "client/host/hash.hpp"
+#include "common/hash.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 #include "client/host/archive_check.hpp"
 #include "client/host/errors.hpp"
-#include "client/host/hash.hpp"
+#include "common/hash.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/host/trace_frames.hpp"
 
-#include "client/host/blend_views.hpp"
 #include "client/host/errors.hpp"
-#include "client/host/hash.hpp"
+#include "common/hash.hpp"
+#include "common/trace/blend_views.hpp"
+#include "common/trace/view_copy.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -258,11 +259,7 @@ const TraceFrames::Pair& TraceFrames::find_pair(size_t frame)
 
 void TraceFrames::draw_moment(Host& host, double seconds, bool blends)
 {
-    size_t frame = 0, end = reader_.frame_count();
-    while (end - frame > 1) {
-        const size_t middle = (frame + end) / 2;
-        (reader_.seconds(middle) <= seconds ? frame : end) = middle;
-    }
+    const size_t frame = reader_.frame_at(seconds);
     const Pair& pair = find_pair(frame);
     prepare(host, pair.lasting);
     const double start = reader_.seconds(frame),
@@ -271,30 +268,20 @@ void TraceFrames::draw_moment(Host& host, double seconds, bool blends)
     blends ? host.extension().blend_next_view() : host.extension().thaw_scene();
     host.run_left_text();
     host.module().begin_frame(0);
-    draw_view(host, blend_views(pair.before, pair.after, share));
+    draw_view(host, trace::blend_views(pair.before, pair.after, share));
     host.module().end_frame();
 }
 
 void TraceFrames::draw_view(Host& host, const trace::View& view)
 {
-    engine::RefDef refdef = view.refdef;
-    std::vector<engine::Entity> entities;
-    for (const trace::View::Entity& recorded : view.entities) {
-        engine::Entity& entity = entities.emplace_back(recorded.entity);
-        entity.model = models_.find(recorded.model);
-        entity.skin = skins_.find(recorded.skin);
-    }
-    refdef.area_bits = view.has_area_bits ? view.area_bits.data() : nullptr;
-    refdef.lightstyles = view.has_lightstyles ? view.lightstyles.data() : nullptr;
+    std::vector<engine::Entity> entities = trace::entities_of(
+        view, [&](uint32_t number) { return models_.find(number); },
+        [&](uint32_t number) { return skins_.find(number); });
+    engine::RefDef refdef = trace::refdef_of(view, entities);
     placement_.place_view(refdef);
     if (camera_ && !(refdef.flags & engine::RDF_NOWORLDMODEL))
         move_eye(*camera_, refdef, entities);
     refdef.entity_count = int32_t(entities.size());
-    refdef.entities = entities.data();
-    refdef.dlight_count = int32_t(view.dlights.size());
-    refdef.dlights = view.dlights.data();
-    refdef.particle_count = int32_t(view.particles.size());
-    refdef.particles = view.particles.data();
     host.module().render_frame(&refdef);
 }
 

@@ -4,7 +4,7 @@
 
 #include "client/host/frame_source.hpp"
 #include "client/host/view_placement.hpp"
-#include "client/trace/trace_reader.hpp"
+#include "common/trace/trace_reader.hpp"
 
 #include <cstdint>
 

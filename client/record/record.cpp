@@ -6,7 +6,7 @@
 #include "client/host/output_file.hpp"
 #include "client/options.hpp"
 #include "client/progress.hpp"
-#include "client/trace/trace_reader.hpp"
+#include "common/trace/trace_reader.hpp"
 
 #include <chrono>
 #include <cstring>

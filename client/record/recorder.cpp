@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/record/recorder.hpp"
 
-#include "client/host/hash.hpp"
+#include "common/hash.hpp"
+#include "common/trace/view_copy.hpp"
 #include "formats/bsp.hpp"
 #include "formats/model.hpp"
 #include "ref_vkpt/engine/engine.hpp"
@@ -106,21 +107,7 @@ void Recorder::end_frame()
 
 void Recorder::write_view(const engine::RefDef& from)
 {
-    trace::View view;
-    view.refdef = from;
-    const auto count = [](int32_t wanted, int limit) { return size_t(std::clamp(wanted, 0, limit)); };
-    for (size_t i = 0; i < count(from.entity_count, engine::max_entities); i++) {
-        const engine::Entity& entity = from.entities[i];
-        view.entities.push_back({ entity, to_number(entity.model), to_number(entity.skin) });
-    }
-    view.dlights.assign(from.dlights, from.dlights + count(from.dlight_count, engine::max_dlights));
-    view.particles.assign(from.particles, from.particles + count(from.particle_count, engine::max_particles));
-    view.has_lightstyles = from.lightstyles != nullptr;
-    if (from.lightstyles)
-        std::copy_n(from.lightstyles, engine::max_lightstyles, view.lightstyles.begin());
-    view.has_area_bits = from.area_bits != nullptr;
-    if (from.area_bits)
-        std::copy_n(from.area_bits, trace::max_area_bytes, view.area_bits.begin());
+    trace::View view = trace::copy_view(from, to_number, to_number);
     write_start(true);
     writer_.write(view);
 }
@@ -140,7 +127,7 @@ std::optional<std::vector<std::byte>> Recorder::load_file(const std::string& pat
     const formats::Bytes bytes = file->bytes();
     if (noted_files_.insert(path).second) {
         Call call = make_call(CallKind::file, path);
-        const uint64_t size = bytes.size(), hash = client::hash_bytes(bytes);
+        const uint64_t size = bytes.size(), hash = hash_bytes(bytes);
         call.numbers = { int32_t(size), int32_t(size >> 32), int32_t(hash), int32_t(hash >> 32) };
         write(std::move(call));
     }

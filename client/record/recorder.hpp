@@ -2,7 +2,7 @@
 // What the recording module knows: the trace, the handles that the engine got, and which files that took.
 #pragma once
 
-#include "client/trace/trace_writer.hpp"
+#include "common/trace/trace_writer.hpp"
 #include "ref_vkpt/scene/picture_files.hpp"
 
 #include <cstdint>

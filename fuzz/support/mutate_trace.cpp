@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "client/trace/file_format.hpp"
+#include "common/trace/file_format.hpp"
 #include "fuzz/support/packed.hpp"
 #include "fuzz/support/records.hpp"
 

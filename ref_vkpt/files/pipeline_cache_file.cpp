@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/files/pipeline_cache_file.hpp"
 
-#include "ref_vkpt/files/hash.hpp"
+#include "common/hash.hpp"
 
 #include <cstring>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/shader_warm_up.hpp"
 
+#include "common/hash.hpp"
 #include "common/parallel.hpp"
 #include "ref_vkpt/engine/errors.hpp"
-#include "ref_vkpt/files/hash.hpp"
 #include "ref_vkpt/frame/scene_texels.hpp"
 #include "ref_vkpt/frame/view_buffers.hpp"
 #include "shaders/shared/frame.h"

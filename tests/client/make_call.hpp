@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "client/trace/calls.hpp"
+#include "common/trace/calls.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // ref_record.so as an engine of each release calls it, and its trace played by `vkpt` to a module that tells what it is
 // asked.
-#include "client/trace/trace_reader.hpp"
+#include "common/trace/trace_reader.hpp"
 #include "tests/client/run_program.hpp"
 #include "tests/contract/mock_engine.hpp"
 #include "tests/formats/samples.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Traces made to take a machine's memory and time: no file under 1 MB gets more than 512 MB or 5 seconds of a CPU.
-#include "client/trace/call_codec.hpp"
-#include "client/trace/file_format.hpp"
-#include "client/trace/view_codec.hpp"
+#include "common/trace/call_codec.hpp"
+#include "common/trace/file_format.hpp"
+#include "common/trace/view_codec.hpp"
 #include "tests/client/run_program.hpp"
 
 #include <cstdio>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Traces as files: what is written is what is read, whole, cut off or damaged.
-#include "client/trace/trace_reader.hpp"
-#include "client/trace/trace_writer.hpp"
-#include "client/trace/view_codec.hpp"
+#include "common/trace/trace_reader.hpp"
+#include "common/trace/trace_writer.hpp"
+#include "common/trace/view_codec.hpp"
 #include "tests/client/make_call.hpp"
 #include "tests/client/run_program.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Recording by the real engine, and the replay against what the engine itself shows.
-#include "client/trace/trace_reader.hpp"
+#include "common/trace/trace_reader.hpp"
 #include "tests/client/run_program.hpp"
 #include "tests/engine/engine_run.hpp"
 #include "tests/engine/picture_statistics.hpp"

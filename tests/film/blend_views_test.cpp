@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What lies between two recorded views.
-#include "client/host/blend_views.hpp"
+#include "common/trace/blend_views.hpp"
 
 #include <gtest/gtest.h>
 
-namespace vkpt::client {
+namespace vkpt::trace {
 namespace {
-
-using trace::View;
 
 View make_view(float time, float x)
 {
@@ -126,4 +124,4 @@ TEST(BlendViews, ParticlesAndLightsMove)
 }
 
 } // namespace
-} // namespace vkpt::client
+} // namespace vkpt::trace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // `vkpt film` from the outside, with an ffmpeg that counts what it gets.
-#include "client/trace/trace_writer.hpp"
+#include "common/trace/trace_writer.hpp"
 #include "formats/image.hpp"
 #include "tests/client/make_call.hpp"
 #include "tests/client/run_program.hpp"

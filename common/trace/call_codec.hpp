@@ -2,8 +2,8 @@
 // Calls as bytes, both ways. A name is spelt out once in a chunk and a number from then on.
 #pragma once
 
-#include "client/trace/calls.hpp"
-#include "client/trace/codec.hpp"
+#include "common/trace/calls.hpp"
+#include "common/trace/codec.hpp"
 
 #include <algorithm>
 #include <cstdint>

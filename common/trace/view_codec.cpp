@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "client/trace/view_codec.hpp"
+#include "common/trace/view_codec.hpp"
 
 #include <algorithm>
 #include <cmath>

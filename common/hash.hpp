@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// FNV-1a, 64 bits: tells damaged and outdated data, not forged ones.
+// FNV-1a with 64 bits (Fowler, Noll, Vo): tells contents apart that nobody forges.
 #pragma once
 
 #include <cstddef>

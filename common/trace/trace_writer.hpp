@@ -2,9 +2,7 @@
 // Writes a trace call by call, in constant memory. What has been written when the process dies can be played.
 #pragma once
 
-#include "client/trace/call_codec.hpp"
-#include "client/trace/file_format.hpp"
-#include "client/trace/view_codec.hpp"
+#include "common/trace/trace_chunk.hpp"
 
 #include <cstdint>
 #include <cstdio>
@@ -29,21 +27,12 @@ public:
     uint64_t bytes_written() const { return bytes_written_; }
 
 private:
-    // What ends with a chunk.
-    struct Coding {
-        Encoder bytes;
-        CallCodec calls;
-        ViewCodec views;
-        uint32_t view_count = 0;
-    };
     void write_chunk();
-    void write_packed(uint32_t tag, std::span<const std::byte> raw, uint32_t views);
     void write_bytes(std::span<const std::byte> bytes);
-    void count(CallKind kind);
 
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-    std::unique_ptr<Coding> coding_;
+    ChunkWriter chunk_;
     TraceTotals totals_;
     uint64_t bytes_written_ = 0;
 };

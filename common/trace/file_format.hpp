@@ -9,6 +9,8 @@
 // out, views start without a past. Chunk "END ": TraceTotals; a file without it was cut off.
 #pragma once
 
+#include "common/trace/calls.hpp"
+
 #include <array>
 #include <cstdint>
 #include <span>
@@ -45,6 +47,13 @@ static_assert(sizeof(ChunkHeader) == 24);
 
 struct TraceTotals {
     uint32_t calls = 0, frames = 0, views = 0, zero = 0;
+
+    void count(CallKind kind)
+    {
+        calls++;
+        frames += kind == CallKind::end_frame;
+        views += kind == CallKind::render_view;
+    }
 };
 
 template <class Bytes> uint32_t crc_of(const Bytes& bytes)

@@ -4,8 +4,8 @@
 // the error of the guess is what is written.
 #pragma once
 
-#include "client/trace/calls.hpp"
-#include "client/trace/codec.hpp"
+#include "common/trace/calls.hpp"
+#include "common/trace/codec.hpp"
 
 #include <array>
 #include <cstdint>

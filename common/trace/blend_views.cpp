@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "client/host/blend_views.hpp"
+#include "common/trace/blend_views.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
-namespace vkpt::client {
+namespace vkpt::trace {
 
 namespace {
 
-using Entity = trace::View::Entity;
+using Entity = View::Entity;
 
 // In units between two views; what is farther apart is not one thing that moves.
 constexpr float max_eye_way = 64, max_entity_way = 96, max_light_way = 128, max_particle_way = 32;
@@ -143,7 +143,7 @@ std::vector<Item> blend_lists(const std::vector<Item>& before, const std::vector
     return result;
 }
 
-void blend_dlights(trace::View& to, const trace::View& before, const trace::View& after, float share)
+void blend_dlights(View& to, const View& before, const View& after, float share)
 {
     const auto matches = match(before.dlights, after.dlights, max_light_way,
         [](const auto& a, const auto& b) { return std::optional(distance(a.origin, b.origin)); });
@@ -157,7 +157,7 @@ void blend_dlights(trace::View& to, const trace::View& before, const trace::View
 
 // There are thousands, in nearly the same order: each is looked for close to where the last one was found. The client
 // puts new ones in front, so from the end.
-void blend_particles(trace::View& to, const trace::View& before, const trace::View& after, float share)
+void blend_particles(View& to, const View& before, const View& after, float share)
 {
     constexpr size_t looked_at = 64;
     std::vector<std::optional<size_t>> matches(before.particles.size());
@@ -179,11 +179,11 @@ void blend_particles(trace::View& to, const trace::View& before, const trace::Vi
 
 } // namespace
 
-trace::View blend_views(const trace::View& before, const trace::View& after, float share)
+View blend_views(const View& before, const View& after, float share)
 {
     if (is_cut(before.refdef, after.refdef))
         return share < 0.5f ? before : after;
-    trace::View view = share < 0.5f ? before : after; // lightstyles, areas
+    View view = share < 0.5f ? before : after; // lightstyles, areas
     view.refdef = before.refdef;
     engine::RefDef& refdef = view.refdef;
     const engine::RefDef& next = after.refdef;
@@ -201,4 +201,4 @@ trace::View blend_views(const trace::View& before, const trace::View& after, flo
     return view;
 }
 
-} // namespace vkpt::client
+} // namespace vkpt::trace

@@ -2,12 +2,13 @@
 // Reads a trace: all of it once when it is opened, to know that it is sound and where each frame lies; then any frame.
 #pragma once
 
-#include "client/trace/calls.hpp"
-#include "client/trace/file_format.hpp"
+#include "common/trace/calls.hpp"
+#include "common/trace/file_format.hpp"
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <istream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,12 +33,16 @@ public:
     // Throws FormatError for what is no trace, damaged, of a newer version or more than a recorder writes;
     // std::system_error where it cannot be read. A file that ends too early is read up to there.
     explicit TraceReader(const std::filesystem::path& path);
+    // A trace in memory; `name` is for messages.
+    TraceReader(std::string bytes, const std::string& name);
 
     size_t frame_count() const { return times_.size(); }
     // Engine's clock of the frame's first view, in seconds.
     float time(size_t frame) const { return times_[frame]; }
     // Since the first frame. The engine's clock starts anew with a map: what that took is not known and does not count.
     double seconds(size_t frame) const { return seconds_[frame]; }
+    // The last frame that is not later.
+    size_t frame_at(double seconds) const;
     const Frame& frame(size_t number); // valid until the next call
 
     // All of them in order.
@@ -60,6 +65,7 @@ private:
         ChunkHeader header;
         size_t first_frame;
     };
+    void read_all();
     void read_header();
     bool read_chunk_header(uint64_t offset, ChunkHeader& header);
     std::vector<std::byte> read_payload(const Chunk& chunk);
@@ -72,7 +78,7 @@ private:
     [[noreturn]] void fail(uint64_t offset, const std::string& reason) const;
 
     std::filesystem::path path_;
-    std::ifstream file_;
+    std::unique_ptr<std::istream> file_;
     uint64_t file_bytes_ = 0, cut_at_ = 0;
     std::vector<Chunk> chunks_;
     std::vector<float> times_;

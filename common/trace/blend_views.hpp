@@ -2,12 +2,12 @@
 // What a camera would see between two recorded views, for motion blur.
 #pragma once
 
-#include "client/trace/calls.hpp"
+#include "common/trace/calls.hpp"
 
-namespace vkpt::client {
+namespace vkpt::trace {
 
 // `share` 0: `before`, 1: `after`. Things that only one of the two has are those of the nearer one. A cut (another map,
 // a teleport) has nothing in between: then the nearer one is shown.
-trace::View blend_views(const trace::View& before, const trace::View& after, float share);
+View blend_views(const View& before, const View& after, float share);
 
-} // namespace vkpt::client
+} // namespace vkpt::trace

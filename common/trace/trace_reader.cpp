@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "client/trace/trace_reader.hpp"
+#include "common/trace/trace_reader.hpp"
 
-#include "client/trace/call_codec.hpp"
-#include "client/trace/view_codec.hpp"
+#include "common/trace/call_codec.hpp"
+#include "common/trace/view_codec.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <system_error>
 
 namespace vkpt::trace {
@@ -48,10 +50,24 @@ TraceReader::TraceReader(const std::filesystem::path& path)
     : path_(path)
 {
     errno = 0;
-    file_.open(path, std::ios::binary | std::ios::ate);
-    if (!file_)
+    auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
+    if (!*file)
         throw std::system_error(errno, std::generic_category(), "cannot read " + path.string());
-    file_bytes_ = uint64_t(file_.tellg());
+    file_ = std::move(file);
+    read_all();
+}
+
+TraceReader::TraceReader(std::string bytes, const std::string& name)
+    : path_(name)
+    , file_(std::make_unique<std::istringstream>(std::move(bytes)))
+{
+    read_all();
+}
+
+void TraceReader::read_all()
+{
+    file_->seekg(0, std::ios::end);
+    file_bytes_ = uint64_t(file_->tellg());
     read_header();
     index_chunks();
 }
@@ -64,9 +80,9 @@ void TraceReader::fail(uint64_t offset, const std::string& reason) const
 void TraceReader::read_header()
 {
     FileHeader header;
-    file_.seekg(0);
-    file_.read(reinterpret_cast<char*>(&header), sizeof header);
-    if (!file_ || header.magic != file_magic)
+    file_->seekg(0);
+    file_->read(reinterpret_cast<char*>(&header), sizeof header);
+    if (!*file_ || header.magic != file_magic)
         fail(0, "not a trace; `vkpt record` makes one from a demo");
     if (header.crc != header_crc(header))
         fail(0, "the header is damaged");
@@ -81,10 +97,10 @@ bool TraceReader::read_chunk_header(uint64_t offset, ChunkHeader& header)
 {
     if (file_bytes_ - offset < sizeof header)
         return false;
-    file_.clear();
-    file_.seekg(std::streamoff(offset));
-    file_.read(reinterpret_cast<char*>(&header), sizeof header);
-    if (!file_ || header.crc != header_crc(header))
+    file_->clear();
+    file_->seekg(std::streamoff(offset));
+    file_->read(reinterpret_cast<char*>(&header), sizeof header);
+    if (!*file_ || header.crc != header_crc(header))
         fail(offset, "the file is damaged here; record it again");
     if (header.raw_bytes > max_chunk_bytes || header.raw_bytes > max_ratio * (uint64_t(header.packed_bytes) + 1)
         || header.packed_bytes > compressBound(header.raw_bytes))
@@ -95,11 +111,11 @@ bool TraceReader::read_chunk_header(uint64_t offset, ChunkHeader& header)
 std::vector<std::byte> TraceReader::read_payload(const Chunk& chunk)
 {
     std::vector<std::byte> packed(chunk.header.packed_bytes), raw(chunk.header.raw_bytes);
-    file_.clear();
-    file_.seekg(std::streamoff(chunk.offset + sizeof(ChunkHeader)));
-    file_.read(reinterpret_cast<char*>(packed.data()), std::streamsize(packed.size()));
+    file_->clear();
+    file_->seekg(std::streamoff(chunk.offset + sizeof(ChunkHeader)));
+    file_->read(reinterpret_cast<char*>(packed.data()), std::streamsize(packed.size()));
     uLongf size = uLong(raw.size());
-    if (!file_ || crc_of(packed) != chunk.header.payload_crc
+    if (!*file_ || crc_of(packed) != chunk.header.payload_crc
         || uncompress(reinterpret_cast<Bytef*>(raw.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
                uLong(packed.size()))
             != Z_OK
@@ -200,9 +216,7 @@ void TraceReader::index_chunk(const Chunk& chunk)
     memory_ += decode(
         chunk,
         [&](const Call& call, size_t frame, bool is_inside) {
-            totals_.calls++;
-            totals_.frames += call.kind == CallKind::end_frame;
-            totals_.views += call.kind == CallKind::render_view;
+            totals_.count(call.kind);
             note(call, chunk.first_frame + frame, is_inside);
             if (kept_ > max_kept_memory)
                 fail(chunk.offset, "more registrations, settings and facts than any recorder writes");
@@ -259,6 +273,12 @@ uint32_t count_views(const std::filesystem::path& path)
         file.seekg(header.packed_bytes, std::ios::cur);
     }
     return views;
+}
+
+size_t TraceReader::frame_at(double seconds) const
+{
+    const auto after = std::ranges::upper_bound(seconds_, seconds);
+    return after == seconds_.begin() ? 0 : size_t(after - seconds_.begin()) - 1;
 }
 
 const Frame& TraceReader::frame(size_t number)
