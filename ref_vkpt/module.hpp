@@ -14,6 +14,8 @@
 #include "ref_vkpt/photo/photo_mode.hpp"
 #include "ref_vkpt/preset_command.hpp"
 #include "ref_vkpt/rays/trace_choice.hpp"
+#include "ref_vkpt/replay/replay.hpp"
+#include "ref_vkpt/replay/replay_ring.hpp"
 #include "ref_vkpt/scene/scene.hpp"
 #include "ref_vkpt/workers.hpp"
 
@@ -21,6 +23,7 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace vkpt {
 
@@ -53,6 +56,9 @@ struct Module {
     PresetCommand preset;
     Overlay overlay;
     PhotoMode photo;
+    ReplayRing replay_ring;
+    std::optional<Replay> replay; // that photo mode shows
+    std::string replay_name_for_key; // waits for the player's key
     LightInspector light_inspector;
     PassStatistics pass_statistics; // with pt_times 1
     const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();

@@ -4,9 +4,11 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
 #include "ref_vkpt/engine/engine.hpp"
+#include "ref_vkpt/files/new_files.hpp"
 #include "ref_vkpt/files/output_folder.hpp"
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/photo/photo_files.hpp"
+#include "ref_vkpt/replay_commands.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
 #include "shaders/shared/scene.h"
 
@@ -27,15 +29,6 @@ void say(Module& m, const std::string& message)
 {
     engine::print("pt_photo: {}", message);
     m.photo.say(message);
-}
-
-// Its automatic exposure starts anew, from the first picture.
-void enter_photo_mode(Module& m)
-{
-    m.graphics.finish();
-    m.photo.game_exposure = std::move(m.view().exposure);
-    m.view().history.forget();
-    m.photo.enter();
 }
 
 // How far away the crosshair's surface is; nothing: it is the sky, or there is no picture yet.
@@ -125,8 +118,8 @@ void obey_key(Module& m, PhotoKey key)
         return m.photo.wish_for({ std::exchange(m.photo.name_for_key, {}) });
     case PhotoKey::close:
         return leave_photo_mode(m);
-    default: // those that are held
-        return;
+    default: // those that are held, and a replay's
+        return obey_replay_key(m, key);
     }
 }
 
@@ -195,7 +188,7 @@ void run_projection()
 void run_save(Module& m)
 {
     PhotoWish wish { std::string(engine::argument(2)) };
-    if (const std::string wrong = wish.name.empty() ? "" : check_photo_name(wish.name); !wrong.empty())
+    if (const std::string wrong = wish.name.empty() ? "" : check_new_name(wish.name); !wrong.empty())
         return say(m, wrong);
     if (engine::argument_count() > 3) {
         const auto samples = parse_number<uint32_t>(engine::argument(3));
@@ -278,6 +271,15 @@ void take_photograph(Module& m, const PhotoWish& wish, const formats::Image& pic
 
 } // namespace
 
+// Its automatic exposure starts anew, from the first picture.
+void enter_photo_mode(Module& m)
+{
+    m.graphics.finish();
+    m.photo.game_exposure = std::move(m.view().exposure);
+    m.view().history.forget();
+    m.photo.enter();
+}
+
 void leave_photo_mode(Module& m)
 {
     if (!m.photo.is_on())
@@ -289,6 +291,7 @@ void leave_photo_mode(Module& m)
     view.is_frozen = false;
     view.accumulated_frames = 0;
     m.photo.leave();
+    m.replay.reset();
     m.overlay.give_keys_to_photo(false);
 }
 
@@ -326,7 +329,10 @@ void begin_photo_frame(Module& m)
     photo.set_camera(with_projection(photo.camera(), cvars::shader_values().pt_projection));
     const PhotoInput input = m.overlay.take_photo_input();
     const auto now = PhotoMode::Clock::now();
-    photo.obey(input, now);
+    const float seconds = photo.pass_time(now);
+    if (m.replay)
+        m.replay->advance(double(seconds));
+    photo.obey(input, now, seconds);
     for (const PhotoKey key : input.pressed)
         if (photo.is_on())
             obey_key(m, key);

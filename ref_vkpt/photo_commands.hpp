@@ -12,6 +12,9 @@ struct Module;
 
 // `pt_photo ...`
 void run_photo_command(Module& m);
+// In a map that has been drawn, between frames.
+void enter_photo_mode(Module& m);
+// With its replay.
 void leave_photo_mode(Module& m);
 
 // Between frames: keys, the mouse, the focus.

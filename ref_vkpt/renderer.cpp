@@ -14,6 +14,7 @@
 #include "ref_vkpt/material_commands.hpp"
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/photo_commands.hpp"
+#include "ref_vkpt/replay_commands.hpp"
 #include "ref_vkpt/scene/camera.hpp"
 #include "ref_vkpt/scene/motion.hpp"
 #include "ref_vkpt/vulkan/pipeline_statistics.hpp"
@@ -226,6 +227,7 @@ constexpr Command commands[] = {
     { "pt_lights", [] { run_command([] { module() ? module()->light_inspector.run(*module()) : void(); }); } },
     { "pt_menu", [] { run_command([] { module() ? module()->overlay.toggle_menu() : void(); }); } },
     { "pt_photo", [] { run_command([] { module() ? run_photo_command(*module()) : void(); }); } },
+    { "pt_replay", [] { run_command([] { module() ? run_replay_command(*module()) : void(); }); } },
     { "mat", [] { run_command([] { module() ? run_material_command(*module()) : void(); }); } },
     { "flashlight", [] { run_command(toggle_flashlight); } },
     { "reload_shader", [] { run_command([] { module() ? module()->shader_reload.look() : void(); }); } },
@@ -376,6 +378,7 @@ void begin_registration(std::string_view map)
     m.graphics.end_frame();
     m.graphics.finish();
     leave_photo_mode(m);
+    m.replay_ring.begin_map(map);
     for (View& view : m.views)
         if (&view != &m.view())
             view = {}; // gives its memory back
@@ -392,12 +395,23 @@ void begin_registration(std::string_view map)
         view.begin_world(m.scene.world()->light_lists);
 }
 
-void* register_model(std::string_view name) { return running->scene.register_model(name); }
+void* register_model(std::string_view name)
+{
+    void* const model = running->scene.register_model(name);
+    running->replay_ring.note_model(name, model);
+    return model;
+}
 
-void* register_skin(std::string_view name) { return const_cast<Texture*>(running->scene.register_skin(name)); }
+void* register_skin(std::string_view name)
+{
+    const Texture* const skin = running->scene.register_skin(name);
+    running->replay_ring.note_skin(name, skin);
+    return const_cast<Texture*>(skin);
+}
 
 void set_sky(std::string_view name, float rotate, const float axis[3])
 {
+    running->replay_ring.note_sky(name, rotate, axis);
     running->scene.set_sky(name, rotate, { axis[0], axis[1], axis[2] });
 }
 
@@ -414,6 +428,7 @@ void end_registration()
 {
     running->graphics.finish();
     running->scene.end_registration();
+    running->replay_ring.end_registration();
     running->textures.flush_if_needed();
     upload_world_if_needed();
     running->graphics.uploader.flush();
@@ -514,18 +529,22 @@ static void replace_snapshot(View& view, SceneSnapshot snapshot)
 static void render_photo(const engine::RefDef& refdef, bool freeze)
 {
     Module& m = *running;
-    m.photo.keep(refdef);
+    if (!m.replay)
+        m.photo.keep(refdef);
+    else if (m.replay->takes_moment())
+        m.photo.show(m.replay->moment());
     const engine::RefDef seen = m.photo.camera_view(m.graphics.size());
     if (m.photo.takes_scene())
-        replace_snapshot(m.view(), take_snapshot(seen, m.photo.camera().projection, &m.photo.player_view()));
+        replace_snapshot(m.view(),
+            take_snapshot(seen, m.photo.camera().projection, m.photo.rides() ? nullptr : &m.photo.player_view()));
     Viewpoint from = make_viewpoint(seen, m.graphics.size(), { m.photo.camera().projection });
     from.underwater = medium_at(m.scene.world()->bsp, from.camera.eye) != shared::MEDIUM_NONE;
     from.is_photo = true;
     from.exposure_stops = m.photo.camera().exposure;
     from.max_samples = PhotoMode::max_samples;
     // The filters of live pictures know perspective alone.
-    const bool average
-        = freeze || from.projection != shared::PROJECTION_PERSPECTIVE || !m.photo.is_moving(PhotoMode::Clock::now());
+    const bool is_live = m.photo.is_moving(PhotoMode::Clock::now()) || (m.replay && m.replay->is_playing());
+    const bool average = freeze || from.projection != shared::PROJECTION_PERSPECTIVE || !is_live;
     record_view(from, *m.view().snapshot, &m.gpu_world, average);
 }
 
@@ -558,6 +577,8 @@ void render_view(const engine::RefDef& refdef)
     const bool freeze = cvars::values().pt_accumulate != 0;
     if (m.photo.is_on())
         return render_photo(refdef, freeze);
+    if (!freeze)
+        keep_for_replay(m, refdef);
     View& view = m.view();
     const Viewpoint from = make_viewpoint(refdef, m.graphics.size(), freeze ? wanted_projection() : Projection());
     const bool blends = std::exchange(view.blends_next, false) && freeze && view.is_frozen && view.snapshot;
@@ -586,8 +607,8 @@ static void print_speeds(const Module& m)
 static OverlayFacts overlay_facts(const Module& m)
 {
     return { m.graphics.size(), m.view().rendered_size, m.graphics.timer.frame_milliseconds(),
-        &m.graphics.timer.times(), &m.shader_reload.errors(), m.photo.describe(m.view().accumulated_frames),
-        m.light_inspector.describe() };
+        &m.graphics.timer.times(), &m.shader_reload.errors(),
+        m.photo.describe(m.view().accumulated_frames, describe_replay(m)), m.light_inspector.describe() };
 }
 
 void end_frame()

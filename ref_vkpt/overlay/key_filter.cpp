@@ -84,6 +84,13 @@ constexpr PhotoKeyRow photo_keys[] = {
     { right_button, PhotoKey::autofocus }, { 74, PhotoKey::home }, { 11, PhotoKey::panel }, // H
     { 19, PhotoKey::projection }, // P
     { 40, PhotoKey::save }, // return
+    { 44, PhotoKey::play }, // space
+    { 5, PhotoKey::reverse }, // B
+    { 54, PhotoKey::step_back }, // comma
+    { 55, PhotoKey::step_on }, // period
+    { 45, PhotoKey::slower }, // minus
+    { 46, PhotoKey::faster }, // equals
+    { 23, PhotoKey::save_replay }, // T
     { 41, PhotoKey::close }, // escape
 };
 

@@ -36,6 +36,14 @@ enum class PhotoKey {
     panel, // shows it or not
     projection, // the next one
     save,
+    // A replay's:
+    play, // and pause
+    reverse,
+    step_back,
+    step_on,
+    slower,
+    faster,
+    save_replay,
     close,
     count
 };

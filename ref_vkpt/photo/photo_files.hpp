@@ -16,8 +16,6 @@ struct Photograph {
     std::vector<float> radiance; // red, green, blue
 };
 
-// Why no photograph may have this name; empty: it may.
-std::string check_photo_name(std::string_view name);
 // Under `name`, or, where that is empty, under the first of photo0001, photo0002, ... that is free. Never over a file
 // that is there. All photographs together take at most `max_bytes`. The paths that were written. Throws FileError.
 std::vector<std::filesystem::path> save_photograph(

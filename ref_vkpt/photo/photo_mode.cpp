@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <utility>
 
 namespace vkpt {
@@ -33,7 +34,7 @@ void PhotoMode::leave()
 {
     if (is_on_)
         release_game();
-    is_on_ = engine_screen_ = was_covered_ = false;
+    is_on_ = engine_screen_ = was_covered_ = is_replay_ = rides_ = false;
     kept_.reset();
     end_wish();
     focused_for_.reset();
@@ -47,6 +48,25 @@ void PhotoMode::keep(const engine::RefDef& refdef)
         return;
     kept_ = std::make_unique<const KeptRefDef>(refdef);
     go_home();
+}
+
+void PhotoMode::show(const engine::RefDef& refdef)
+{
+    rides_ |= !kept_;
+    is_replay_ = takes_scene_ = true;
+    kept_ = std::make_unique<const KeptRefDef>(refdef);
+    if (!rides_)
+        return;
+    const float exposure = camera_.exposure;
+    camera_ = with_projection(camera_of(refdef), camera_.projection);
+    camera_.exposure = exposure;
+}
+
+void PhotoMode::go_home()
+{
+    set_camera(with_projection(camera_of(player_view()), camera_.projection));
+    takes_scene_ |= rides_ != is_replay_;
+    rides_ = is_replay_;
 }
 
 engine::RefDef PhotoMode::camera_view(VkExtent2D window) const
@@ -68,6 +88,8 @@ engine::RefDef PhotoMode::camera_view(VkExtent2D window) const
     }
     std::ranges::fill(view.blend, 0.0f);
     view.flags &= ~engine::RDF_UNDERWATER; // of the player's eyes
+    if (rides_)
+        return view;
     view.entities = kept_->seen_from_outside().data();
     view.entity_count = int32_t(kept_->seen_from_outside().size());
     return view;
@@ -80,13 +102,17 @@ void PhotoMode::set_camera(const PhotoCamera& camera)
     PhotoCamera same_place = camera;
     same_place.exposure = camera_.exposure; // which needs no new picture
     takes_scene_ |= !(same_place == camera_);
+    rides_ &= same_place == camera_;
     camera_ = camera;
 }
 
-void PhotoMode::obey(const PhotoInput& input, Clock::time_point now)
+float PhotoMode::pass_time(Clock::time_point now)
 {
-    const float seconds = std::min(std::chrono::duration<float>(now - last_input_).count(), max_frame_seconds);
-    last_input_ = now;
+    return std::min(std::chrono::duration<float>(now - std::exchange(last_time_, now)).count(), max_frame_seconds);
+}
+
+void PhotoMode::obey(const PhotoInput& input, Clock::time_point now, float seconds)
+{
     PhotoCamera camera = camera_;
     if (!obey_input(camera, input, seconds))
         return;
@@ -110,13 +136,13 @@ bool PhotoMode::takes_focus()
 
 void PhotoMode::begin_2d() { was_covered_ = std::exchange(engine_screen_, false); }
 
-std::vector<PanelLine> PhotoMode::describe(uint32_t samples) const
+std::vector<PanelLine> PhotoMode::describe(uint32_t samples, std::vector<PanelLine> lines) const
 {
     if (!is_on_ || !shows_panel_ || !kept_)
         return {};
     const CvarValues& cvars = cvars::values();
     const shared::ShaderCvars lens = cvars::shader_values();
-    std::vector<PanelLine> lines {
+    const std::initializer_list<PanelLine> own {
         { "photo mode", true },
         { samples < max_samples ? fmt::format("{} of {} samples", samples, max_samples)
                                 : fmt::format("{} samples: done", samples) },
@@ -141,6 +167,7 @@ std::vector<PanelLine> PhotoMode::describe(uint32_t samples) const
         { "Enter        saves" },
         { "home H esc   back, hide this, end" },
     };
+    lines.insert(lines.end(), own);
     if (cvars.pt_accumulate != 0)
         lines.push_back({ "pt_accumulate is 1" });
     if (!message_.empty()) {

@@ -38,6 +38,9 @@ public:
     bool has_view() const { return kept_ != nullptr; }
     // The first one since enter(); others are not wanted.
     void keep(const engine::RefDef& refdef);
+    // A replay's moment, in its place. The camera goes with the player's eyes until somebody moves it.
+    void show(const engine::RefDef& refdef);
+    bool rides() const { return rides_; }
     const engine::RefDef& player_view() const { return kept_->refdef(); }
     // What the camera sees of it, in the whole window; all around, as much of it as is twice as wide as high.
     engine::RefDef camera_view(VkExtent2D window) const;
@@ -49,9 +52,11 @@ public:
 
     const PhotoCamera& camera() const { return camera_; }
     void set_camera(const PhotoCamera& camera);
-    void go_home() { set_camera(with_projection(camera_of(player_view()), camera_.projection)); }
-    // Keys that are held, and the mouse.
-    void obey(const PhotoInput& input, Clock::time_point now);
+    void go_home();
+    // Seconds since it was last called, at most a quarter of one.
+    float pass_time(Clock::time_point now);
+    // Keys that are held for so long, and the mouse.
+    void obey(const PhotoInput& input, Clock::time_point now, float seconds);
     // While it is moved by hand, and shortly after: then the game's live picture is shown.
     bool is_moving(Clock::time_point now) const { return now < rests_from_; }
     // Whether the lens is focused on what the crosshair shows; if so, whether it has yet to be, asked once a camera.
@@ -68,7 +73,8 @@ public:
     // The console or a menu was shown in the last frame, and has the keys.
     bool is_covered() const { return was_covered_; }
     void toggle_panel() { shows_panel_ = !shows_panel_; }
-    std::vector<PanelLine> describe(uint32_t samples) const;
+    // `replay`: its lines, in front.
+    std::vector<PanelLine> describe(uint32_t samples, std::vector<PanelLine> replay) const;
     void say(const std::string& message) { message_ = message; }
 
     // ---- photographs
@@ -98,10 +104,11 @@ private:
     void release_game();
 
     bool is_on_ = false, takes_scene_ = false, follows_focus_ = true, shows_panel_ = true;
+    bool is_replay_ = false, rides_ = false;
     std::unique_ptr<const KeptRefDef> kept_;
     PhotoCamera camera_;
     std::optional<PhotoCamera> focused_for_;
-    Clock::time_point last_input_ {}, rests_from_ {};
+    Clock::time_point last_time_ {}, rests_from_ {};
     bool engine_screen_ = false, was_covered_ = false;
     std::string message_;
     std::optional<PhotoWish> wish_;
