@@ -135,4 +135,30 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
     }
 }
 
+// What the module kept of the game, saved and rendered; a restart of the renderer in the middle of it ends the replay.
+TEST_F(Recording, InstantReplayIsSavedAndRendered)
+{
+    EngineOptions options;
+    options.width = width;
+    options.height = height;
+    options.script = "wait_100\npt_replay\nwait_5\npt_replay play "
+                     "-0.5\nwait_25\npt_replay save moment\nwait_5\n"
+                     "vid_restart\nwait_25\npt_replay info\npt_replay\nwait_5\npt_replay off\nwait_5\nquit\n";
+    options.arguments = { "+set", "pt_photo_save", "1", "+map", own_map, "+exec", "test.cfg" };
+    options.cpu_seconds = 600;
+    const EngineRun engine(options);
+    engine.expect_clean();
+    const auto trace = engine.result().game_folder / "vkpt/replays/moment.rtrace";
+    ASSERT_TRUE(std::filesystem::exists(trace)) << engine.result().console;
+    const trace::TraceReader reader(trace);
+    EXPECT_EQ(reader.cut_at(), 0u);
+    ASSERT_GT(reader.frame_count(), 20u) << engine.result().console;
+    EXPECT_FALSE(engine.lines_with("seconds are kept").empty()) << engine.result().console;
+    const ProgramResult rendered = run({ "render", trace.string() + "@10", "--basedir", game_data, "--size", "96x64",
+        "--spp", "8", "-o", "moment.png" });
+    ASSERT_EQ(rendered.status, 0) << rendered.errors;
+    EXPECT_EQ(rendered.errors.find("differ here"), std::string::npos) << rendered.errors;
+    EXPECT_GT(measure_picture(load_picture(folder.path() / "moment.png")).mean, 0.01);
+}
+
 } // namespace vkpt::tests
