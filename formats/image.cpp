@@ -30,9 +30,23 @@ PcxHeader read_pcx_header(ByteReader& reader)
     const auto header = reader.read<PcxHeader>();
     if (header.manufacturer != pcx_manufacturer || header.encoding != pcx_run_length)
         reader.fail_at(0, "not a run-length encoded PCX file");
-    if (header.bits_per_pixel != 8 || header.planes > 1)
-        reader.fail_at(3, "only PCX pictures with 256 colours are supported");
     return header;
+}
+
+PcxHeader read_indexed_header(ByteReader& reader)
+{
+    const PcxHeader header = read_pcx_header(reader);
+    if (header.bits_per_pixel != 8 || header.planes > 1)
+        reader.fail_at(3, "only PCX pictures with 256 colours, or with 24 bits a pixel, are supported");
+    return header;
+}
+
+void read_pcx_size(ByteReader& reader, const PcxHeader& header, int& width, int& height)
+{
+    width = header.x_max - header.x_min + 1;
+    height = header.y_max - header.y_min + 1;
+    check_image_size(reader, 4, width, height);
+    check_pixel_budget(reader, width, height);
 }
 
 Palette read_trailing_palette(ByteReader& reader)
@@ -92,24 +106,48 @@ Rgba8 rim_colour(const IndexedImage& indexed, const Palette& palette, int x, int
     return { 0, 0, 0, 0 };
 }
 
+constexpr uint8_t true_colour_planes = 3;
+
+// Each line holds all its red, then its green, then its blue. There is no palette.
+Image read_true_colour(ByteReader& reader, const PcxHeader& header)
+{
+    Image image;
+    read_pcx_size(reader, header, image.width, image.height);
+    const size_t width = size_t(image.width), height = size_t(image.height);
+    const size_t plane = std::max<size_t>(header.bytes_per_line, width), line = true_colour_planes * plane;
+    const std::vector<uint8_t> bytes = unpack_pcx(reader, line * height);
+    image.pixels.reserve(width * height);
+    for (size_t y = 0; y < height; y++)
+        for (size_t at = y * line; at < y * line + width; at++)
+            image.pixels.push_back({ bytes[at], bytes[at + plane], bytes[at + 2 * plane], 255 });
+    return image;
+}
+
+Image read_pcx_image(Bytes file, std::string_view name)
+{
+    ByteReader reader(file, name);
+    const PcxHeader header = read_pcx_header(reader);
+    if (header.bits_per_pixel == 8 && header.planes == true_colour_planes)
+        return read_true_colour(reader, header);
+    const IndexedImage indexed = read_pcx(file, name);
+    return apply_palette(indexed, indexed.palette, true);
+}
+
 } // namespace
 
 Palette read_pcx_palette(Bytes file, std::string_view name)
 {
     ByteReader reader(file, name);
-    read_pcx_header(reader);
+    read_indexed_header(reader);
     return read_trailing_palette(reader);
 }
 
 IndexedImage read_pcx(Bytes file, std::string_view name)
 {
     ByteReader reader(file, name);
-    const PcxHeader header = read_pcx_header(reader);
+    const PcxHeader header = read_indexed_header(reader);
     IndexedImage image;
-    image.width = header.x_max - header.x_min + 1;
-    image.height = header.y_max - header.y_min + 1;
-    check_image_size(reader, 4, image.width, image.height);
-    check_pixel_budget(reader, image.width, image.height);
+    read_pcx_size(reader, header, image.width, image.height);
     image.palette = read_trailing_palette(reader);
 
     ByteReader data(file.first(file.size() - pcx_palette_size - 1), name);
@@ -172,10 +210,8 @@ Image apply_palette(const IndexedImage& indexed, const Palette& palette, bool tr
 
 Image read_image(Bytes file, std::string_view name, const Palette& palette)
 {
-    if (ends_with(name, ".pcx")) {
-        const IndexedImage indexed = read_pcx(file, name);
-        return apply_palette(indexed, indexed.palette, true);
-    }
+    if (ends_with(name, ".pcx"))
+        return read_pcx_image(file, name);
     if (ends_with(name, ".wal"))
         return read_wal(file, name, palette);
     if (ends_with(name, ".m8"))

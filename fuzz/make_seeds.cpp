@@ -92,6 +92,20 @@ void add_maps()
                 + tests::entity_text({ { "classname", "path_corner" }, { "targetname", "t" }, { "origin", "1 2 3" } }));
 }
 
+// The head of a picture with 256 colours, three planes, and one value for each of its lines.
+std::vector<std::byte> make_true_colour_pcx(int size)
+{
+    constexpr size_t header = 128, planes_at = 65;
+    std::vector<std::byte> file = formats::write_pcx(samples::make_indexed_image(size, size));
+    file.resize(header);
+    file[planes_at] = std::byte { 3 };
+    for (int line = 0; line < 3 * size; line++) {
+        file.push_back(std::byte(0xc0 | size)); // a run
+        file.push_back(std::byte(40 * line));
+    }
+    return file;
+}
+
 void add_pictures()
 {
     for (const int size : { 1, 5, 16 }) {
@@ -99,6 +113,7 @@ void add_pictures()
         const formats::Image image = samples::make_image(size, size);
         const std::string name = std::to_string(size);
         add("pcx", name, formats::write_pcx(indexed));
+        add("pcx", name + "-true-colour", make_true_colour_pcx(size));
         add("tga", name, formats::write_tga(image));
         add("png", name, formats::write_png(image));
         add("jpg", name, samples::make_jpg(size, size));

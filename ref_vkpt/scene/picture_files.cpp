@@ -59,7 +59,7 @@ Size read_size(formats::Bytes bytes, const std::string& path)
     if (ending == ".m32")
         return of_wall(formats::read_m32_info(bytes, path));
     if (ending == ".pcx") {
-        const formats::IndexedImage image = formats::read_pcx(bytes, path);
+        const formats::Image image = formats::read_image(bytes, path, {});
         return { image.width, image.height };
     }
     return {};

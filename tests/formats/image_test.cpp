@@ -44,6 +44,27 @@ TEST(Pcx, TransparentPixelsTakeANeighboursColour)
     EXPECT_EQ(picture.at(2, 0), (Rgba8 { 0, 0, 0, 0 }));
 }
 
+// 24 bits a pixel: a plane for each colour in every line, runs that go on from one into the next, no palette.
+TEST(Pcx, ReadsTrueColour)
+{
+    std::vector<std::byte> file = write_pcx(make_indexed_image(3, 2));
+    file.resize(128);
+    file[65] = std::byte { 3 };
+    file[66] = std::byte { 4 }; // of a plane's line, of which a picture uses three
+    for (const int byte : { 10, 11, 12, 0, 20, 21, 22, 0, 0xc1, 200, 31, 32, 0, 0xc8, 7, 1, 2, 3, 0 })
+        file.push_back(std::byte(byte));
+    const Image image = read_image(file, "skin.pcx", {});
+    ASSERT_EQ(image.width, 3);
+    ASSERT_EQ(image.height, 2);
+    EXPECT_EQ(image.at(0, 0), (Rgba8 { 10, 20, 200, 255 }));
+    EXPECT_EQ(image.at(2, 0), (Rgba8 { 12, 22, 32, 255 }));
+    EXPECT_EQ(image.at(0, 1), (Rgba8 { 7, 7, 1, 255 }));
+    EXPECT_EQ(image.at(2, 1), (Rgba8 { 7, 7, 3, 255 }));
+    file.resize(file.size() - 5);
+    EXPECT_THROW(read_image(file, "skin.pcx", {}), FormatError);
+    EXPECT_THROW(read_pcx(file, "skin.pcx"), FormatError) << "it has no palette";
+}
+
 TEST(Pcx, RefusesOtherKinds)
 {
     auto file = write_pcx(make_indexed_image(8, 8));
