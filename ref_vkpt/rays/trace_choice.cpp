@@ -75,7 +75,7 @@ TraceBackend TraceChoice::choose_automatically()
         return measured->fastest;
     }
     // Our own trees are 3 to 5 times as fast as Mesa's ray query (docs/benchmarks.md), and measuring it costs seconds
-    // of compilation before the first picture.
+    // of compilation before the first image.
     if (device_.is_cpu) {
         say(TraceBackend::software, "the fastest on CPU drivers; use pt_trace_measure to check");
         return TraceBackend::software;

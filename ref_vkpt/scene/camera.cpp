@@ -15,8 +15,8 @@ namespace {
 
 glm::vec3 to_vec3(const float v[3]) { return { v[0], v[1], v[2] }; }
 
-// Half the picture's width and height on the projection's plane, whose units are pixels' sides in either direction but
-// where the engine says otherwise, and where the picture is the whole sphere.
+// Half the image's width and height on the projection's plane, whose units are pixels' sides in either direction but
+// where the engine says otherwise, and where the image is the whole sphere.
 glm::vec2 half_extent(const engine::RefDef& refdef, const Projection& projection)
 {
     constexpr float pi = std::numbers::pi_v<float>;
@@ -39,7 +39,7 @@ bool is_same(const Viewpoint& a, const Viewpoint& b)
         && a.blend == b.blend && a.underwater == b.underwater && a.projection == b.projection;
 }
 
-Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D picture, const Projection& projection)
+Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D image, const Projection& projection)
 {
     Viewpoint view;
     const glm::vec2 extent = half_extent(refdef, projection);
@@ -49,7 +49,7 @@ Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D picture, const
     view.camera.right = axes.right * extent.x;
     view.camera.up = axes.up * extent.y;
     view.projection = projection.kind;
-    const glm::ivec2 limit(picture.width, picture.height);
+    const glm::ivec2 limit(image.width, image.height);
     view.origin = glm::clamp(glm::ivec2(refdef.x, refdef.y), glm::ivec2(0), limit - 1);
     view.size = glm::clamp(glm::ivec2(refdef.width, refdef.height), glm::ivec2(1), limit - view.origin);
     view.blend = { refdef.blend[0], refdef.blend[1], refdef.blend[2], std::clamp(refdef.blend[3], 0.0f, 1.0f) };

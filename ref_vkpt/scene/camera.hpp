@@ -14,7 +14,7 @@ struct Projection {
     float fov = 0; // degrees from left to right; 0: the refdef's
 };
 
-// `picture`: the size of the whole picture, to which the view's rectangle is clipped.
-Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D picture, const Projection& projection = {});
+// `image`: the size of the whole image, to which the view's rectangle is clipped.
+Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D image, const Projection& projection = {});
 
 } // namespace vkpt

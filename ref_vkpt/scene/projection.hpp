@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How wide a picture is on the plane of its projection (shaders/lib/projection.glsl), and what angles it may show.
+// How wide an image is on the plane of its projection (shaders/lib/projection.glsl), and what angles it may show.
 #pragma once
 
 #include "shaders/shared/cvars.h"

@@ -36,18 +36,18 @@ struct SceneSnapshot {
     shared::Sky sky {};
     std::vector<shared::FilterBox> filter_boxes; // of moving things, at most MAX_FILTER_BOXES
     bool has_alpha_test = false;
-    bool looks_around = false; // sprites and particles face the eye, not the picture's plane
+    bool looks_around = false; // sprites and particles face the eye, not the image's plane
     float time = 0; // seconds of the game
 };
 
-// The camera and its place in the picture.
+// The camera and its place in the image.
 struct Viewpoint {
     shared::Camera camera {};
-    glm::ivec2 origin { 0 }; // in the picture
+    glm::ivec2 origin { 0 }; // in the image
     glm::uvec2 size { 0 };
     glm::vec4 blend { 0 };
     bool underwater = false;
-    int projection = shared::PROJECTION_PERSPECTIVE; // any other, where pictures are averaged
+    int projection = shared::PROJECTION_PERSPECTIVE; // any other, where images are averaged
     // Of photo mode:
     bool is_photo = false; // it does not sway under water
     float exposure_stops = 0; // beside pt_exposure_bias

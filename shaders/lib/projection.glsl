@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Projections of the directions before a camera on the plane of its picture (pt_projection). In the plane's middle a
+// Projections of the directions before a camera on the plane of its image (pt_projection). In the plane's middle a
 // unit is a radian. The formulas are in Snyder, "Map Projections: A Working Manual" (1987), but for panini: Sharpless,
 // Postle and German, "Pannini: A New Projection for Rendering Wide Angle Perspective Images" (2010).
 #ifndef VKPT_LIB_PROJECTION

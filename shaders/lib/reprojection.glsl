@@ -9,7 +9,7 @@
 #include "projection.glsl"
 
 // Along the camera's ray through a pixel, `offset` from its corner; 1 along the camera's axis, or of length 1 in other
-// projections than a perspective one. Those are of averaged pictures alone: all else here is about perspective views.
+// projections than a perspective one. Those are of averaged images alone: all else here is about perspective views.
 vec3 camera_direction(uvec2 pixel, vec2 offset)
 {
     vec2 screen = (vec2(pixel) + offset) / vec2(frame.size) * 2.0 - 1.0;

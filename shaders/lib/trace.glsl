@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // All tracing of the renderer goes through trace_nearest and trace_visible. Masks are MASK_* of shared/scene.h;
-// alpha-tested triangles are met where their picture has no hole; both sides of a triangle are met. Behind the two
+// alpha-tested triangles are met where their texture has no hole; both sides of a triangle are met. Behind the two
 // functions stands the backend that the pass is compiled for (shaders/CMakeLists.txt defines one of VKPT_TRACE_*): each
 // brings search_ray().
 #ifndef VKPT_LIB_TRACE
