@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/photo_commands.hpp"
 
+#include "common/numbers.hpp"
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/files/output_folder.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <vector>
 
@@ -131,13 +131,6 @@ void print_state(const Module& m)
         camera.eye.x, camera.eye.y, camera.eye.z, camera.angles.x, camera.angles.y, camera.angles.z, camera.fov,
         camera.exposure, lens.pt_aperture, lens.pt_focus, m.photo.follows_focus() ? " (auto)" : "",
         m.view().accumulated_frames);
-}
-
-template <class Number> std::optional<Number> parse_number(std::string_view text)
-{
-    Number number {};
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && rest == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
 void set_lens(Module& m, const char* cvar, float low, float high)
