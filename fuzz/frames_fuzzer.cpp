@@ -182,11 +182,11 @@ private:
             = { input.take<int32_t>(), input.take<int32_t>(), input.take<int32_t>(), input.take<int32_t>() };
         const auto scale = input.take<float>();
         const auto tint = input.take<std::array<float, 3>>();
-        const Texture* picture = textures_->find(pictures[kind / 8 % pictures.size()], TextureUse::picture);
+        const Texture* picture = textures_->find(pictures[kind / 8 % pictures.size()], TextureUse::image);
         draw2d_->begin_frame(0, {}, {});
         draw2d_->set_output(0, { 640, 480 });
         if (picture && kind % 8 == 0)
-            draw2d_->draw_picture(*picture, place.x, place.y, scale, kind & 0x80 ? tint.data() : nullptr);
+            draw2d_->draw_pic(*picture, place.x, place.y, scale, kind & 0x80 ? tint.data() : nullptr);
         if (picture && kind % 8 == 1)
             draw2d_->draw_stretched(*picture, place);
         if (picture && kind % 8 == 2)

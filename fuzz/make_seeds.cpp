@@ -186,7 +186,7 @@ void add_trace(const std::string& name, int frames, bool whole)
             writer.write(make_call(CallKind::begin_frame, 0));
             trace::View view = make_view(frame);
             writer.write(view);
-            writer.write(make_call(CallKind::draw_picture, frame));
+            writer.write(make_call(CallKind::draw_pic, frame));
             writer.write(make_call(CallKind::end_frame, 0));
         }
         if (whole)

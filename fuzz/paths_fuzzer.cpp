@@ -3,7 +3,7 @@
 #include "fuzz/support/harness.hpp"
 #include "ref_vkpt/files/output_folder.hpp"
 #include "ref_vkpt/scene/material_guess.hpp"
-#include "ref_vkpt/scene/picture_files.hpp"
+#include "ref_vkpt/scene/texture_files.hpp"
 #include "ref_vkpt/scene/world.hpp"
 #include "tests/formats/samples.hpp"
 
@@ -36,9 +36,9 @@ void find_pictures(const std::string& name, unsigned present)
             return std::nullopt;
         return path.ends_with(".wal") ? wal : path.ends_with(".pcx") ? pcx : tga;
     };
-    PictureFiles files(load, [](std::string_view) {});
+    TextureFiles files(load, [](std::string_view) {});
     for (size_t use = 0; use < texture_use_count; use++) {
-        fuzz::require(!PictureFiles::original_paths(name, TextureUse(use)).empty(), "every picture has a path");
+        fuzz::require(!TextureFiles::original_paths(name, TextureUse(use)).empty(), "every picture has a path");
         fuzz::use(files.load(name, TextureUse(use), (present & 1) != 0));
     }
 }

@@ -4,7 +4,7 @@
 #include "formats/image.hpp"
 #include "fuzz/support/harness.hpp"
 #include "ref_vkpt/scene/bright_parts.hpp"
-#include "ref_vkpt/scene/picture_files.hpp"
+#include "ref_vkpt/scene/texture_files.hpp"
 
 extern const char* const picture_kind; // "png", "wal" ...
 
@@ -22,8 +22,8 @@ void use_picture(const formats::Image& image)
         "a picture has as many pixels as its size says");
     if (image.width > largest_measured || image.height > largest_measured)
         return;
-    fuzz::use(measure_picture(image));
-    fuzz::use(halve_picture(image));
+    fuzz::use(measure_texture(image));
+    fuzz::use(halve_texture(image));
     for (const BrightPart& part : find_bright_parts(image))
         fuzz::require(part.mins.x < part.maxs.x && part.mins.y < part.maxs.y, "bright parts have an area");
 }

@@ -27,7 +27,7 @@ bool capture_display(uint8_t* rgba)
     Module* m = module();
     if (!m || m->graphics.frame_number() == 0 || m->graphics.is_recording())
         return false;
-    const OutputPicture& output = m->graphics.output;
+    const OutputImage& output = m->graphics.output;
     const size_t bytes = size_t(output.size.width) * output.size.height * sizeof(uint32_t);
     std::memcpy(rgba, m->graphics.read_back(output.words, bytes).mapped(), bytes);
     return true;

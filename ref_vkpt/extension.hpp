@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What ref_vkpt.so offers beyond the engine's refresh API: pictures, timings, and facts about itself.
+// What ref_vkpt.so offers beyond the engine's refresh API: images, timings, and facts about itself.
 // A host gets it with dlsym(module, "vkpt_extension"). Everything is valid between Init and Shutdown, on the engine's
 // thread. The host replaces the engine: it hands GetRefAPI its own imports and calls InitContext(nullptr) for "no
 // window".
@@ -73,14 +73,14 @@ struct PassSamples {
 struct TraceRequest {
     uint32_t ray_mask = 0xff; // MASK_* of shaders/shared/scene.h
     bool visibility = false; // whether anything is met, instead of the nearest
-    uint32_t row_length = 1024; // rays are traced like pixels of a picture so wide: in tiles of 8 x 8
+    uint32_t row_length = 1024; // rays are traced like pixels of an image so wide: in tiles of 8 x 8
     uint32_t rounds = 1; // how often, for timing; the first of several is preceded by one more that does not count
 };
 
 // The scene of the last view: Quake world units, z up; linear RGB.
 struct SceneTriangle {
     float positions[3][3]; // cross(p1 - p0, p2 - p0) points to the front
-    float uvs[3][2]; // picture coordinates, 1 = one picture width; v grows downwards
+    float uvs[3][2]; // texture coordinates, 1 = one texture width; v grows downwards
     float normals[3][3]; // for shading, unit, on the front's side
     uint32_t material; // index into SceneContents::materials
     // Index into SceneContents::emitters. -1: none. -2: shines only for those who see it, emitters of its face send its
@@ -90,13 +90,13 @@ struct SceneTriangle {
 };
 
 struct SceneMaterial {
-    const char* picture; // the file it was read from; empty: none
-    float tint[3]; // multiplies the picture's colours
-    float base_colour[3]; // the picture's average, tinted
+    const char* texture; // the file it was read from; empty: none
+    float tint[3]; // multiplies the texture's colours
+    float base_colour[3]; // the texture's average, tinted
     float opacity; // 1 opaque
-    float emission_tint[3]; // radiance of the front, at this moment = this * the picture's colour
+    float emission_tint[3]; // radiance of the front, at this moment = this * the texture's colour
     float emission[3]; // its average
-    float uv_scroll[2]; // added to picture coordinates, at this moment
+    float uv_scroll[2]; // added to texture coordinates, at this moment
     float roughness; // GGX alpha = roughness^2
     float metallic;
     uint32_t flags; // MATERIAL_* of shaders/shared/scene.h
@@ -115,10 +115,10 @@ struct SceneEmitter {
     float cone_cosines[2] = {}; // both 0: no cone
 };
 
-// Radiance along direction d: that of the pictures' cube along (dot(d, rotation[0]), dot(d, rotation[1]), dot(d,
-// rotation[2])), times `radiance`. Pictures are of the sides +x, -x, +y, -y, +z, -z.
+// Radiance along direction d: that of the textures' cube along (dot(d, rotation[0]), dot(d, rotation[1]), dot(d,
+// rotation[2])), times `radiance`. Textures are of the sides +x, -x, +y, -y, +z, -z.
 struct SceneSky {
-    const char* pictures[6]; // files; empty: a plain white side. All empty: `radiance` alone is the sky
+    const char* textures[6]; // files; empty: a plain white side. All empty: `radiance` alone is the sky
     float rotation[3][3];
     float radiance[3];
 };
@@ -142,7 +142,7 @@ struct SceneContents {
 struct Extension {
     uint32_t version;
     uint32_t struct_size;
-    // The size of the last frame's picture.
+    // The size of the last frame's image.
     ImageSize (*frame_size)();
     // The last finished frame as shown (sRGB-encoded RGBA8, 4 * width * height bytes, top row first). False: no frame
     // yet.
@@ -174,11 +174,11 @@ struct Extension {
     void (*forget_times)();
     // What the last view was made of. Valid until the next frame or call. False: no map.
     bool (*read_scene)(SceneContents* contents);
-    // Several pictures at once, drawn in turn: each of `view_count` views has its own accumulation, history of the
+    // Several images at once, drawn in turn: each of `view_count` views has its own accumulation, history of the
     // filters, exposure and frozen time. What is drawn, captured and inspected from here on is of view `view`; 0 at the
     // start. Between frames. A view's memory lives until the next map is registered. False: no such view.
     bool (*select_view)(uint32_t view);
-    // The surface in pixel (x, y) of the last frame's picture, and up to `capacity` lights of its list in list order,
+    // The surface in pixel (x, y) of the last frame's image, and up to `capacity` lights of its list in list order,
     // by the settings of that frame. Runs the light sampler's shader: milliseconds, with the sampler `full` longer.
     // False: no 3D view of a map has been drawn, or it does not cover the pixel.
     bool (*inspect_pixel)(uint32_t x, uint32_t y, InspectedSurface* surface, InspectedLight* lights, size_t capacity);

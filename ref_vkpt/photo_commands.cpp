@@ -27,7 +27,7 @@ void say(Module& m, const std::string& message)
     m.photo.say(message);
 }
 
-// Its automatic exposure starts anew, from the first picture.
+// Its automatic exposure starts anew, from the first image.
 void enter_photo_mode(Module& m)
 {
     m.graphics.finish();
@@ -36,7 +36,7 @@ void enter_photo_mode(Module& m)
     m.photo.enter();
 }
 
-// How far away the crosshair's surface is; nothing: it is the sky, or there is no picture yet.
+// How far away the crosshair's surface is; nothing: it is the sky, or there is no image yet.
 std::optional<float> measure_distance(Module& m)
 {
     if (!m.view().snapshot || !m.view().snapshot->world)
@@ -206,13 +206,13 @@ void run_word(Module& m, std::string_view word)
     obey_camera_words(m, word);
 }
 
-void take_photograph(Module& m, const PhotoWish& wish, const formats::Image& picture)
+void take_photograph(Module& m, const PhotoWish& wish, const formats::Image& image)
 {
     const View& view = m.view();
-    Photograph photo { picture, int(view.size.x), int(view.size.y), {} };
+    Photograph photo { image, int(view.size.x), int(view.size.y), {} };
     photo.radiance.resize(size_t(view.size.x) * view.size.y * 3);
     if (!m.frame.read_radiance(view, photo.radiance.data()))
-        return say(m, "no photograph: there is no picture yet");
+        return say(m, "no photograph: there is no image yet");
     constexpr uint64_t mebibyte = 1 << 20;
     try {
         const auto files = save_photograph(
@@ -259,7 +259,7 @@ void run_photo_command(Module& m)
     if (word == "on")
         return;
     if (!m.photo.has_view())
-        return engine::print("pt_photo: there is no picture yet: `wait` for a frame first");
+        return engine::print("pt_photo: there is no image yet: `wait` for a frame first");
     run_word(m, word);
 }
 
@@ -287,13 +287,13 @@ void begin_photo_frame(Module& m)
     photo.plan_photo(m.view().accumulated_frames);
 }
 
-void end_photo_frame(Module& m, const std::function<formats::Image()>& read_picture)
+void end_photo_frame(Module& m, const std::function<formats::Image()>& read_image)
 {
     const auto wish = m.photo.wish();
     if (!m.photo.takes_photo() || !m.photo.has_view() || m.view().accumulated_frames < wish->samples)
         return;
     m.photo.end_wish();
-    take_photograph(m, *wish, read_picture());
+    take_photograph(m, *wish, read_image());
 }
 
 } // namespace vkpt

@@ -16,7 +16,7 @@ void leave_photo_mode(Module& m);
 
 // Between frames: keys, the mouse, the focus.
 void begin_photo_frame(Module& m);
-// The frame was submitted. Takes the photograph that is wished for; `read_picture` waits for the device.
-void end_photo_frame(Module& m, const std::function<formats::Image()>& read_picture);
+// The frame was submitted. Takes the photograph that is wished for; `read_image` waits for the device.
+void end_photo_frame(Module& m, const std::function<formats::Image()>& read_image);
 
 } // namespace vkpt

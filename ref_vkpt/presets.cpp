@@ -32,7 +32,7 @@ constexpr Preset all_presets[] = {
 
 double number(const char* text) { return std::atof(text); }
 
-// The frame's time where the picture shrinks as far as pt_target_ms lets it.
+// The frame's time where the image shrinks as far as pt_target_ms lets it.
 double time_of_smallest(const Preset& preset, double milliseconds)
 {
     constexpr double smallest = 50; // percent

@@ -37,7 +37,7 @@ std::unique_ptr<Module> running;
 // Between a door's opening and its success: whatever leaves by an exception in between has been told to the console.
 bool start_failed = false;
 
-// The window size that Init agreed on with the engine; what a host without a window gets its pictures in.
+// The window size that Init agreed on with the engine; what a host without a window gets its images in.
 VkExtent2D agreed_size { 640, 480 };
 
 // For what driver and module compile; empty: nowhere.
@@ -109,24 +109,24 @@ Brightness brightness()
 }
 
 // The last frame as shown; it waits for the device. Empty: there was none.
-formats::Image read_picture()
+formats::Image read_image()
 {
     static_assert(sizeof(formats::Rgba8) == 4);
     const ImageSize size = extension_table().frame_size();
-    formats::Image picture { size.width, size.height, {} };
-    picture.pixels.resize(size_t(size.width) * size_t(size.height));
-    if (picture.pixels.empty() || !extension_table().capture_display(&picture.pixels[0].r))
+    formats::Image image { size.width, size.height, {} };
+    image.pixels.resize(size_t(size.width) * size_t(size.height));
+    if (image.pixels.empty() || !extension_table().capture_display(&image.pixels[0].r))
         return {};
-    return picture;
+    return image;
 }
 
 void take_screenshot()
 {
-    const formats::Image picture = read_picture();
-    if (picture.pixels.empty())
+    const formats::Image image = read_image();
+    if (image.pixels.empty())
         engine::print("vkpt: no screenshot: no frame has been drawn yet");
     else
-        engine::write_screenshot({ picture.width, picture.height }, 4, picture.pixels.data());
+        engine::write_screenshot({ image.width, image.height }, 4, image.pixels.data());
 }
 
 // nullptr: pt_times is 0.
@@ -344,14 +344,14 @@ std::string describe_lost_device()
         if (name != "pt_trace")
             settings += fmt::format(", {} {}", name, value);
     const VkExtent2D size = m.graphics.size();
-    return fmt::format("{} (pictures of {} x {}, map {}, {}); if it happens again, update the graphics driver, or try "
+    return fmt::format("{} (images of {} x {}, map {}, {}); if it happens again, update the graphics driver, or try "
                        "pt_trace software, and report these lines",
         m.graphics.markers.describe_last(), size.width, size.height, m.scene.map_path(), settings);
 }
 
 // ---- registration
 
-// Pictures that are compared, and times, are of the sampler and the shaders that were asked for.
+// Images that are compared, and times, are of the sampler and the shaders that were asked for.
 static bool wants_settled_frames()
 {
     const CvarValues& cvars = cvars::values();
@@ -604,8 +604,8 @@ void end_frame()
             m.graphics.finish();
             m.first_frame_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - m.start).count();
         }
-        m.capture.end_view(read_picture);
-        end_photo_frame(m, read_picture);
+        m.capture.end_view(read_image);
+        end_photo_frame(m, read_image);
     }
 }
 
@@ -613,37 +613,34 @@ bool end_world_renderpass() { return true; }
 
 // ---- 2D
 
-void* find_picture(std::string_view name)
+void* find_pic(std::string_view name) { return const_cast<Texture*>(running->textures.find(name, TextureUse::image)); }
+
+void get_pic_size(std::string_view name, int* width, int* height)
 {
-    return const_cast<Texture*>(running->textures.find(name, TextureUse::picture));
+    const Texture* image = running->textures.find(name, TextureUse::image);
+    *width = image ? image->width : -1;
+    *height = image ? image->height : -1;
 }
 
-void get_picture_size(std::string_view name, int* width, int* height)
-{
-    const Texture* picture = running->textures.find(name, TextureUse::picture);
-    *width = picture ? picture->width : -1;
-    *height = picture ? picture->height : -1;
-}
-
-// While photo mode shows its picture alone.
+// While photo mode shows its image alone.
 static bool hides_2d() { return running->frame_has_view && running->photo.hides_2d(); }
 
-void draw_picture(int x, int y, std::string_view name, float scale, const float* tint)
+void draw_pic(int x, int y, std::string_view name, float scale, const float* tint)
 {
     if (hides_2d())
         return;
-    if (const Texture* picture = running->textures.find(name, TextureUse::picture))
-        running->draw2d.draw_picture(*picture, x, y, scale, tint);
+    if (const Texture* image = running->textures.find(name, TextureUse::image))
+        running->draw2d.draw_pic(*image, x, y, scale, tint);
 }
 
-void draw_stretched_picture(int x, int y, int width, int height, std::string_view name)
+void draw_stretched_pic(int x, int y, int width, int height, std::string_view name)
 {
     if (name == "conback") // the console's ground
         running->photo.note_engine_screen();
     if (hides_2d())
         return;
-    if (const Texture* picture = running->textures.find(name, TextureUse::picture))
-        running->draw2d.draw_stretched(*picture, { x, y, width, height });
+    if (const Texture* image = running->textures.find(name, TextureUse::image))
+        running->draw2d.draw_stretched(*image, { x, y, width, height });
 }
 
 void draw_character(int x, int y, int code, float scale)
@@ -656,8 +653,8 @@ void draw_tiled(int x, int y, int width, int height, std::string_view name)
 {
     if (hides_2d())
         return;
-    if (const Texture* picture = running->textures.find(name, TextureUse::picture))
-        running->draw2d.draw_tiled(*picture, { x, y, width, height });
+    if (const Texture* image = running->textures.find(name, TextureUse::image))
+        running->draw2d.draw_tiled(*image, { x, y, width, height });
 }
 
 void draw_fill(int x, int y, int width, int height, int palette_index)

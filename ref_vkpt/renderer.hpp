@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The renderer as a list of verbs. engine/exports.cpp translates the engine's calls into these; nothing else calls
-// them. Handles are pointers to Model, Skin picture (Texture) and so on that live until the registration after the one
+// them. Handles are pointers to Model, Skin image (Texture) and so on that live until the registration after the one
 // that stopped using them.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace vkpt::renderer {
 
 // Window flags for the engine's SDL window, or -1.
 int prepare_for_window();
-// Creates device and swapchain; `window` is the engine's SDL_Window, nullptr: no window, pictures only.
+// Creates device and swapchain; `window` is the engine's SDL_Window, nullptr: no window, images only.
 // False after having told the console why.
 bool init_context(void* sdl_window);
 void shutdown_context();
@@ -40,10 +40,10 @@ void end_frame();
 // Called in frames without a 3D view before 2D starts.
 bool end_world_renderpass();
 
-void* find_picture(std::string_view name);
-void get_picture_size(std::string_view name, int* width, int* height); // -1, -1: missing
-void draw_picture(int x, int y, std::string_view name, float scale, const float* tint_rgb_or_null);
-void draw_stretched_picture(int x, int y, int width, int height, std::string_view name);
+void* find_pic(std::string_view name);
+void get_pic_size(std::string_view name, int* width, int* height); // -1, -1: missing
+void draw_pic(int x, int y, std::string_view name, float scale, const float* tint_rgb_or_null);
+void draw_stretched_pic(int x, int y, int width, int height, std::string_view name);
 void draw_character(int x, int y, int code, float scale);
 void draw_tiled(int x, int y, int width, int height, std::string_view name);
 void draw_fill(int x, int y, int width, int height, int palette_index);

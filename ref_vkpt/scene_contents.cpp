@@ -62,11 +62,11 @@ void add_triangles(std::vector<SceneTriangle>& out, Module& m)
 }
 
 // `lightstyle`: the steady one's scale.
-SceneMaterial make_material(const shared::Material& from, const Texture* picture, float lightstyle)
+SceneMaterial make_material(const shared::Material& from, const Texture* texture, float lightstyle)
 {
     SceneMaterial to {};
-    to.picture = picture ? picture->file.c_str() : "";
-    const glm::vec3 average = picture ? picture->average : glm::vec3(1);
+    to.texture = texture ? texture->file.c_str() : "";
+    const glm::vec3 average = texture ? texture->average : glm::vec3(1);
     copy_vector(to.tint, from.tint);
     copy_vector(to.base_colour, glm::clamp(average * from.tint, 0.0f, 1.0f));
     to.opacity = from.opacity;
@@ -80,20 +80,20 @@ SceneMaterial make_material(const shared::Material& from, const Texture* picture
     return to;
 }
 
-using Pictures = std::map<uint32_t, const Texture*>; // by slot
+using Textures = std::map<uint32_t, const Texture*>; // by slot
 
-const Texture* find_picture(const Pictures& pictures, uint32_t slot)
+const Texture* find_texture(const Textures& textures, uint32_t slot)
 {
-    const auto found = pictures.find(slot);
-    return found == pictures.end() ? nullptr : found->second;
+    const auto found = textures.find(slot);
+    return found == textures.end() ? nullptr : found->second;
 }
 
-SceneSky make_sky(const shared::Sky& from, const Pictures& pictures)
+SceneSky make_sky(const shared::Sky& from, const Textures& textures)
 {
     SceneSky to {};
-    for (size_t side = 0; side < std::size(to.pictures); side++) {
-        const Texture* picture = from.present ? find_picture(pictures, from.textures[side]) : nullptr;
-        to.pictures[side] = picture ? picture->file.c_str() : "";
+    for (size_t side = 0; side < std::size(to.textures); side++) {
+        const Texture* texture = from.present ? find_texture(textures, from.textures[side]) : nullptr;
+        to.textures[side] = texture ? texture->file.c_str() : "";
     }
     for (int axis = 0; axis < 3; axis++)
         copy_vector(to.rotation[axis], from.rotation[axis]);
@@ -137,14 +137,14 @@ SceneContents read_scene_contents(Module& m)
     emitters.clear();
     const SceneSnapshot& snapshot = *m.view().snapshot;
     add_triangles(triangles, m);
-    const Pictures pictures = m.textures.by_slot();
+    const Textures textures = m.textures.by_slot();
     for (const shared::Material& material : snapshot.materials)
-        materials.push_back(make_material(material, find_picture(pictures, material.texture), snapshot.lightstyles[0]));
+        materials.push_back(make_material(material, find_texture(textures, material.texture), snapshot.lightstyles[0]));
     visit_emitters(snapshot, [&](const shared::Emitter& emitter, float lightstyle) {
         emitters.push_back(make_emitter(emitter, lightstyle));
     });
     SceneContents contents { triangles.data(), triangles.size(), materials.data(), materials.size(), emitters.data(),
-        emitters.size(), {}, make_sky(snapshot.sky, pictures), snapshot.time };
+        emitters.size(), {}, make_sky(snapshot.sky, textures), snapshot.time };
     const shared::Camera& camera = m.view().viewpoint.camera;
     copy_vector(contents.camera.eye, camera.eye);
     copy_vector(contents.camera.forward, camera.forward);

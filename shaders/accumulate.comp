@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Puts the picture's radiance together, the last level of the spatial filter included, and averages it with the frames
+// Puts the image's radiance together, the last level of the spatial filter included, and averages it with the frames
 // before while nothing moves.
 #define VKPT_DEVIATIONS_ARE_KNOWN
 #include "lib/frame.glsl"
 #include "denoise/denoise_atrous.glsl"
-#include "lib/picture.glsl"
+#include "lib/image.glsl"
 #include "lib/scattered_light.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DarkLightBuffer { DarkLight v[]; };
@@ -63,7 +63,7 @@ void compose_pixel(uvec2 pixel, uint index)
     if ((frame.flags & FRAME_LAYERED) != 0u)
         store_layers(index, pack_light3(radiance));
     else
-        store_picture(index, radiance);
+        store_image(index, radiance);
 }
 
 VKPT_RUN_OVER_PIXELS(compose_pixel)

@@ -1,11 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Puts the layers together that pixels share out (lib/layers.glsl): the mean of what the three classes of pixels show
-// here, each its own layer, or that of the neighbours that follow it.
+// Puts the layers together that pixels share out (lib/interleaved_layers.glsl): the mean of what the three classes of
+// pixels show here, each its own layer, or that of the neighbours that follow it.
 #include "lib/frame.glsl"
-#include "lib/layers.glsl"
-#include "lib/picture.glsl"
+#include "lib/interleaved_layers.glsl"
+#include "lib/image.glsl"
 
 // What another class shows: neighbours of that class across and up or down, as far as they show layers, too.
 vec3 other_layer(vec3 own, uvec2 pixel, uint index, int way)
@@ -26,7 +26,7 @@ void blend_pixel(uvec2 pixel, uint index)
         vec3 last = (differs & last_differs) != 0u ? other_layer(radiance, pixel, index, -1) : radiance;
         radiance = (radiance + next + last) * (1.0 / 3.0);
     }
-    store_picture(index, radiance);
+    store_image(index, radiance);
 }
 
 VKPT_RUN_OVER_PIXELS(blend_pixel)

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The part of the picture that pt_wipe shows as the classic game did: the map's baked lightmaps in place of paths. The
+// The part of the image that pt_wipe shows as the classic game did: the map's baked lightmaps in place of paths. The
 // passes behind find nothing left to light there.
 #include "lib/frame.glsl"
 #include "lib/surfaces.glsl"

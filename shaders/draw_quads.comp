@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The 2D layer: one workgroup blends the quads of one tile over the picture, straight alpha, in drawing order. A
+// The 2D layer: one workgroup blends the quads of one tile over the texture, straight alpha, in drawing order. A
 // compute pass rather than triangles: each pixel is read and written once, and Mesa's CPU driver rasterises badly.
 #include "lib/frame.glsl"
 #include "lib/packing.glsl"
@@ -14,7 +14,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Qua
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-vec4 sample_picture(uint slot, uint sampler_index, vec2 uv)
+vec4 sample_texture(uint slot, uint sampler_index, vec2 uv)
 {
     return textureLod(sampler2D(textures[slot], samplers[sampler_index]), uv, 0.0);
 }
@@ -32,7 +32,7 @@ vec4 blend(vec4 below, Quad quad, vec2 point)
     vec4 color = unpack_unorm4(quad.color);
     if ((quad.flags & QUAD_PLAIN) == 0u) {
         const vec2 place = (point - quad.corner_min) / (quad.corner_max - quad.corner_min);
-        color *= sample_picture(quad.texture_slot, quad.sampler_index, mix(quad.uv_min, quad.uv_max, place));
+        color *= sample_texture(quad.texture_slot, quad.sampler_index, mix(quad.uv_min, quad.uv_max, place));
     }
     if (push.intensity != 1.0 || push.exponent != 1.0)
         color.rgb = quick_min(pow(color.rgb * push.intensity, vec3(push.exponent)), vec3(1.0));

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Automatic exposure: the picture's log-average luminance, without its darkest and brightest tails, becomes middle
+// Automatic exposure: the image's log-average luminance, without its darkest and brightest tails, becomes middle
 // grey.
 #include "lib/frame.glsl"
 #include "lib/bsdf.glsl"
@@ -64,7 +64,7 @@ void main()
         return;
     ExposureBuffer state = ExposureBuffer(frame.exposure);
     float measured = has_world ? average_log2() : log2(reference_luminance);
-    // Nothing seen yet: start where the picture is.
+    // Nothing seen yet: start where the image is.
     float previous = state.v.valid != 0u ? state.v.adapted_log2 : measured;
     float adapted = mix(measured, previous, exp(-frame.frame_seconds * frame.cvars.pt_exposure_speed));
     float automatic = middle_grey / reference_luminance * exp2(-adaptation * (adapted - log2(reference_luminance)));

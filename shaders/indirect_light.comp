@@ -11,7 +11,7 @@
 #include "lib/reprojection.glsl"
 
 const uint mask_bounce = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
-// Bounce rays see pictures through a cone this wide: what is sharp there is noise here.
+// Bounce rays see images through a cone this wide: what is sharp there is noise here.
 const float bounce_cone_spread = 0.05;
 
 // Radiance that the next surfaces of a path send back, and how the path goes on.
@@ -53,7 +53,7 @@ vec3 count_emission(BouncePath path, BsdfSample bsdf, HitSurface hit, Random pix
         return vec3(0.0);
     float weight = weigh_met_emitter(path.surface, path.cluster, light_random(pixel_random, path.vertex),
         uint(hit.emitter), hit.surface.position, bsdf.pdf);
-    // Not the picture's colour there: both ways to find the light must see the same.
+    // Not the image's colour there: both ways to find the light must see the same.
     Emitter e = load_emitter(open_light_list(light_tables(), path.cluster), uint(hit.emitter));
     return weight * (e.type == EMITTER_SKY ? sky_radiance(bsdf.direction) : emitted_radiance(e, path.surface.position));
 #else
@@ -98,7 +98,7 @@ bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
     if (raw.triangle == TRACE_MISS)
         return false; // outside of a closed map; a view without a world has no sky that lights
     path.ray_length = raw.t;
-    HitSurface hit = fetch_surface(raw, ray, raw.t * bounce_cone_spread, PICTURE_TEXEL);
+    HitSurface hit = fetch_surface(raw, ray, raw.t * bounce_cone_spread, TEXTURE_TEXEL);
     path.radiance += path.throughput * count_emission(path, bsdf, hit, pixel_random);
     if ((hit.flags & MATERIAL_SKY) != 0u || path.vertex >= bounce_count())
         return false;

@@ -29,7 +29,7 @@ void look_down(uint lane)
     RawHit raw = trace_nearest(down, MASK_OPAQUE);
     float level = 0.0;
     if (raw.triangle != TRACE_MISS) {
-        HitSurface hit = fetch_surface(raw, down, 1.0, PICTURE_SMOOTH);
+        HitSurface hit = fetch_surface(raw, down, 1.0, TEXTURE_SMOOTH);
         level = sample_floor(hit.surface, hit.cluster, lane) + luminance(hit.emission);
     }
     LightLevelBuffer(frame.light_level).v[lane] = level;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The finished picture in the window's format, from where it is copied into the window. (A scaling or converting blit
+// The finished image in the window's format, from where it is copied into the window. (A scaling or converting blit
 // would be drawn, which Mesa's CPU driver cannot do at the vector width that our other passes want.)
 #include "lib/frame.glsl"
 #include "lib/present_packing.glsl"
@@ -10,9 +10,9 @@ VKPT_PUSH_CONSTANTS
 
 void show_pixel(uvec2 pixel, uint index)
 {
-    uvec2 from = min(pixel, push.picture_size - 1u);
+    uvec2 from = min(pixel, push.image_size - 1u);
     uvec2 packed_words
-        = pack_for_window(load_element(push.picture, from.y * push.picture_size.x + from.x, 0u), push.packing);
+        = pack_for_window(load_element(push.image, from.y * push.image_size.x + from.x, 0u), push.packing);
     if (push.packing == PRESENT_RGBA16F) {
         store_element(push.words, 2u * index, packed_words.x);
         store_element(push.words, 2u * index + 1u, packed_words.y);

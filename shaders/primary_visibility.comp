@@ -4,7 +4,7 @@
 // Camera rays through mirrors, glass and water to the first surface that is shaded, written to the G-buffer.
 #include "lib/frame.glsl"
 #include "lib/fog.glsl"
-#include "lib/layers.glsl"
+#include "lib/interleaved_layers.glsl"
 #include "lib/light_cache.glsl"
 #include "lib/media.glsl"
 #include "lib/pixel_random.glsl"
@@ -101,7 +101,7 @@ void pass_through(inout Path path, Surface s, vec3 direction)
     path.ray.origin = offset_ray_origin(s.position, -s.geometric_normal);
 }
 
-// The surface of water or slime. False: the path has ended on it, as slime is murky: its picture covers what is behind.
+// The surface of water or slime. False: the path has ended on it, as slime is murky: its image covers what is behind.
 bool meet_liquid(inout Path path, HitSurface hit, inout Random random)
 {
     Surface s = hit.surface;
@@ -195,7 +195,7 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
         return false;
     }
     path.path_length += raw.t;
-    HitSurface hit = fetch_surface(raw, path.ray, path.path_length * cone_spread, PICTURE_SMOOTH);
+    HitSurface hit = fetch_surface(raw, path.ray, path.path_length * cone_spread, TEXTURE_SMOOTH);
     Surface s = hit.surface;
     if ((hit.flags & MATERIAL_SKY) != 0u) {
         path.emitted += path.throughput * sky_radiance(path.ray.direction);

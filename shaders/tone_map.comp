@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From radiance to what the screen shows, at the window's size: under water it sways, bright things shine over,
-// exposure and tone curve, the engine's blend, gamma, and 8 bits by blue noise. Debug views take the picture's place.
+// exposure and tone curve, the engine's blend, gamma, and 8 bits by blue noise. Debug views take the image's place.
 #include "lib/frame.glsl"
 #include "bloom/bloom.glsl"
 #include "lib/debug_views.glsl"
@@ -27,7 +27,7 @@ vec3 encode_srgb(vec3 linear)
         lessThan(linear, vec3(0.0031308)));
 }
 
-// The picture's radiance at a place from (0, 0) to (1, 1): as it is where pixels match, else between four of them.
+// The image's radiance at a place from (0, 0) to (1, 1): as it is where pixels match, else between four of them.
 vec3 sample_radiance(vec2 place)
 {
     uvec2 size = frame.resolved_size;

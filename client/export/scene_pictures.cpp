@@ -108,7 +108,7 @@ const formats::Image* ScenePictures::find(const std::string& picture)
 void ScenePictures::add(const SceneContents& scene)
 {
     for (size_t i = 0; i < scene.material_count; i++) {
-        const std::string picture = scene.materials[i].picture;
+        const std::string picture = scene.materials[i].texture;
         if (picture.empty() || names_.contains(picture))
             continue;
         const formats::Image* image = find(picture);
@@ -129,10 +129,10 @@ std::string ScenePictures::name_of(const std::string& picture) const
 analysis::LinearImage ScenePictures::sky(const SceneSky& sky, int width)
 {
     using std::numbers::pi;
-    if (std::ranges::all_of(sky.pictures, [](const char* picture) { return *picture == 0; }))
+    if (std::ranges::all_of(sky.textures, [](const char* picture) { return *picture == 0; }))
         return {};
     std::vector<LinearPicture> sides;
-    for (const char* picture : sky.pictures)
+    for (const char* picture : sky.textures)
         sides.emplace_back(*picture ? find(picture) : nullptr);
     analysis::LinearImage result = analysis::make_image(width, width / 2);
     float* out = result.rgb.data();

@@ -76,7 +76,7 @@ Json make_emitter(const SceneEmitter& emitter)
 
 Json make_material(const SceneMaterial& material)
 {
-    return { { "picture", material.picture }, { "tint", vector_of(material.tint) },
+    return { { "picture", material.texture }, { "tint", vector_of(material.tint) },
         { "base_colour", vector_of(material.base_colour) }, { "opacity", material.opacity },
         { "emission_tint", vector_of(material.emission_tint) }, { "emission", vector_of(material.emission) },
         { "roughness", material.roughness }, { "metallic", material.metallic },
@@ -126,7 +126,7 @@ Json name_masks()
 auto key_of(const SceneMaterial& m)
 {
     const auto numbers = [](const float(&v)[3]) { return std::tuple(v[0], v[1], v[2]); };
-    return std::tuple(std::string_view(m.picture), numbers(m.tint), numbers(m.base_colour), m.opacity,
+    return std::tuple(std::string_view(m.texture), numbers(m.tint), numbers(m.base_colour), m.opacity,
         numbers(m.emission_tint), numbers(m.emission), m.roughness, m.metallic, m.uv_scroll[0], m.uv_scroll[1],
         m.flags);
 }
@@ -200,11 +200,11 @@ std::string make_mtl(const SceneContents& scene, const ScenePictures& pictures)
     const auto out = std::back_inserter(text);
     for (size_t i = 0; i < scene.material_count; i++) {
         const SceneMaterial& m = scene.materials[i];
-        const std::string file = pictures.name_of(m.picture);
+        const std::string file = pictures.name_of(m.texture);
         const auto& colour = file.empty() ? m.base_colour : m.tint;
         const auto& radiance = file.empty() ? m.emission : m.emission_tint;
         fmt::format_to(out, "newmtl material_{}\n# {}\nKd {} {} {}\nKe {} {} {}\nd {}\nPr {}\nPm {}\n", i,
-            *m.picture ? m.picture : "no picture", colour[0], colour[1], colour[2], radiance[0], radiance[1],
+            *m.texture ? m.texture : "no picture", colour[0], colour[1], colour[2], radiance[0], radiance[1],
             radiance[2], m.opacity, m.roughness, m.metallic);
         if (!file.empty())
             fmt::format_to(out, "map_Kd {}\n", file);

@@ -307,13 +307,13 @@ void TraceFrames::draw_2d(const engine::Exports8& module, const Call& call) cons
     const float scale = call.reals[0] * placement_.scale();
     int width = 0, height = 0;
     switch (call.kind) {
-    case CallKind::find_picture:
+    case CallKind::find_pic:
         module.draw_find_pic(name);
         break;
     case CallKind::picture_size:
         module.draw_get_pic_size(&width, &height, name);
         break;
-    case CallKind::draw_picture:
+    case CallKind::draw_pic:
         call.flag ? module.draw_pic_scaled_tinted(x, y, name, scale, &call.reals[1])
                   : module.draw_pic_scaled(x, y, name, scale);
         break;

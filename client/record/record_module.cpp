@@ -159,36 +159,36 @@ bool end_world_renderpass()
     return true;
 }
 
-void* find_picture(std::string_view name)
+void* find_pic(std::string_view name)
 {
-    void* const handle = with_trace([&](Recorder& r) { return Recorder::picture_handle(r.find_picture(name)); });
-    Call call = make_call(CallKind::find_picture, name);
+    void* const handle = with_trace([&](Recorder& r) { return Recorder::picture_handle(r.find_pic(name)); });
+    Call call = make_call(CallKind::find_pic, name);
     call.flag = handle != nullptr;
     write(std::move(call));
     return handle;
 }
 
-void get_picture_size(std::string_view name, int* width, int* height)
+void get_pic_size(std::string_view name, int* width, int* height)
 {
-    const auto size = with_trace([&](Recorder& r) { return r.find_picture(name); });
+    const auto size = with_trace([&](Recorder& r) { return r.find_pic(name); });
     *width = size.width;
     *height = size.height;
     write(make_call(CallKind::picture_size, name, { size.width, size.height }));
 }
 
-void draw_picture(int x, int y, std::string_view name, float scale, const float* tint)
+void draw_pic(int x, int y, std::string_view name, float scale, const float* tint)
 {
-    with_trace([&](Recorder& r) { return r.find_picture(name); });
-    Call call = make_call(CallKind::draw_picture, name, { x, y }, { scale });
+    with_trace([&](Recorder& r) { return r.find_pic(name); });
+    Call call = make_call(CallKind::draw_pic, name, { x, y }, { scale });
     call.flag = tint != nullptr;
     for (size_t i = 0; tint && i < 3; i++)
         call.reals[1 + i] = tint[i];
     write(std::move(call));
 }
 
-void draw_stretched_picture(int x, int y, int width, int height, std::string_view name)
+void draw_stretched_pic(int x, int y, int width, int height, std::string_view name)
 {
-    with_trace([&](Recorder& r) { return r.find_picture(name); });
+    with_trace([&](Recorder& r) { return r.find_pic(name); });
     write(make_call(CallKind::draw_stretched, name, { x, y, width, height }));
 }
 
@@ -199,7 +199,7 @@ void draw_character(int x, int y, int code, float scale)
 
 void draw_tiled(int x, int y, int width, int height, std::string_view name)
 {
-    with_trace([&](Recorder& r) { return r.find_picture(name); });
+    with_trace([&](Recorder& r) { return r.find_pic(name); });
     write(make_call(CallKind::draw_tiled, name, { x, y, width, height }));
 }
 

@@ -83,7 +83,7 @@ void Recorder::write(Call call)
 void Recorder::write_start(bool with_drawings)
 {
     for (Call& call : start_)
-        if (const bool is_drawing = call.kind >= CallKind::draw_picture && call.kind <= CallKind::draw_raw;
+        if (const bool is_drawing = call.kind >= CallKind::draw_pic && call.kind <= CallKind::draw_raw;
             with_drawings || !is_drawing)
             writer_.write(std::move(call));
     start_.clear();
@@ -214,10 +214,10 @@ void Recorder::find_sky(std::string_view name)
         number_picture(std::string(name) + side, TextureUse::sky);
 }
 
-Recorder::PictureSize Recorder::find_picture(std::string_view name)
+Recorder::PictureSize Recorder::find_pic(std::string_view name)
 {
-    number_picture(name, TextureUse::picture);
-    return known_pictures_[{ TextureUse::picture, std::string(name) }].second;
+    number_picture(name, TextureUse::image);
+    return known_pictures_[{ TextureUse::image, std::string(name) }].second;
 }
 
 void* Recorder::picture_handle(const PictureSize& size) { return size.width < 0 ? nullptr : to_handle(1); }

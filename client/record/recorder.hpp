@@ -3,7 +3,7 @@
 #pragma once
 
 #include "client/trace/trace_writer.hpp"
-#include "ref_vkpt/scene/picture_files.hpp"
+#include "ref_vkpt/scene/texture_files.hpp"
 
 #include <cstdint>
 #include <map>
@@ -34,7 +34,7 @@ public:
     struct PictureSize {
         int width = -1, height = -1; // -1: there is none
     };
-    PictureSize find_picture(std::string_view name);
+    PictureSize find_pic(std::string_view name);
     // What the engine gets for a picture: a handle that only differs from nullptr.
     static void* picture_handle(const PictureSize& size);
 
@@ -50,7 +50,7 @@ private:
 
     trace::TraceWriter writer_;
     std::vector<trace::Call> start_; // of a frame that may be the first one with a view
-    PictureFiles pictures_;
+    TextureFiles pictures_;
     bool retexturing_;
     std::set<std::string> noted_files_;
     std::map<std::string, std::string, std::less<>> settings_; // as last written

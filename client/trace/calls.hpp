@@ -31,10 +31,10 @@ enum class CallKind : uint8_t {
     end_world_renderpass,
     end_frame,
 
-    find_picture, // name; flag: the engine got a handle
+    find_pic, // name; flag: the engine got a handle
     picture_size, // name, numbers: the width and height that the engine got
     // Drawing in frames before the first one with a view is left out.
-    draw_picture, // name, numbers: x, y; reals: scale, tint; flag: tinted
+    draw_pic, // name, numbers: x, y; reals: scale, tint; flag: tinted
     draw_stretched, // name, numbers: x, y, width, height
     draw_character, // numbers: x, y, code; real: scale
     draw_tiled, // name, numbers: x, y, width, height

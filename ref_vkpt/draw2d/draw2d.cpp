@@ -44,13 +44,13 @@ void Draw2d::begin_frame(uint32_t frame_slot, const Filtering& filtering, const 
     FrameMemory& frame = frames_[frame_];
     frame.used = 0;
     frame.retired.clear();
-    for (const RawPicture& picture : frame.retired_pictures)
-        bindings_.remove_texture(picture.slot);
-    frame.retired_pictures.clear();
+    for (const RawImage& image : frame.retired_images)
+        bindings_.remove_texture(image.slot);
+    frame.retired_images.clear();
     // What a frame that broke off has left.
     quads_.clear();
     raw_copies_.clear();
-    raw_pictures_used_ = 0;
+    raw_images_used_ = 0;
 }
 
 // ---- what is drawn
@@ -60,8 +60,8 @@ uint32_t Draw2d::choose_sampler(const Texture& texture) const
     const auto is_listed = [&](const std::string& list) {
         return !texture.path.empty() && list.find(texture.path) != std::string::npos;
     };
-    const bool nearest = filtering_.unfiltered_pictures ? !is_listed(filtering_.always_filtered)
-                                                        : is_listed(filtering_.never_filtered);
+    const bool nearest
+        = filtering_.unfiltered_images ? !is_listed(filtering_.always_filtered) : is_listed(filtering_.never_filtered);
     return nearest ? shared::SAMPLER_CLAMP_NEAREST : shared::SAMPLER_CLAMP;
 }
 
@@ -78,7 +78,7 @@ void Draw2d::add_plain_quad(glm::vec2 low, glm::vec2 high, uint32_t color)
     quads_.back().flags |= shared::QUAD_PLAIN;
 }
 
-void Draw2d::draw_picture(const Texture& texture, int x, int y, float scale, const float* tint_rgb)
+void Draw2d::draw_pic(const Texture& texture, int x, int y, float scale, const float* tint_rgb)
 {
     const glm::vec2 low(x, y);
     const glm::vec2 size = glm::vec2(texture.width, texture.height) * scale;
@@ -98,7 +98,7 @@ void Draw2d::draw_character(int x, int y, int code, float scale)
     const float size = character_pixels * scale;
     if ((code & 127) == space || float(y) <= -size)
         return;
-    const Texture* font = textures_.find("conchars", TextureUse::picture);
+    const Texture* font = textures_.find("conchars", TextureUse::image);
     if (!font)
         return;
     const glm::vec2 low(x, y);
@@ -157,7 +157,7 @@ void Draw2d::draw_raw(const Rectangle& place, int columns, int rows, const uint8
     if (is_empty(place) || !pixels || columns <= 0 || rows <= 0 || columns > limit || rows > limit)
         return;
     const size_t count = size_t(columns) * size_t(rows);
-    RawCopy copy { prepare_raw_picture(columns, rows),
+    RawCopy copy { prepare_raw_image(columns, rows),
         Buffer(gpu_, count * sizeof(uint32_t), BufferHome::upload, MemoryKind::staging, "video frame") };
     auto* target = reinterpret_cast<uint32_t*>(copy.staging.mapped());
     if (bits == 32) {
@@ -174,28 +174,28 @@ void Draw2d::draw_raw(const Rectangle& place, int columns, int rows, const uint8
     }
     add_quad(textures_.white(), low_corner(place), high_corner(place));
     shared::Quad& quad = quads_.back();
-    quad.texture_slot = raw_pictures_[copy.picture].slot;
+    quad.texture_slot = raw_images_[copy.image].slot;
     quad.sampler_index = filtering_.unfiltered_videos ? shared::SAMPLER_CLAMP_NEAREST : shared::SAMPLER_CLAMP;
     raw_copies_.push_back(std::move(copy));
 }
 
-// Each video picture of a frame has an image of its own, kept for the next frame's.
-size_t Draw2d::prepare_raw_picture(int columns, int rows)
+// Each video image of a frame has one of its own on the device, kept for the next frame's.
+size_t Draw2d::prepare_raw_image(int columns, int rows)
 {
-    const size_t index = raw_pictures_used_++;
-    if (index == raw_pictures_.size())
-        raw_pictures_.emplace_back();
-    RawPicture& picture = raw_pictures_[index];
-    if (picture.image && picture.image.width() == uint32_t(columns) && picture.image.height() == uint32_t(rows))
+    const size_t index = raw_images_used_++;
+    if (index == raw_images_.size())
+        raw_images_.emplace_back();
+    RawImage& image = raw_images_[index];
+    if (image.image && image.image.width() == uint32_t(columns) && image.image.height() == uint32_t(rows))
         return index;
-    if (picture.image)
-        frames_[frame_].retired_pictures.push_back(std::move(picture));
+    if (image.image)
+        frames_[frame_].retired_images.push_back(std::move(image));
     ImageSettings settings;
     settings.width = uint32_t(columns);
     settings.height = uint32_t(rows);
     settings.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    picture = RawPicture { Image(gpu_, settings, "video") };
-    picture.slot = bindings_.add_texture(picture.image);
+    image = RawImage { Image(gpu_, settings, "video") };
+    image.slot = bindings_.add_texture(image.image);
     return index;
 }
 

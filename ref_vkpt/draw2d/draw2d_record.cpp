@@ -12,7 +12,7 @@ namespace {
 constexpr int tile_pixels = int(shared::QUAD_TILE_SIZE);
 constexpr VkDeviceSize smallest_memory = 256 << 10;
 
-// Everything that may use the output picture before or after the 2D layer.
+// Everything that may use the output image before or after the 2D layer.
 constexpr VkPipelineStageFlags other_stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT
     | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT
     | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
@@ -76,12 +76,12 @@ Draw2d::Draw2d(
 Draw2d::~Draw2d()
 {
     vkDeviceWaitIdle(gpu_.device.handle);
-    for (const RawPicture& picture : raw_pictures_)
-        if (picture.image)
-            bindings_.remove_texture(picture.slot);
+    for (const RawImage& image : raw_images_)
+        if (image.image)
+            bindings_.remove_texture(image.slot);
     for (const FrameMemory& frame : frames_)
-        for (const RawPicture& picture : frame.retired_pictures)
-            bindings_.remove_texture(picture.slot);
+        for (const RawImage& image : frame.retired_images)
+            bindings_.remove_texture(image.slot);
 }
 
 void Draw2d::set_output(VkDeviceAddress words, VkExtent2D size)
@@ -182,7 +182,7 @@ shared::QuadPush Draw2d::upload_lists()
 void Draw2d::record_raw_copies(VkCommandBuffer commands)
 {
     for (RawCopy& copy : raw_copies_) {
-        const Image& image = raw_pictures_[copy.picture].image;
+        const Image& image = raw_images_[copy.image].image;
         record_barrier(commands,
             { image.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0,

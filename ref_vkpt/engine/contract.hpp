@@ -24,7 +24,7 @@ enum EntityFlags : int32_t {
     RF_MINLIGHT = 0x1, // never wholly dark
     RF_VIEWERMODEL = 0x2, // the player's own body: not in the camera's view, but in mirrors and shadows
     RF_WEAPONMODEL = 0x4, // the first-person weapon: the camera's view only
-    RF_FULLBRIGHT = 0x8, // shown as its picture, unlit
+    RF_FULLBRIGHT = 0x8, // shown as its image, unlit
     RF_DEPTHHACK = 0x10, // first-person weapon: nearer than every wall
     RF_TRANSLUCENT = 0x20, // Entity::alpha counts
     RF_FRAMELERP = 0x40,

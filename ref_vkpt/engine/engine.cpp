@@ -100,7 +100,7 @@ FileData::~FileData()
         imports.free_file(buffer_);
 }
 
-// As much as the pixels of the largest picture, 8192 x 8192; the engine takes whatever memory an archive's directory
+// As much as the pixels of the largest image, 8192 x 8192; the engine takes whatever memory an archive's directory
 // asks for.
 constexpr int max_file_bytes = 256 << 20;
 

@@ -220,23 +220,23 @@ void render_frame(const RefDef* refdef)
 
 void* draw_find_pic(const char* name)
 {
-    return guard("DrawFindPic", [=] { return renderer::find_picture(view(name)); });
+    return guard("DrawFindPic", [=] { return renderer::find_pic(view(name)); });
 }
 
 void draw_get_pic_size(int* width, int* height, const char* name)
 {
     *width = *height = -1;
-    guard("DrawGetPicSize", [=] { renderer::get_picture_size(view(name), width, height); });
+    guard("DrawGetPicSize", [=] { renderer::get_pic_size(view(name), width, height); });
 }
 
 void draw_pic_scaled(int x, int y, const char* name, float scale)
 {
-    guard("DrawPicScaled", [=] { renderer::draw_picture(x, y, view(name), scale, nullptr); });
+    guard("DrawPicScaled", [=] { renderer::draw_pic(x, y, view(name), scale, nullptr); });
 }
 
 void draw_stretch_pic(int x, int y, int width, int height, const char* name)
 {
-    guard("DrawStretchPic", [=] { renderer::draw_stretched_picture(x, y, width, height, view(name)); });
+    guard("DrawStretchPic", [=] { renderer::draw_stretched_pic(x, y, width, height, view(name)); });
 }
 
 void draw_char_scaled(int x, int y, int code, float scale)
@@ -292,7 +292,7 @@ QBoolean end_world_renderpass()
 
 void draw_pic_scaled_tinted(int x, int y, const char* name, float scale, const float* tint)
 {
-    guard("DrawPicScaledCol", [=] { renderer::draw_picture(x, y, view(name), scale, tint); });
+    guard("DrawPicScaledCol", [=] { renderer::draw_pic(x, y, view(name), scale, tint); });
 }
 
 // ---- the table

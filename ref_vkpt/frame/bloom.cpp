@@ -8,7 +8,7 @@ namespace vkpt {
 
 namespace {
 
-// Of the pyramid in a picture of so many lines (or columns, where they are fewer). Larger pictures have finer levels
+// Of the pyramid in an image of so many lines (or columns, where they are fewer). Larger images have finer levels
 // before the result's, which only hand on; smaller ones lack the finest: so light spreads over the same share of all of
 // them.
 constexpr int bloom_levels = 5;
@@ -17,9 +17,9 @@ constexpr float bloom_lines = 360;
 constexpr uint32_t min_bloom_size = 32;
 
 // How many finer levels there are before the result's; negative: how many are left out.
-int count_finer_levels(glm::uvec2 picture)
+int count_finer_levels(glm::uvec2 image)
 {
-    return int(std::lround(std::log2(float(std::min(picture.x, picture.y)) / bloom_lines)));
+    return int(std::lround(std::log2(float(std::min(image.x, image.y)) / bloom_lines)));
 }
 
 struct Level {

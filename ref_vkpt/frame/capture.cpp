@@ -55,7 +55,7 @@ void FrameCapture::take_from_budget(uint64_t bytes)
     captured_bytes_ += bytes;
 }
 
-void FrameCapture::end_view(const std::function<formats::Image()>& read_picture)
+void FrameCapture::end_view(const std::function<formats::Image()>& read_image)
 {
     frame_number_++;
     if (!is_wanted())
@@ -63,9 +63,9 @@ void FrameCapture::end_view(const std::function<formats::Image()>& read_picture)
     try {
         if (!folder_)
             open_folder();
-        const std::vector<std::byte> picture = formats::write_png(read_picture());
-        take_from_budget(picture.size());
-        folder_->write(fmt::format("frame{:06}.png", frame_number_), picture);
+        const std::vector<std::byte> image = formats::write_png(read_image());
+        take_from_budget(image.size());
+        folder_->write(fmt::format("frame{:06}.png", frame_number_), image);
         captured_frames_++;
     } catch (const FileError& error) {
         report();

@@ -17,14 +17,14 @@ class FrameCapture {
 public:
     ~FrameCapture() { report(); }
 
-    // After a frame with a 3D view was submitted. Calls `read_picture`, which waits for the device, only if this frame
+    // After a frame with a 3D view was submitted. Calls `read_image`, which waits for the device, only if this frame
     // is to be captured. Frames are counted from the start of the renderer; the first one has the number 1.
-    void end_view(const std::function<formats::Image()>& read_picture);
+    void end_view(const std::function<formats::Image()>& read_image);
 
 private:
     bool is_wanted();
     void open_folder();
-    // Says how many frames there are and where. Only when no more follow: console lines are part of the picture.
+    // Says how many frames there are and where. Only when no more follow: console lines are part of the image.
     void report();
     // Throws FileError where so many bytes more are too many.
     void take_from_budget(uint64_t bytes);

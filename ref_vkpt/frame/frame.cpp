@@ -155,7 +155,7 @@ shared::FrameUniforms Frame::make_uniforms(View& view, const Viewpoint& from, gl
     uniforms.cvars = cvars::shader_values();
     uniforms.cvars.pt_exposure_bias += from.exposure_stops;
     uniforms.cvars.pt_water_warp *= from.is_photo ? 0.0f : 1.0f;
-    uniforms.picture_taps = float(std::clamp(cvars.r_anisotropic, 1, graphics_.device.traits.max_texture_taps));
+    uniforms.texture_taps = float(std::clamp(cvars.r_anisotropic, 1, graphics_.device.traits.max_texture_taps));
     uniforms.flags = (from.underwater ? shared::FRAME_UNDERWATER : 0)
         | (cvars.r_fullbright != 0 ? shared::FRAME_FULLBRIGHT : 0)
         | (cvars.r_lightmap != 0 ? shared::FRAME_LIGHT_ALONE : 0)
@@ -265,7 +265,7 @@ void Frame::record_view(
         follow_changes(view, from, average);
     else
         view.buffers.exchange_history(); // the world's last frame lies safe under the names previous_
-    // Averaged pictures and menus are complete.
+    // Averaged images and menus are complete.
     const glm::uvec2 size = average || !has_world ? from.size : scaled_size(from.size);
     shared::FrameUniforms uniforms = make_uniforms(view, from, size);
     if (!has_world)
@@ -299,7 +299,7 @@ void Frame::record(
 {
     bind(commands, view, write_uniforms(uniforms));
     const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
-    // The picture may just have been cleared or drawn on, and the last frame may still be read.
+    // The image may just have been cleared or drawn on, and the last frame may still be read.
     record_memory_barrier(
         commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT, shaders, shader_access);
     graphics_.timer.mark(commands, "2d");

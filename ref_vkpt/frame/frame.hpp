@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The frame: from a scene and a camera to the picture, by the straight list of passes in shaders/passes.def.
+// The frame: from a scene and a camera to the image, by the straight list of passes in shaders/passes.def.
 #pragma once
 
 #include "ref_vkpt/frame/pass_recorder.hpp"

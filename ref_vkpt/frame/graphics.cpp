@@ -82,7 +82,7 @@ void Graphics::submit(const VkSubmitInfo& info, VkFence& fence)
     VKPT_CHECK(vkResetFences(device.handle, 1, &fence));
     if (const VkResult result = vkQueueSubmit(device.queue, 1, &info, fence); result < 0) {
         renew_fence(fence); // which nothing signals now
-        swapchain_outdated_ = true; // nor is its picture given back
+        swapchain_outdated_ = true; // nor is its image given back
         check_vulkan(result, "vkQueueSubmit");
     }
 }
@@ -104,7 +104,7 @@ void Graphics::set_vsync(VSync vsync)
 
 void Graphics::finish() { device.wait_idle(); }
 
-// The output picture has the window's size; a minimised window keeps the last one.
+// The output image has the window's size; a minimised window keeps the last one.
 bool Graphics::follow_window()
 {
     VkExtent2D wanted = headless_size_;
@@ -219,13 +219,13 @@ void Graphics::end_frame()
     frame_number_++;
 }
 
-// Only now is a picture taken: waiting for one keeps neither the CPU from recording nor the device from the frame, and
+// Only now is an image taken: waiting for one keeps neither the CPU from recording nor the device from the frame, and
 // is no part of the frame's time.
 void Graphics::show(Slot& slot)
 {
     const Acquired taken = swapchain_->acquire(slot_);
     swapchain_outdated_ |= taken == Acquired::outdated;
-    if (taken != Acquired::picture)
+    if (taken != Acquired::image)
         return;
     VkCommandBufferBeginInfo begin { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;

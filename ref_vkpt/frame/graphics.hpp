@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The device with everything that lives as long as it: memory, bindings, pipelines, the window's pictures, the frames
+// The device with everything that lives as long as it: memory, bindings, pipelines, the window's images, the frames
 // in flight.
 #pragma once
 
@@ -16,9 +16,9 @@
 
 namespace vkpt {
 
-// The picture that is shown: a word for each pixel, RGBA with red in the lowest byte, sRGB-encoded. A buffer rather
+// The image that is shown: a word for each pixel, RGBA with red in the lowest byte, sRGB-encoded. A buffer rather
 // than an image, whose texels Mesa's CPU driver stores one after the other.
-struct OutputPicture {
+struct OutputImage {
     Buffer words;
     VkExtent2D size {};
 
@@ -26,8 +26,8 @@ struct OutputPicture {
 };
 
 struct GraphicsSettings {
-    void* sdl_window = nullptr; // nullptr: pictures only
-    VkExtent2D size { 640, 480 }; // of the pictures without a window
+    void* sdl_window = nullptr; // nullptr: images only
+    VkExtent2D size { 640, 480 }; // of the images without a window
     std::string device_name_part;
     std::string cache_directory;
     bool validation = false;
@@ -44,10 +44,10 @@ public:
     Graphics(const Graphics&) = delete;
     Graphics& operator=(const Graphics&) = delete;
 
-    // Waits for the slot's last frame, follows the window's size, and starts recording. The output picture is cleared.
+    // Waits for the slot's last frame, follows the window's size, and starts recording. The output image is cleared.
     // True: it is another one than before.
     bool begin_frame();
-    // Submits, then takes a picture of the window and shows. Nothing happens without a begun frame.
+    // Submits, then takes an image of the window and shows. Nothing happens without a begun frame.
     void end_frame();
     bool is_recording() const { return recording_; }
     // Whether nobody can see what is drawn now: the window is minimised.
@@ -59,9 +59,9 @@ public:
 
     void set_vsync(VSync vsync);
     bool is_vsync_active() const { return swapchain_ && swapchain_->vsync() != VSync::off; }
-    // The size of pictures without a window.
+    // The size of images without a window.
     void set_size(VkExtent2D size) { headless_size_ = size; }
-    // Of the picture; before the first frame: what it will have.
+    // Of the image; before the first frame: what it will have.
     VkExtent2D size() const;
 
     // Waits for everything submitted.
@@ -81,7 +81,7 @@ public:
     Uploader uploader { gpu };
     Bindings bindings { gpu };
     Pipelines pipelines;
-    OutputPicture output;
+    OutputImage output;
     FrameTimer timer { device };
     PassMarkers markers { gpu };
 
@@ -89,7 +89,7 @@ private:
     struct Slot {
         VkCommandPool pool = VK_NULL_HANDLE;
         VkCommandBuffer commands = VK_NULL_HANDLE;
-        VkCommandBuffer show_commands = VK_NULL_HANDLE; // the copy into the window's picture
+        VkCommandBuffer show_commands = VK_NULL_HANDLE; // the copy into the window's image
         VkFence finished = VK_NULL_HANDLE, shown = VK_NULL_HANDLE;
     };
     void create_slot(Slot& slot);
@@ -103,7 +103,7 @@ private:
     void record_present_words();
 
     std::optional<Swapchain> swapchain_;
-    Buffer present_words_; // the picture in the window's format
+    Buffer present_words_; // the image in the window's format
     VkExtent2D headless_size_;
     VSync vsync_;
     bool swapchain_outdated_ = true;

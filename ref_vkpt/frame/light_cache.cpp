@@ -104,7 +104,7 @@ GpuLightCache upload_light_cache(const LightCacheLayout& layout, Uploader& uploa
     return gpu;
 }
 
-// Filtered pictures read the cache; averaged ones, which are to be right, only aim by it.
+// Filtered images read the cache; averaged ones, which are to be right, only aim by it.
 bool LightCacheKeeper::wants_filling(const GpuWorld& gpu_world) const
 {
     const CvarValues& cvars = cvars::values();

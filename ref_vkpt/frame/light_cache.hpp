@@ -23,7 +23,7 @@ struct GpuLightCache {
 
     shared::LightCacheView addresses() const;
 };
-// SAMPLER_NEEDS_* of the tables that the cache's own samples read, whichever sampler pictures use; 0: there is no
+// SAMPLER_NEEDS_* of the tables that the cache's own samples read, whichever sampler images use; 0: there is no
 // cache.
 uint32_t light_cache_needs();
 GpuLightCache upload_light_cache(const LightCacheLayout& layout, Uploader& uploader);
@@ -34,7 +34,7 @@ public:
     bool wants_filling(const GpuWorld& gpu_world) const;
     // Between frames, once for each map and after its first view: first values for every cell, and what stands out.
     void fill(Graphics& graphics, Frame& frame, View& view, GpuWorld& gpu_world);
-    // Tells the shaders what to update in this frame, and what they may use. `average`: the picture is averaged. Now
+    // Tells the shaders what to update in this frame, and what they may use. `average`: the image is averaged. Now
     // and then rays get the values that were updated since, which these commands copy.
     void begin_frame(
         VkCommandBuffer commands, shared::FrameUniforms& uniforms, const GpuWorld& gpu_world, bool average);

@@ -22,7 +22,7 @@ enum PassResource : uint32_t {
 #define VKPT_SCREEN_BUFFER(type, name) resource_##name,
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
-    resource_picture,
+    resource_image,
     resource_exposure,
     resource_light_cache,
     resource_trace_stack, // of every pass that traces
@@ -32,7 +32,7 @@ inline constexpr std::string_view pass_resource_names[] = {
 #define VKPT_SCREEN_BUFFER(type, name) #name,
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
-    "picture", "exposure", "light_cache", "trace_stack"
+    "image", "exposure", "light_cache", "trace_stack"
 };
 static_assert(std::size(pass_resource_names) == resource_count);
 

@@ -50,9 +50,9 @@ void SceneQueries::measure_irradiance(std::span<const IrradianceProbe> probes, u
             frame.record_passes(uniforms);
         });
     }
-    std::vector<float> picture(size_t(from.size.x) * from.size.y * 3);
-    frame.read_radiance(view, picture.data());
-    std::copy_n(picture.data(), probes.size() * 3, rgb);
+    std::vector<float> image(size_t(from.size.x) * from.size.y * 3);
+    frame.read_radiance(view, image.data());
+    std::copy_n(image.data(), probes.size() * 3, rgb);
     view.accumulated_frames = 0;
 }
 

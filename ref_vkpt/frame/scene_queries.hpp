@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What hosts ask of a view's scene beside pictures: irradiance at points, rays, and what the light sampler makes of one
+// What hosts ask of a view's scene beside images: irradiance at points, rays, and what the light sampler makes of one
 // pixel. Between frames.
 #pragma once
 

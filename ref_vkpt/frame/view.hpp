@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A view of the world: one camera's pictures, one after the other. Whatever has a past is in here, so that views which
+// A view of the world: one camera's images, one after the other. Whatever has a past is in here, so that views which
 // are drawn in turn do not disturb each other. A view that was never drawn has no buffers.
 #pragma once
 
@@ -33,7 +33,7 @@ struct View {
     std::string light_sampler;
     glm::uvec2 size { 0 }; // pixels of `radiance`
     glm::uvec2 rendered_size { 0 }; // pixels that were rendered of the world
-    const Buffer* radiance = nullptr; // nullptr: no picture yet
+    const Buffer* radiance = nullptr; // nullptr: no image yet
     ViewHistory history;
     bool lists_changed = false;
     struct LightCacheUse {

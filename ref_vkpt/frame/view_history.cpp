@@ -18,7 +18,7 @@ constexpr float longest_pause = 1;
 bool ViewHistory::continues_into(const Key& now) const
 {
     const float passed = now.time - last_.time;
-    // Without upscaling, anti-aliasing has no picture of another size to go on with.
+    // Without upscaling, anti-aliasing has no image of another size to go on with.
     const bool same_pixels = now.resolved_size == last_.resolved_size;
     return valid_ && (same_pixels || !now.antialiases) && now.output_size == last_.output_size
         && now.world == last_.world && now.denoiser == last_.denoiser && now.antialiases == last_.antialiases

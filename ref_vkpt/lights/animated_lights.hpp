@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Faces whose picture is animated shine as the shown picture says. What a sampler needs of that is a factor to their
+// Faces whose texture is animated shine as the shown texture says. What a sampler needs of that is a factor to their
 // emitters' radiance: a row of the lightstyle table of their own.
 #pragma once
 
@@ -27,7 +27,7 @@ template <class Visit> void for_each_frame(const formats::Bsp& bsp, uint32_t fir
     }
 }
 
-// Two pictures a second, as the classic renderers show them. Any number may be a view's time.
+// Two textures a second, as the classic renderers show them. Any number may be a view's time.
 inline int animation_tick(float time) { return time > 0 ? int(std::min(time * 2, 1e9f)) : 0; }
 
 struct AnimatedLight {
@@ -43,7 +43,7 @@ public:
         : first_row_(first_row)
     {
     }
-    // Gives the emitters of a face with an animated picture their row.
+    // Gives the emitters of a face with an animated texture their row.
     void add(const EmissionSource& source, size_t face, std::span<shared::Emitter> emitters);
 
     bool has(uint32_t row) const { return row >= first_row_ && row - first_row_ < lights_.size(); }

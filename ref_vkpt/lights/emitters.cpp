@@ -50,7 +50,7 @@ uint32_t emitter_type(const BspTexinfo& texinfo)
 
 float max_component(glm::vec3 colour) { return std::max({ colour.x, colour.y, colour.z }); }
 
-// The classic compilers scale the picture's average colour so that its greatest component is 1.
+// The classic compilers scale the texture's average colour so that its greatest component is 1.
 glm::vec3 normalise_colour(glm::vec3 colour)
 {
     const float greatest = max_component(colour);

@@ -24,14 +24,14 @@ namespace vkpt {
 //   I * cos / (pi d^2). Equal at distance d for I = pi d^2 (light - d) / 128. The value is the light's reach, so that d
 //   goes with it: at a quarter of the reach, I = 0.00115 * light^3. Measured: 0.0011; a map lit by lights of 800 and
 //   one lit by lights of 120 to 350 ask for the same factor within 2, which no factor to the plain value does.
-// - sky: a classic sky is bright in the lightmaps where its picture is not; measured with the stand-in for a missing
+// - sky: a classic sky is bright in the lightmaps where its texture is not; measured with the stand-in for a missing
 //   one.
 // docs/calibration.md has the figures.
 struct EmissionScales {
-    float face = 0.0095f; // radiance = face * texinfo value * normalised picture colour * its strength
+    float face = 0.0095f; // radiance = face * texinfo value * normalised texture colour * its strength
     float point = 0.0011f; // radiant intensity of a point light = point * its "light" value cubed
-    float sky = 3.1f; // radiance = sky * sky picture (sky faces that are not SURF_LIGHT; others: as faces)
-    float glow = 2; // radiance of glowing parts without a light value = glow * picture: as bright as lightmaps get
+    float sky = 3.1f; // radiance = sky * sky texture (sky faces that are not SURF_LIGHT; others: as faces)
+    float glow = 2; // radiance of glowing parts without a light value = glow * texture: as bright as lightmaps get
     float point_light_radius = 4; // of the spheres that stand for point lights, units; less where walls are nearer
 };
 

@@ -81,7 +81,7 @@ void cut_out(const formats::Bsp& bsp, const formats::BspTexinfo& texinfo, Outlin
     pieces.push_back({ std::move(outline), box.part });
 }
 
-// Every box of the tiled picture that the outline may show; nothing: too many.
+// Every box of the tiled texture that the outline may show; nothing: too many.
 std::optional<std::vector<Box>> find_boxes(const formats::Bsp& bsp, const formats::BspTexinfo& texinfo,
     const Outline& outline, const std::vector<BrightPart>& parts, glm::vec2 size)
 {
@@ -174,7 +174,7 @@ float measure_area(const std::vector<glm::vec3>& outline)
 
 WorkLimit limit_of_pieces(const formats::Bsp& bsp)
 {
-    return { bsp, max_steps, "steps to cut the lamps out of its faces' pictures" };
+    return { bsp, max_steps, "steps to cut the lamps out of its faces' textures" };
 }
 
 std::vector<FacePiece> cut_face(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Faces cut along the parts of their picture that shine: a lamp in a dark panel lights the room from where the lamp is.
+// Faces cut along the parts of their texture that shine: a lamp in a dark panel lights the room from where the lamp is.
 #pragma once
 
 #include "formats/bsp.hpp"
@@ -12,9 +12,9 @@
 
 namespace vkpt {
 
-// A rectangle of a picture that is much brighter than the rest.
+// A rectangle of a texture that is much brighter than the rest.
 struct BrightPart {
-    glm::vec2 mins, maxs; // (0, 0) .. (1, 1): the whole picture
+    glm::vec2 mins, maxs; // (0, 0) .. (1, 1): the whole texture
     glm::vec3 average; // linear RGB
 };
 
@@ -25,7 +25,7 @@ struct FacePiece {
     int part; // index of the part that it shows, or `dark`
 };
 
-// Cuts face_outline(bsp, face) along the parts' edges, the picture being `size` texels wide and high in texinfo space
+// Cuts face_outline(bsp, face) along the parts' edges, the texture being `size` texels wide and high in texinfo space
 // and tiled. Empty where the face shows no bright part, or so many that it may as well shine as a whole. `work` is what
 // all faces of the map may take together: see limit_of_pieces.
 std::vector<FacePiece> cut_face(

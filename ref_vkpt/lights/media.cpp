@@ -19,7 +19,7 @@ using formats::Bsp;
 
 // So far from a face its sides are looked at.
 constexpr float beside_face = 1;
-// The light value of lava that has none: its radiance is then about that of its picture unlit.
+// The light value of lava that has none: its radiance is then about that of its texture unlit.
 constexpr int lava_value = 80;
 
 uint32_t medium_of_name(std::string name)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What this renderer draws over the game's own picture: pt_show_times, pt_menu, pt_show_lights, and errors in shaders
+// What this renderer draws over the game's own image: pt_show_times, pt_menu, pt_show_lights, and errors in shaders
 // that are edited.
 #pragma once
 

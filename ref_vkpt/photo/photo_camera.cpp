@@ -128,7 +128,7 @@ bool obey_input(PhotoCamera& camera, const PhotoInput& input, float seconds)
     if (way != glm::vec3(0))
         move_by(camera, glm::normalize(way) * (units_per_second * pace * seconds));
     camera.angles.z += balance(input, PhotoKey::roll_left, PhotoKey::roll_right) * roll_per_second * pace * seconds;
-    // The picture follows the mouse alike, however near the lens brings it.
+    // The image follows the mouse alike, however near the lens brings it.
     const float per_pixel = degrees_per_pixel * std::min(std::tan(glm::radians(camera.fov) / 2), 1.0f);
     camera.angles.x += input.mouse.y * per_pixel;
     camera.angles.y -= input.mouse.x * per_pixel;

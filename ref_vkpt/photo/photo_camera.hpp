@@ -30,7 +30,7 @@ std::span<const std::string_view> describe_words();
 // Keys that are held, the mouse and its wheel, over `seconds`. Whether anything has changed.
 bool obey_input(PhotoCamera& camera, const PhotoInput& input, float seconds);
 
-// Horizontal and vertical angles of sight in degrees, for a picture of such a shape.
+// Horizontal and vertical angles of sight in degrees, for an image of such a shape.
 void set_fov(engine::RefDef& refdef, float fov_x, float width, float height);
 
 } // namespace vkpt

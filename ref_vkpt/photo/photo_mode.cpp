@@ -72,7 +72,7 @@ void PhotoMode::set_camera(const PhotoCamera& camera)
     if (camera == camera_)
         return;
     PhotoCamera same_place = camera;
-    same_place.exposure = camera_.exposure; // which needs no new picture
+    same_place.exposure = camera_.exposure; // which needs no new image
     takes_scene_ |= !(same_place == camera_);
     camera_ = camera;
 }

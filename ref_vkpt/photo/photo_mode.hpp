@@ -52,14 +52,14 @@ public:
     void go_home() { set_camera(camera_of(player_view())); }
     // Keys that are held, and the mouse.
     void obey(const PhotoInput& input, Clock::time_point now);
-    // While it is moved by hand, and shortly after: then the game's live picture is shown.
+    // While it is moved by hand, and shortly after: then the game's live image is shown.
     bool is_moving(Clock::time_point now) const { return now < rests_from_; }
     // Whether the lens is focused on what the crosshair shows; if so, whether it has yet to be, asked once a camera.
     bool follows_focus() const { return follows_focus_; }
     void follow_focus(bool follow);
     bool takes_focus();
 
-    // ---- what is drawn over the picture
+    // ---- what is drawn over the image
 
     // A frame begins: nothing of the engine's 2D is shown, until it draws its console or a menu.
     void begin_2d();
@@ -77,7 +77,7 @@ public:
     std::string name_for_key;
     std::optional<PhotoWish> wish() const { return wish_; }
     void wish_for(const PhotoWish& wish) { wish_ = wish; }
-    // Whether this frame's picture, in which nothing stands over the view, is to be the photograph. `samples`: of the
+    // Whether this frame's image, in which nothing stands over the view, is to be the photograph. `samples`: of the
     // last one.
     void plan_photo(uint32_t samples) { takes_photo_ = wish_ && samples + 1 >= wish_->samples; }
     bool takes_photo() const { return takes_photo_; }
@@ -91,7 +91,7 @@ public:
 
     // Has the engine pause the game, as far as it does that.
     void hold_game();
-    // The game's automatic exposure, which the camera's pictures leave alone.
+    // The game's automatic exposure, which the camera's images leave alone.
     Buffer game_exposure;
 
 private:

@@ -13,7 +13,7 @@ namespace vkpt {
 
 struct TriangleGroup {
     uint32_t mask = 0; // MASK_* of shaders/shared/scene.h
-    bool has_holes = false; // some picture's alpha decides
+    bool has_holes = false; // some texture's alpha decides
     uint32_t first = 0, count = 0;
 };
 
@@ -34,7 +34,7 @@ enum class TriangleOrder {
 struct TriangleSource {
     std::span<const shared::Triangle> triangles;
     std::span<const uint32_t> masks; // per triangle
-    std::span<const uint8_t> has_holes; // per triangle, 1: its picture's alpha decides
+    std::span<const uint8_t> has_holes; // per triangle, 1: its texture's alpha decides
     uint32_t first_id = 0; // ids ascend from here
 };
 

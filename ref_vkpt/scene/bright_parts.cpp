@@ -2,7 +2,7 @@
 #include "ref_vkpt/scene/bright_parts.hpp"
 
 #include "common/colour.hpp"
-#include "ref_vkpt/scene/picture_files.hpp"
+#include "ref_vkpt/scene/texture_files.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -17,7 +17,7 @@ constexpr size_t max_count = 4;
 constexpr float max_area = 0.5f;
 constexpr float min_share = 0.6f;
 
-// The picture in a few cells, each the sum of the light of its texels.
+// The texture in a few cells, each the sum of the light of its texels.
 struct Cells {
     explicit Cells(const formats::Image& image)
         : width(std::min(image.width, max_side))

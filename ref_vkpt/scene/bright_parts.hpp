@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Which parts of a picture shine, if its surface does: the lamps in a panel.
+// Which parts of a texture shine, if its surface does: the lamps in a panel.
 #pragma once
 
 #include "formats/image.hpp"
@@ -10,7 +10,7 @@
 namespace vkpt {
 
 // Rectangles that do not overlap, around what is at least 0.3 times as bright as the brightest spot. None where they
-// would be more than four, cover more than half of the picture, or hold less than 0.6 of its light: it shines all over,
+// would be more than four, cover more than half of the texture, or hold less than 0.6 of its light: it shines all over,
 // then.
 std::vector<BrightPart> find_bright_parts(const formats::Image& image);
 

@@ -27,7 +27,7 @@ bool is_same(const Viewpoint& a, const Viewpoint& b)
         && a.blend == b.blend && a.underwater == b.underwater;
 }
 
-Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D picture)
+Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D image)
 {
     Viewpoint view;
     const Axes axes = angle_vectors(to_vec3(refdef.view_angles));
@@ -35,7 +35,7 @@ Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D picture)
     view.camera.forward = axes.forward;
     view.camera.right = axes.right * tangent_of_half(refdef.fov_x);
     view.camera.up = axes.up * tangent_of_half(refdef.fov_y);
-    const glm::ivec2 limit(picture.width, picture.height);
+    const glm::ivec2 limit(image.width, image.height);
     view.origin = glm::clamp(glm::ivec2(refdef.x, refdef.y), glm::ivec2(0), limit - 1);
     view.size = glm::clamp(glm::ivec2(refdef.width, refdef.height), glm::ivec2(1), limit - view.origin);
     view.blend = { refdef.blend[0], refdef.blend[1], refdef.blend[2], std::clamp(refdef.blend[3], 0.0f, 1.0f) };

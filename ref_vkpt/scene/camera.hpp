@@ -9,7 +9,7 @@
 
 namespace vkpt {
 
-// `picture`: the size of the whole picture, to which the view's rectangle is clipped.
-Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D picture);
+// `image`: the size of the whole image, to which the view's rectangle is clipped.
+Viewpoint make_viewpoint(const engine::RefDef& refdef, VkExtent2D image);
 
 } // namespace vkpt

@@ -20,7 +20,7 @@ namespace {
 
 using namespace engine;
 
-// Radiance of what is shown unlit (fullbright models, particles) at full picture value: a white wall in ordinary light.
+// Radiance of what is shown unlit (fullbright models, particles) at full texture value: a white wall in ordinary light.
 constexpr float unlit_radiance = 1.0f;
 // Lasers and power-up shells glow: their colour times this is their radiance.
 constexpr float beam_radiance = 8.0f;
@@ -99,10 +99,10 @@ uint32_t SnapshotBuilder::add_material(const shared::Material& material)
     return uint32_t(snapshot_.materials.size() - 1);
 }
 
-static void show_picture(shared::Material& material, const Texture& picture)
+static void show_texture(shared::Material& material, const Texture& texture)
 {
-    material.texture = picture.slot;
-    material.texture_size = picture.packed_size;
+    material.texture = texture.slot;
+    material.texture_size = texture.packed_size;
 }
 
 shared::Material SnapshotBuilder::plain_material() const
@@ -112,7 +112,7 @@ shared::Material SnapshotBuilder::plain_material() const
     material.opacity = 1;
     material.roughness = defaults_.roughness;
     material.metallic = defaults_.metallic;
-    show_picture(material, textures_.white());
+    show_texture(material, textures_.white());
     return material;
 }
 
@@ -199,7 +199,7 @@ shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Mode
             skin = mesh.skins[0];
     }
     if (skin)
-        show_picture(material, *skin);
+        show_texture(material, *skin);
     SurfaceGuess surface = guess_surface(model.name, defaults_);
     if (skin)
         apply_material(surface, skin->material, defaults_);
@@ -334,7 +334,7 @@ void SnapshotBuilder::add_shell_light(glm::vec3 centre, const shared::Material& 
 }
 
 // View weapons are made for a vertical field of view of their own (r_gunfov): from the eye they look as they would in
-// it. They are before all walls, as their picture stays the same if they are scaled about the eye as a whole.
+// it. They are before all walls, as their texture stays the same if they are scaled about the eye as a whole.
 Squeeze SnapshotBuilder::squeeze_weapon(const Entity& weapon) const
 {
     const auto tangent = [](float degrees) { return std::tan(glm::radians(std::clamp(degrees, 1.0f, 170.0f)) / 2); };
@@ -348,11 +348,11 @@ void SnapshotBuilder::add_sprite(const Entity& entity, const Model::Sprite& spri
     if (sprite.sp2.frames.empty())
         return;
     const size_t frame = size_t(std::max(entity.frame, 0)) % sprite.sp2.frames.size();
-    const Texture* picture = sprite.pictures[frame];
-    if (!picture)
+    const Texture* texture = sprite.textures[frame];
+    if (!texture)
         return;
     shared::Material material = plain_material();
-    show_picture(material, *picture);
+    show_texture(material, *texture);
     material.tint = glm::vec3(unlit_radiance);
     material.opacity = entity.flags & RF_TRANSLUCENT ? std::clamp(entity.alpha, 0.0f, 1.0f) : 1.0f;
     material.flags = shared::MATERIAL_FULLBRIGHT | shared::MATERIAL_ALPHA_TEST

@@ -42,7 +42,7 @@ Transform md2_transform(glm::vec3 origin, glm::vec3 angles);
 // Where an entity stands between its last two places: the engine's renderers blend MD2 models' origins as their frames.
 glm::vec3 blend_origins(glm::vec3 origin, glm::vec3 old_origin, float backlerp);
 
-// A square facing against camera.forward, the picture upright.
+// A square facing against camera.forward, the texture upright.
 void append_sprite(const formats::Sp2Sprite::Frame& frame, glm::vec3 origin, const Axes& camera, uint32_t material,
     std::vector<shared::Triangle>& out);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Quake II's pictures say nothing of gloss: what a surface is made of is told by files of materials, or guessed from
-// its picture's name.
+// Quake II's textures say nothing of gloss: what a surface is made of is told by files of materials, or guessed from
+// its texture's name.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@ struct MaterialDefaults;
 
 struct SurfaceGuess {
     float roughness, metallic;
-    float base_factor = 1; // times the picture's colour
+    float base_factor = 1; // times the texture's colour
 };
 
 // `texture`: name as in a texinfo or a skin's path. Names that say nothing get the defaults.

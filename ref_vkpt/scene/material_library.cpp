@@ -89,9 +89,9 @@ void MaterialLibrary::forget_files()
         refresh(name);
 }
 
-void MaterialLibrary::edit(std::string_view picture, std::string_view attribute, std::string_view value)
+void MaterialLibrary::edit(std::string_view texture, std::string_view attribute, std::string_view value)
 {
-    const std::string name = formats::material_name(picture);
+    const std::string name = formats::material_name(texture);
     Attributes& attributes = edits_[name];
     if (value.empty())
         attributes.erase(std::string(attribute));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What files and the player say that pictures' surfaces are made of.
+// What files and the player say that textures' surfaces are made of.
 #pragma once
 
 #include "formats/material_file.hpp"
@@ -13,7 +13,7 @@ namespace vkpt {
 // Below 0: not said.
 struct MaterialSettings {
     float roughness = -1, metalness = -1;
-    float base_factor = 1; // times the picture's colour
+    float base_factor = 1; // times the texture's colour
     int glow_threshold = -1; // 0: does not glow; else of 255
     std::map<std::string, std::string, std::less<>> attributes; // all, as they are written
 };
@@ -23,14 +23,14 @@ public:
     // Later files add to earlier ones, and replace what they say again.
     void add(const formats::MaterialFile& file);
     // What the player says goes before all files. An empty value takes the player's word back.
-    void edit(std::string_view picture, std::string_view attribute, std::string_view value);
+    void edit(std::string_view texture, std::string_view attribute, std::string_view value);
     // The player's edits, as they are saved; and those of an earlier run.
     std::vector<formats::MaterialEntry> edits() const;
     void take_edits(const formats::MaterialFile& file);
     // Of all files, but not of edits.
     void forget_files();
 
-    // Of a material_name(); nullptr: nothing is said of that picture.
+    // Of a material_name(); nullptr: nothing is said of that texture.
     const MaterialSettings* find(std::string_view name) const;
 
 private:

@@ -43,7 +43,7 @@ public:
     uint32_t triangle_count() const { return tree_.slot_count(); }
     // node_count 0: the model is too large for one.
     const MeshTree& tree() const { return tree_; }
-    // Per slot of the tree: three indices of points, and their picture coordinates.
+    // Per slot of the tree: three indices of points, and their texture coordinates.
     std::span<const uint32_t> corners() const { return corners_; }
     std::span<const std::array<glm::vec2, 3>> uvs() const { return uvs_; }
 

@@ -18,7 +18,7 @@ namespace {
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float lowest_cosine = 0.02f; // of a direction with the zenith: the model ends at the horizon
 constexpr float below_horizon = 0.4f; // what the ground's haze is of the sky that it mirrors
-constexpr float disc_cosine = 0.99995f; // of half a degree: a disc in the picture has to cover a texel
+constexpr float disc_cosine = 0.99995f; // of half a degree: a disc in the texture has to cover a texel
 
 // CIE xyY to linear sRGB.
 glm::vec3 to_rgb(float x, float y, float luminance)

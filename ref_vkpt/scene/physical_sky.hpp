@@ -36,10 +36,10 @@ private:
     glm::vec3 zenith_; // Y, x, y over the distributions' values there
 };
 
-// Side 0 to 5 of the sky as a picture (see direction_on_sky), the sun's disc with it; white stands for `white`.
+// Side 0 to 5 of the sky as a texture (see direction_on_sky), the sun's disc with it; white stands for `white`.
 formats::Image draw_sky_side(const PhysicalSky& sky, size_t side, int size, float white);
 
-// The greatest component of the sky away from the sun's glare: what white may stand for in a picture.
+// The greatest component of the sky away from the sun's glare: what white may stand for in a texture.
 float brightest_of_sky(const PhysicalSky& sky);
 
 } // namespace vkpt

@@ -130,10 +130,10 @@ std::vector<Entity> PlayerBody::stand(
     if (!weapon || !is_sane(eye) || !is_sane(refdef.time))
         return {};
     const size_t slash = std::min(skin.find('/'), skin.size());
-    std::string folder = skin.substr(0, slash), picture = skin.substr(std::min(slash + 1, skin.size()));
-    if (!is_plain_name(folder) || !is_plain_name(picture) || !registered.model("players/" + folder + "/tris.md2")) {
+    std::string folder = skin.substr(0, slash), image = skin.substr(std::min(slash + 1, skin.size()));
+    if (!is_plain_name(folder) || !is_plain_name(image) || !registered.model("players/" + folder + "/tris.md2")) {
         folder = "male";
-        picture = "grunt";
+        image = "grunt";
     }
     folder = "players/" + folder + "/";
     Entity body {};
@@ -141,7 +141,7 @@ std::vector<Entity> PlayerBody::stand(
     if (!body.model)
         return {};
     animate(refdef, world, *weapon);
-    body.skin = registered.skin(folder + picture + ".pcx");
+    body.skin = registered.skin(folder + image + ".pcx");
     body.flags = RF_VIEWERMODEL;
     body.frame = frames_.now;
     body.previous_frame = frames_.before;

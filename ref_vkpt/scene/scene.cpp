@@ -28,7 +28,7 @@ namespace {
 
 // Models of one map at most, several times what the engine can ask for.
 constexpr size_t max_models = 4096;
-// How much brighter the sun's glare may be in the pictures of a physical sky than the rest of it.
+// How much brighter the sun's glare may be in the textures of a physical sky than the rest of it.
 constexpr float glare_headroom = 6;
 // What white stands for in them.
 float white_of_sky(const PhysicalSky& sky) { return glare_headroom * brightest_of_sky(sky); }
@@ -92,7 +92,7 @@ formats::MaterialFile load_material_file(const std::string& path)
     }
 }
 
-// Whether the picture's bright parts shine without a light value, by its material or by pt_glow_threshold.
+// Whether the texture's bright parts shine without a light value, by its material or by pt_glow_threshold.
 bool is_glowing(const Texture& texture, const MaterialSettings* material)
 {
     const int threshold
@@ -215,7 +215,7 @@ Model* Scene::register_model(std::string_view name)
     if (!model)
         return nullptr;
     model->registration = registration_;
-    find_pictures(*model);
+    find_textures(*model);
     return model;
 }
 
@@ -261,8 +261,8 @@ std::optional<Model> Scene::load_model(const std::string& name) const
     return model;
 }
 
-// Loads the pictures of a new model, and keeps those of a known one.
-void Scene::find_pictures(Model& model)
+// Loads the textures of a new model, and keeps those of a known one.
+void Scene::find_textures(Model& model)
 {
     if (auto* mesh = std::get_if<Model::Mesh>(&model.shape)) {
         mesh->skins.clear();
@@ -270,9 +270,9 @@ void Scene::find_pictures(Model& model)
             mesh->skins.push_back(textures_.find(skin, TextureUse::skin));
     }
     if (auto* sprite = std::get_if<Model::Sprite>(&model.shape)) {
-        sprite->pictures.clear();
+        sprite->textures.clear();
         for (const formats::Sp2Sprite::Frame& frame : sprite->sp2.frames)
-            sprite->pictures.push_back(textures_.find(frame.picture, TextureUse::sprite));
+            sprite->textures.push_back(textures_.find(frame.picture, TextureUse::sprite));
     }
 }
 
@@ -292,10 +292,10 @@ void Scene::set_sky(std::string_view name, float degrees_per_second, glm::vec3 a
     constexpr size_t engine_order[6] = { 0, 2, 1, 3, 4, 5 };
     const std::array<const Texture*, 6> sides = textures_.find_sky(name);
     for (size_t i = 0; i < 6; i++) {
-        const Texture* picture = sides[engine_order[i]];
-        sky_.present |= picture != nullptr;
-        sky_.pictures[i] = picture;
-        sky_.average += (picture ? picture->average : glm::vec3(0)) / 6.0f;
+        const Texture* texture = sides[engine_order[i]];
+        sky_.present |= texture != nullptr;
+        sky_.textures[i] = texture;
+        sky_.average += (texture ? texture->average : glm::vec3(0)) / 6.0f;
     }
     if (!sky_.present) {
         engine::print("vkpt: no texture of the sky \"{}\" in env/; a plain one is shown", name);
@@ -321,7 +321,7 @@ void Scene::end_registration()
     textures_.end_registration();
 }
 
-// Where a map has no sun of its own, the one in its sky's pictures takes over a share of the sky's light: as much as
+// Where a map has no sun of its own, the one in its sky's textures takes over a share of the sky's light: as much as
 // falls on level ground without anything in the way.
 void Scene::find_sky_sun()
 {
@@ -329,16 +329,16 @@ void Scene::find_sky_sun()
     const float share = cvars::values().pt_sky_sun;
     if (share <= 0 || !world_->suns.empty() || sky_.physical)
         return;
-    for (size_t side = 0; side < sky_.pictures.size(); side++) {
-        const Texture* picture = sky_.pictures[side];
-        if (!picture || !picture->sun)
+    for (size_t side = 0; side < sky_.textures.size(); side++) {
+        const Texture* texture = sky_.textures[side];
+        if (!texture || !texture->sun)
             continue;
         Sun sun;
-        sun.to_sun = direction_on_sky(side, picture->sun->centre);
+        sun.to_sun = direction_on_sky(side, texture->sun->centre);
         if (sun.to_sun.z < lowest)
             continue;
         sun.light = 128 * share * luminance(sky_.average) * sky_.scale / sun.to_sun.z;
-        sun.colour = picture->sun->colour / luminance(picture->sun->colour);
+        sun.colour = texture->sun->colour / luminance(texture->sun->colour);
         sun.half_angle = glm::radians(0.5f * sun_diameter);
         sky_.sun = sun;
         sky_.scale *= 1 - share;
@@ -346,7 +346,7 @@ void Scene::find_sky_sun()
     }
 }
 
-// The sky as pictures, with the sun where the map's first one stands, or where the player's settings say.
+// The sky as textures, with the sun where the map's first one stands, or where the player's settings say.
 void Scene::set_physical_sky()
 {
     constexpr int side_size = 256;
@@ -356,11 +356,11 @@ void Scene::set_physical_sky()
     const PhysicalSky sky(to_sun, cvars.pt_sky_turbidity);
     const float white = white_of_sky(sky);
     sky_.present = true;
-    for (size_t side = 0; side < sky_.pictures.size(); side++) {
+    for (size_t side = 0; side < sky_.textures.size(); side++) {
         const std::string name = fmt::format(
             "*sky {:.4f} {:.4f} {:.4f} {:.2f} {}", to_sun.x, to_sun.y, to_sun.z, cvars.pt_sky_turbidity, side);
-        sky_.pictures[side] = textures_.add_sky_side(name, [&] { return draw_sky_side(sky, side, side_size, white); });
-        sky_.average += (sky_.pictures[side] ? sky_.pictures[side]->average : glm::vec3(0)) / 6.0f;
+        sky_.textures[side] = textures_.add_sky_side(name, [&] { return draw_sky_side(sky, side, side_size, white); });
+        sky_.average += (sky_.textures[side] ? sky_.textures[side]->average : glm::vec3(0)) / 6.0f;
     }
     sky_.physical = sky;
 }
@@ -401,7 +401,7 @@ shared::Sky Scene::make_sky(float time) const
     sky.present = sky_.present ? 1 : 0;
     sky.radiance = sky_.present ? glm::vec3(scale) : sky_.average * scale;
     for (size_t i = 0; i < 6; i++)
-        sky.textures[i] = sky_.pictures[i] ? sky_.pictures[i]->slot : textures_.white().slot;
+        sky.textures[i] = sky_.textures[i] ? sky_.textures[i]->slot : textures_.white().slot;
     return sky;
 }
 

@@ -35,7 +35,7 @@ struct Model {
     };
     struct Sprite {
         formats::Sp2Sprite sp2;
-        std::vector<const Texture*> pictures;
+        std::vector<const Texture*> textures;
     };
     struct Brush {
         size_t index = 0; // in World::models; 0: the world itself
@@ -78,18 +78,18 @@ public:
 
 private:
     struct SkyState {
-        std::array<const Texture*, 6> pictures {};
+        std::array<const Texture*, 6> textures {};
         bool present = false;
         float degrees_per_second = 0;
         glm::vec3 axis { 0, 0, 1 };
         glm::vec3 average { 0 };
-        float scale = 1; // from picture to radiance
+        float scale = 1; // from texture to radiance
         std::optional<Sun> sun; // in the sky's space: painted on it, and made to shine
         std::optional<PhysicalSky> physical; // pt_sky physical: it is drawn as that
     };
     std::optional<Model> load_model(const std::string& name) const;
     Model* keep_model(Model model);
-    void find_pictures(Model& model);
+    void find_textures(Model& model);
     shared::Sky make_sky(float time) const;
     Model* find_model(std::string_view name);
     std::vector<engine::Entity> find_player_body(const engine::RefDef& refdef);

@@ -2,7 +2,7 @@
 #include "ref_vkpt/scene/sky_sun.hpp"
 
 #include "common/colour.hpp"
-#include "ref_vkpt/scene/picture_files.hpp"
+#include "ref_vkpt/scene/texture_files.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -13,9 +13,9 @@ namespace vkpt {
 namespace {
 
 constexpr float min_luminance = 0.6f; // of a texel of the sun
-constexpr float min_contrast = 4; // of its texels with the picture's average
+constexpr float min_contrast = 4; // of its texels with the texture's average
 constexpr float share_of_brightest = 0.7f; // texels as bright as this belong to it
-constexpr float largest_side = 0.15f; // of the picture's: some 13 degrees
+constexpr float largest_side = 0.15f; // of the texture's: some 13 degrees
 
 } // namespace
 

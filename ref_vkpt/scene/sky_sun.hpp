@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The sun that is painted on a sky's pictures.
+// The sun that is painted on a sky's textures.
 #pragma once
 
 #include "formats/image.hpp"
@@ -15,7 +15,7 @@ struct PaintedSun {
     glm::vec3 colour; // linear, of its brightest part
 };
 
-// The one small spot that is far brighter than the rest of the picture. Nothing where there is none, or several.
+// The one small spot that is far brighter than the rest of the texture. Nothing where there is none, or several.
 std::optional<PaintedSun> find_painted_sun(const formats::Image& image);
 
 // Unit, in the sky's space, of a place on side 0 to 5: +x, -x, +y, -y, +z, -z. The inverse of sky_face

@@ -39,10 +39,10 @@ struct SceneSnapshot {
     float time = 0; // seconds of the game
 };
 
-// The camera and its place in the picture.
+// The camera and its place in the image.
 struct Viewpoint {
     shared::Camera camera {};
-    glm::ivec2 origin { 0 }; // in the picture
+    glm::ivec2 origin { 0 }; // in the image
     glm::uvec2 size { 0 };
     glm::vec4 blend { 0 };
     bool underwater = false;

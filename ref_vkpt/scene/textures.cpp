@@ -32,7 +32,7 @@ formats::Image make_uniform(int size, formats::Rgba8 color)
     return { size, size, std::vector<formats::Rgba8>(size_t(size) * size_t(size), color) };
 }
 
-bool is_flat(TextureUse use) { return use == TextureUse::picture; }
+bool is_flat(TextureUse use) { return use == TextureUse::image; }
 
 char letter_of(TextureUse use) { return "WMSPY"[size_t(use)]; }
 
@@ -107,9 +107,9 @@ void TextureStore::touch(const Texture* texture)
 
 Texture* TextureStore::load(std::string_view name, TextureUse use)
 {
-    const std::optional<LoadedPicture> picture = files_.load(name, use, cvars::values().r_retexturing != 0);
-    if (!picture) {
-        const std::vector<std::string> paths = PictureFiles::original_paths(name, use);
+    const std::optional<LoadedTexture> loaded = files_.load(name, use, cvars::values().r_retexturing != 0);
+    if (!loaded) {
+        const std::vector<std::string> paths = TextureFiles::original_paths(name, use);
         const std::string line = fmt::format("texture {} is missing or unusable", paths.front());
         if (use == TextureUse::wall)
             engine::print("{}: shown grey", line);
@@ -123,23 +123,23 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
     if (!texture)
         return nullptr;
     texture->name = name;
-    texture->path = picture->path;
-    texture->material = formats::material_name(picture->path);
-    texture->file = picture->file;
+    texture->path = loaded->path;
+    texture->material = formats::material_name(loaded->path);
+    texture->file = loaded->file;
     texture->use = use;
     const int limit = int(gpu_.device.properties.limits.maxImageDimension2D);
     try {
-        if (picture->image.width > limit || picture->image.height > limit)
-            upload(*texture, shrink_picture(picture->image, limit));
+        if (loaded->image.width > limit || loaded->image.height > limit)
+            upload(*texture, shrink_texture(loaded->image, limit));
         else
-            upload(*texture, picture->image);
+            upload(*texture, loaded->image);
     } catch (...) {
         texture->image = Image(); // which has no place among the bindings yet
         release(*texture);
         throw;
     }
-    texture->width = picture->width;
-    texture->height = picture->height;
+    texture->width = loaded->width;
+    texture->height = loaded->height;
     return texture;
 }
 
@@ -149,7 +149,7 @@ Texture* TextureStore::make_missing_wall(std::string_view name)
     if (!texture)
         return grey_;
     texture->name = name;
-    texture->path = PictureFiles::original_paths(name, TextureUse::wall).front();
+    texture->path = TextureFiles::original_paths(name, TextureUse::wall).front();
     texture->slot = grey_->slot;
     texture->packed_size = grey_->packed_size;
     texture->width = texture->height = missing_size;
@@ -188,7 +188,7 @@ void TextureStore::upload(Texture& texture, const formats::Image& pixels)
     uploader_.fill_image(texture.image, 0, std::as_bytes(std::span(pixels.pixels)));
     formats::Image mip = pixels;
     for (uint32_t level = 1; level < settings.mip_levels; level++) {
-        mip = halve_picture(mip);
+        mip = halve_texture(mip);
         uploader_.fill_image(texture.image, level, std::as_bytes(std::span(mip.pixels)));
     }
     upload_pending_ = true;
@@ -197,7 +197,7 @@ void TextureStore::upload(Texture& texture, const formats::Image& pixels)
     texture.packed_size = settings.width | settings.height << 16;
     texture.width = pixels.width;
     texture.height = pixels.height;
-    const PictureMeasure measure = measure_picture(pixels);
+    const TextureMeasure measure = measure_texture(pixels);
     texture.average = measure.average;
     if (texture.use == TextureUse::wall)
         texture.parts = find_bright_parts(pixels);
@@ -281,7 +281,7 @@ void TextureStore::print_list() const
                                                : "",
             texture.registration == registration_ ? " *" : "");
     }
-    engine::print("{} pictures (W wall, M model, S sprite, P 2D, Y sky; * in use), {:.1f} million texels, {:.0f} MiB",
+    engine::print("{} textures (W wall, M model, S sprite, P 2D, Y sky; * in use), {:.1f} million texels, {:.0f} MiB",
         count, double(texels) / 1e6, double(gpu_.memory.bytes_in_use(MemoryKind::textures)) / double(1 << 20));
 }
 

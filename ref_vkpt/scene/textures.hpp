@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The pictures on the device: found by name, uploaded once, each with a slot in the bindless table. Slot 0 is white.
+// The textures on the device: found by name, uploaded once, each with a slot in the bindless table. Slot 0 is white.
 #pragma once
 
 #include "ref_vkpt/lights/face_pieces.hpp"
-#include "ref_vkpt/scene/picture_files.hpp"
 #include "ref_vkpt/scene/sky_sun.hpp"
+#include "ref_vkpt/scene/texture_files.hpp"
 #include "ref_vkpt/vulkan/bindings.hpp"
 #include "ref_vkpt/vulkan/uploader.hpp"
 
@@ -24,14 +24,14 @@ namespace vkpt {
 // loading.
 struct Texture {
     std::string name; // as asked for
-    std::string path; // of the original picture: "textures/e1u1/floor.wal"
+    std::string path; // of the original texture: "textures/e1u1/floor.wal"
     std::string file; // what was read; empty: missing
     std::string material; // formats::material_name of `path`
     TextureUse use = TextureUse::wall;
     uint32_t slot = 0; // bindless index
     uint32_t packed_size = 0x10001; // of what is in the slot, see shared::Material::texture_size
-    int width = 0, height = 0; // of the original picture
-    glm::vec3 average { 1 }; // see PictureMeasure
+    int width = 0, height = 0; // of the original texture
+    glm::vec3 average { 1 }; // see TextureMeasure
     std::vector<BrightPart> parts; // of walls
     float opaque_fraction = 1;
     std::optional<PaintedSun> sun; // of skies
@@ -44,13 +44,13 @@ struct Texture {
 
 class TextureStore {
 public:
-    // Makes the white picture and loads the palette. `bindings` must be fresh: slot 0 becomes the white picture.
+    // Makes the white texture and loads the palette. `bindings` must be fresh: slot 0 becomes the white texture.
     TextureStore(const Gpu& gpu, Bindings& bindings, Uploader& uploader);
     ~TextureStore();
     TextureStore(const TextureStore&) = delete;
     TextureStore& operator=(const TextureStore&) = delete;
 
-    // Names as in TextureUse. Loads what is not there yet and marks it used. A wall that is not found is a grey picture
+    // Names as in TextureUse. Loads what is not there yet and marks it used. A wall that is not found is a grey texture
     // of 64 x 64, named on the console once per map; anything else that is not found is nullptr.
     const Texture* find(std::string_view name, TextureUse use);
     // The six sides in the order of shared::Sky (rt, bk, lf, ft, up, dn); nullptr where a side is missing.
@@ -65,11 +65,11 @@ public:
     const formats::Palette& palette() const { return files_.palette(); }
 
     void begin_registration();
-    // Frees what the new map does not use, except 2D pictures. The device must be idle.
+    // Frees what the new map does not use, except 2D textures. The device must be idle.
     void end_registration();
     uint32_t registration() const { return registration_; }
 
-    // Before a frame is submitted that may show newly found pictures.
+    // Before a frame is submitted that may show newly found textures.
     void flush_if_needed();
 
     // What is in each slot that is taken.
@@ -91,7 +91,7 @@ private:
     Gpu gpu_;
     Bindings& bindings_;
     Uploader& uploader_;
-    PictureFiles files_;
+    TextureFiles files_;
     size_t capacity_;
     std::unique_ptr<Texture[]> entries_;
     std::set<size_t> free_entries_; // lowest first, so that two runs hand out the same order

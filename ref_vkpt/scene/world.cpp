@@ -197,7 +197,7 @@ Bvh build_world_bvh(const MapGeometry& geometry)
     return build_bvh(triangles, BvhQuality::best);
 }
 
-// Flowing surfaces move by 1.6 of their pictures a second, liquids by half of one, as the engine's OpenGL renderers
+// Flowing surfaces move by 1.6 of their textures a second, liquids by half of one, as the engine's OpenGL renderers
 // move them.
 glm::vec2 scroll_of(const BspTexinfo& texinfo, float time)
 {

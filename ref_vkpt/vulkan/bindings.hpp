@@ -2,7 +2,7 @@
 // The descriptor sets and pipeline layout that all passes share, so that a new pass is a shader and nothing else.
 //   set 0, binding 0  uniform buffer: shared::FrameUniforms (dynamic offset: one per frame in flight)
 //   set 0, binding 1  samplers, see SAMPLER_*
-//   set 1, binding 0  sampled images, bindless; slot 0 is always a valid white picture. A set of its own because it is
+//   set 1, binding 0  sampled images, bindless; slot 0 is always a valid white texture. A set of its own because it is
 //                     updated while bound, which Vulkan forbids beside dynamic offsets.
 //   set 2             buffers of texels: the scene's tables, TEXELS_*. Each view has a set of its own
 //   (frame/scene_texels.hpp). set 3             buffers of texels: those of screen_buffers.def, of each view

@@ -15,7 +15,7 @@ struct DeviceTraits {
     // Only Mesa's ray query depends on the order of triangles; sorting costs time every frame.
     bool sorts_triangles = false;
     // pt_trace auto measures the ways to trace, or takes "software": our own trees are 3 to 5 times as fast as Mesa's
-    // ray query (docs/benchmarks.md), and measuring that costs seconds of compilation before the first picture.
+    // ray query (docs/benchmarks.md), and measuring that costs seconds of compilation before the first texture.
     bool measures_traces = true;
     int trace_measurements = 5; // of each way; the median counts
     // GPUs need a million rays at once to be busy; a CPU traces one tile after the other.

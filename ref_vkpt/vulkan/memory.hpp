@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Device memory in large blocks, cut up first-fit: drivers allow only a few thousand allocations, a mod has more
-// pictures.
+// images.
 #pragma once
 
 #include "ref_vkpt/vulkan/device.hpp"
@@ -57,7 +57,7 @@ struct MemoryBlock {
 
 class MemoryAllocator {
 public:
-    // $VKPT_FILL_MEMORY, a number from 0 to 255: bytes that host-visible memory holds until it is written. No picture
+    // $VKPT_FILL_MEMORY, a number from 0 to 255: bytes that host-visible memory holds until it is written. No image
     // may depend on it.
     explicit MemoryAllocator(const Device& device);
     ~MemoryAllocator();

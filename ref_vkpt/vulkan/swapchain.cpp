@@ -9,7 +9,7 @@ namespace vkpt {
 
 namespace {
 
-// Compositors may keep all pictures of a window that nobody sees; the game goes on without.
+// Compositors may keep all images of a window that nobody sees; the game goes on without.
 constexpr uint64_t acquire_nanoseconds = 1'000'000'000;
 
 VkSemaphore make_semaphore(VkDevice device)
@@ -50,7 +50,7 @@ void Swapchain::create_surface()
 void Swapchain::renew_surface()
 {
     engine::print("ref_vkpt: the window's surface was lost; creating another one");
-    destroy_pictures();
+    destroy_images();
     if (swapchain_)
         vkDestroySwapchainKHR(gpu_.device.handle, swapchain_, nullptr);
     vkDestroySurfaceKHR(gpu_.device.instance, surface_, nullptr);
@@ -72,7 +72,7 @@ bool Swapchain::check(VkResult result, const char* call)
 
 Swapchain::~Swapchain()
 {
-    destroy_pictures();
+    destroy_images();
     if (swapchain_)
         vkDestroySwapchainKHR(gpu_.device.handle, swapchain_, nullptr);
     for (VkSemaphore semaphore : acquired_)
@@ -80,12 +80,12 @@ Swapchain::~Swapchain()
     vkDestroySurfaceKHR(gpu_.device.instance, surface_, nullptr);
 }
 
-void Swapchain::destroy_pictures()
+void Swapchain::destroy_images()
 {
     for (VkSemaphore semaphore : finished_)
         vkDestroySemaphore(gpu_.device.handle, semaphore, nullptr);
     finished_.clear();
-    pictures_.clear();
+    images_.clear();
 }
 
 std::vector<VkSurfaceFormatKHR> Swapchain::offered_formats() const
@@ -111,19 +111,19 @@ bool Swapchain::recreate(VSync vsync)
     vsync_ = vsync;
     if (surface_lost_)
         renew_surface();
-    return make_pictures();
+    return make_images();
 }
 
 VkExtent2D Swapchain::extent_for(const VkSurfaceCapabilitiesKHR& surface) const
 {
     if (surface.currentExtent.width != UINT32_MAX)
         return surface.currentExtent;
-    const VkExtent2D wanted = window_.drawable_size(); // the window takes the pictures' size
+    const VkExtent2D wanted = window_.drawable_size(); // the window takes the images' size
     return { std::clamp(wanted.width, surface.minImageExtent.width, surface.maxImageExtent.width),
         std::clamp(wanted.height, surface.minImageExtent.height, surface.maxImageExtent.height) };
 }
 
-// Whether new pictures would be others than those that there are.
+// Whether new images would be others than those that there are.
 bool Swapchain::has_changed()
 {
     VkSurfaceCapabilitiesKHR surface;
@@ -134,9 +134,9 @@ bool Swapchain::has_changed()
     return extent.width != extent_.width || extent.height != extent_.height || surface.currentTransform != transform_;
 }
 
-bool Swapchain::make_pictures()
+bool Swapchain::make_images()
 {
-    destroy_pictures();
+    destroy_images();
     // A failed submission leaves one signalled, which then cannot be waited for again.
     for (VkSemaphore& semaphore : acquired_) {
         vkDestroySemaphore(gpu_.device.handle, semaphore, nullptr);
@@ -177,8 +177,8 @@ bool Swapchain::make_pictures()
         }
         uint32_t count = 0;
         VKPT_CHECK(vkGetSwapchainImagesKHR(gpu_.device.handle, swapchain_, &count, nullptr));
-        pictures_.resize(count);
-        VKPT_CHECK(vkGetSwapchainImagesKHR(gpu_.device.handle, swapchain_, &count, pictures_.data()));
+        images_.resize(count);
+        VKPT_CHECK(vkGetSwapchainImagesKHR(gpu_.device.handle, swapchain_, &count, images_.data()));
         for (uint32_t i = 0; i < count; i++)
             finished_.push_back(make_semaphore(gpu_.device.handle));
     } else if (old) {
@@ -190,26 +190,26 @@ bool Swapchain::make_pictures()
 Acquired Swapchain::acquire(uint32_t frame_slot)
 {
     const VkResult result = vkAcquireNextImageKHR(
-        gpu_.device.handle, swapchain_, acquire_nanoseconds, acquired_[frame_slot], VK_NULL_HANDLE, &picture_);
+        gpu_.device.handle, swapchain_, acquire_nanoseconds, acquired_[frame_slot], VK_NULL_HANDLE, &image_);
     if (result == VK_TIMEOUT || result == VK_NOT_READY)
         return Acquired::none;
-    return result != VK_ERROR_OUT_OF_DATE_KHR && check(result, "vkAcquireNextImageKHR") ? Acquired::picture
+    return result != VK_ERROR_OUT_OF_DATE_KHR && check(result, "vkAcquireNextImageKHR") ? Acquired::image
                                                                                         : Acquired::outdated;
 }
 
 void Swapchain::record_copy(VkCommandBuffer commands, const Buffer& words)
 {
-    const VkImage picture = pictures_[picture_];
+    const VkImage image = images_[image_];
     constexpr VkPipelineStageFlags transfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
     record_barrier(commands,
-        { picture, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, transfer, transfer, 0,
+        { image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, transfer, transfer, 0,
             VK_ACCESS_TRANSFER_WRITE_BIT });
     VkBufferImageCopy region {};
     region.imageSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 };
     region.imageExtent = { extent_.width, extent_.height, 1 };
-    vkCmdCopyBufferToImage(commands, words.handle(), picture, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    vkCmdCopyBufferToImage(commands, words.handle(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
     record_barrier(commands,
-        { picture, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, transfer,
+        { image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, transfer,
             VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, 0 });
 }
 
@@ -217,10 +217,10 @@ bool Swapchain::present()
 {
     VkPresentInfoKHR info { VK_STRUCTURE_TYPE_PRESENT_INFO_KHR };
     info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &finished_[picture_];
+    info.pWaitSemaphores = &finished_[image_];
     info.swapchainCount = 1;
     info.pSwapchains = &swapchain_;
-    info.pImageIndices = &picture_;
+    info.pImageIndices = &image_;
     const VkResult result = vkQueuePresentKHR(gpu_.device.queue, &info);
     if (result == VK_SUBOPTIMAL_KHR)
         return !has_changed();

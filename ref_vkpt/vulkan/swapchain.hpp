@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The window's pictures. The frame is made in an image of our own and copied into the window's at its end.
+// The window's images. The frame is made in an image of our own and copied into the window's at its end.
 #pragma once
 
 #include "ref_vkpt/vulkan/resources.hpp"
@@ -14,8 +14,8 @@ namespace vkpt {
 
 inline constexpr uint32_t frames_in_flight = 2;
 
-// A picture was taken; none was free in time, this frame is not shown; the window changed, recreate.
-enum class Acquired { picture, none, outdated };
+// An image was taken; none was free in time, this frame is not shown; the window changed, recreate.
+enum class Acquired { image, none, outdated };
 
 class Swapchain {
 public:
@@ -24,32 +24,32 @@ public:
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    // Makes the pictures for the window's size now, and the surface where it was lost. False: there is nothing to show
+    // Makes the images for the window's size now, and the surface where it was lost. False: there is nothing to show
     // (minimised), or the surface is gone again. The device must be idle.
     bool recreate(VSync vsync);
     bool is_usable() const { return swapchain_ != VK_NULL_HANDLE; }
     VSync vsync() const { return vsync_; }
 
     Acquired acquire(uint32_t frame_slot);
-    // Copies words in the window's format, row by row, written by the passes before, into the picture taken.
+    // Copies words in the window's format, row by row, written by the passes before, into the image taken.
     void record_copy(VkCommandBuffer commands, const Buffer& words);
     VkExtent2D extent() const { return extent_; }
     const WindowFormat& format() const { return format_; }
     VkSemaphore acquired(uint32_t frame_slot) const { return acquired_[frame_slot]; }
-    VkSemaphore finished() const { return finished_[picture_]; }
-    // False: the window changed, recreate. Pictures that are merely not the best for the window (VK_SUBOPTIMAL_KHR) are
-    // kept as long as new ones would be made the same way: some drivers say so of every picture.
+    VkSemaphore finished() const { return finished_[image_]; }
+    // False: the window changed, recreate. Images that are merely not the best for the window (VK_SUBOPTIMAL_KHR) are
+    // kept as long as new ones would be made the same way: some drivers say so of every image.
     bool present();
 
 private:
     void create_surface();
     void renew_surface();
-    bool make_pictures();
+    bool make_images();
     // Whether the surface still is. Throws for other failures.
     bool check(VkResult result, const char* call);
     VkExtent2D extent_for(const VkSurfaceCapabilitiesKHR& surface) const;
     bool has_changed();
-    void destroy_pictures();
+    void destroy_images();
     std::vector<VkSurfaceFormatKHR> offered_formats() const;
     std::vector<VkPresentModeKHR> offered_modes() const;
 
@@ -62,10 +62,10 @@ private:
     bool surface_lost_ = false;
     WindowFormat format_;
     VSync vsync_ = VSync::on;
-    std::vector<VkImage> pictures_;
-    std::vector<VkSemaphore> finished_; // one per picture: it may be presented
+    std::vector<VkImage> images_;
+    std::vector<VkSemaphore> finished_; // one per image: it may be presented
     std::array<VkSemaphore, frames_in_flight> acquired_ {};
-    uint32_t picture_ = 0;
+    uint32_t image_ = 0;
 };
 
 } // namespace vkpt

@@ -8,7 +8,7 @@ namespace vkpt {
 
 namespace {
 
-// So much staging memory makes a flush of its own, lest a mod's pictures fill the memory twice.
+// So much staging memory makes a flush of its own, lest a mod's textures fill the memory twice.
 constexpr VkDeviceSize staging_limit = 64u << 20;
 
 } // namespace

@@ -11,7 +11,7 @@ namespace vkpt {
 
 namespace {
 
-// The best first. Our picture is sRGB-encoded. Its copy into a picture of the window converts nothing, so that to a
+// The best first. Our image is sRGB-encoded. Its copy into an image of the window converts nothing, so that to a
 // format with _SRGB in its name it is what it is to that without.
 constexpr WindowFormat known_formats[] = {
     { VK_FORMAT_B8G8R8A8_UNORM, shared::PRESENT_BGRA8 },
@@ -37,7 +37,7 @@ WindowFormat choose_window_format(std::span<const VkSurfaceFormatKHR> offered)
     std::string numbers;
     for (const VkSurfaceFormatKHR& format : offered)
         numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", int(format.format));
-    throw FatalError("the window takes no pictures of 8 or 10 bits or half floats a colour, only VkFormat " + numbers
+    throw FatalError("the window takes no images of 8 or 10 bits or half floats a colour, only VkFormat " + numbers
         + "; set the desktop to 24 bits of colour, or choose another device with pt_device");
 }
 

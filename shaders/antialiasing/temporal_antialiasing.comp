@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The picture over several frames, whose camera rays pass at other places of the pixel: edges become smooth. What the
+// The image over several frames, whose camera rays pass at other places of the pixel: edges become smooth. What the
 // last view showed there is limited to what this view's neighbourhood makes likely (Salvi 2016, variance clipping;
 // Karis 2014). The result may have more pixels than were rendered: then each of them takes from the samples that happen
 // to lie near its middle, and over the frames samples lie everywhere.
@@ -11,18 +11,18 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
-// Frames that the history is worth at most at rest, and where the picture moves by moving_pixels a frame or more: there
+// Frames that the history is worth at most at rest, and where the image moves by moving_pixels a frame or more: there
 // each reading of it blurs, and reflections in it stay behind.
 const float max_frames = 32.0, max_moving_frames = 5.0;
 const float moving_pixels = 0.25;
-// Standard deviations of the neighbourhood that the history may lie off its mean where the picture moves. At rest it
+// Standard deviations of the neighbourhood that the history may lie off its mean where the image moves. At rest it
 // may be all that the neighbourhood shows: of a lamp as small as a pixel most frames show one pixel in nine.
 const float max_deviations = 1.25;
 // A sample counts for exp(-sample_fall d^2) at a distance of d of the result's pixels. Where samples are scarce the
 // least weight keeps the nearest one in charge.
 const float sample_fall = 2.3;
 
-// Radiance is averaged as it is where the picture stands still, or edges of lamps would lose most of their light, and
+// Radiance is averaged as it is where the image stands still, or edges of lamps would lose most of their light, and
 // small lamps all but vanish. In motion what is bright counts less: each reading of the history spreads a lamp by a
 // part of a pixel, which would be seen, and few frames are averaged, so that its edge would flicker. `knee`: 1 / the
 // luminance that counts half; moving_knee, relative to 1 / exposure, leaves the least error beside lamps.
@@ -44,7 +44,7 @@ uvec2 load_old(ivec2 pixel)
 }
 vec3 old_radiance(ivec2 pixel, float knee) { return compress(unpack_light3(load_old(pixel)), knee); }
 
-// At a place whose whole numbers are pixels: bicubic, so that a moving picture does not blur, but for the four corners,
+// At a place whose whole numbers are pixels: bicubic, so that a moving image does not blur, but for the four corners,
 // which count for less than 0.5 % each; and within the range of the nearest four, or there would be a dark seam around
 // lamps.
 vec3 sample_history(vec2 place, float knee)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the bloom's passes share: a pyramid of ever smaller pictures (after Jimenez, "Next Generation Post Processing in
+// What the bloom's passes share: a pyramid of ever smaller images (after Jimenez, "Next Generation Post Processing in
 // Call of Duty: Advanced Warfare", SIGGRAPH 2014 course). Every level is a weighted average, so that bloom takes no
 // light away.
 #ifndef VKPT_LIB_BLOOM

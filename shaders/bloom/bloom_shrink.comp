@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A level of the bloom's pyramid from the one before, of twice its size; the first one from the picture, of four times
+// A level of the bloom's pyramid from the one before, of twice its size; the first one from the image, of four times
 // its size.
 #include "../lib/frame.glsl"
 #include "bloom.glsl"
@@ -10,8 +10,8 @@
 VKPT_PUSH_CONSTANTS
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
-// Very bright pixels count less, or a single one would flicker over the whole picture.
-vec3 shrink_picture(uvec2 pixel)
+// Very bright pixels count less, or a single one would flicker over the whole image.
+vec3 shrink_image(uvec2 pixel)
 {
     float scale = ExposureBuffer(frame.exposure).v.exposure, weights = 0.0;
     vec3 sum = vec3(0.0);
@@ -41,7 +41,7 @@ vec3 shrink_level(uvec2 pixel)
 
 void shrink_pixel(uvec2 pixel, uint index)
 {
-    store_element(push.target, index, pack_light3(push.source == 0ul ? shrink_picture(pixel) : shrink_level(pixel)));
+    store_element(push.target, index, pack_light3(push.source == 0ul ? shrink_image(pixel) : shrink_level(pixel)));
 }
 
 VKPT_RUN_OVER(push.target_size, shrink_pixel)

@@ -4,9 +4,9 @@
 // This frame's light, averaged with what the last view knew of the same surface; and how much it varies.
 #include "../lib/frame.glsl"
 #include "denoise.glsl"
-#include "../lib/layers.glsl"
+#include "../lib/interleaved_layers.glsl"
 
-// Frames that the averages are worth at most; specular light's where the picture moves, for what a surface reflects
+// Frames that the averages are worth at most; specular light's where the image moves, for what a surface reflects
 // moves otherwise.
 const float max_frames = 32.0, max_moving_frames = 4.0;
 const float max_moment_frames = 16.0;
@@ -20,7 +20,7 @@ struct History {
     Moments moments; // frames 0: nothing is known
 };
 
-// What is averaged over the taps: by how much the taps differ is how the picture varies from place to place, not the
+// What is averaged over the taps: by how much the taps differ is how the image varies from place to place, not the
 // light from frame to frame.
 float variance_of(vec2 mean_and_root)
 {
@@ -96,7 +96,7 @@ float average_deviation(vec2 mean_and_square, float frames)
 // A rare path of great radiance must not stay in the history for seconds: new light counts up to so many times of what
 // is known of the place (biased; the more frames tell, the less).
 const float max_times_brighter = 50.0;
-// Added to what is known, as a share of the picture's range: in the dark, and more so where little is known yet.
+// Added to what is known, as a share of the image's range: in the dark, and more so where little is known yet.
 const float min_known = 0.02, min_known_at_first = 0.4;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Triangles whose picture has holes: what a ray meets there is decided by the picture.
+// Triangles whose texture has holes: what a ray meets there is decided by the texture.
 #ifndef VKPT_LIB_ALPHA_TEST
 #define VKPT_LIB_ALPHA_TEST
 
@@ -12,7 +12,7 @@ vec2 interpolate_uv(Triangle triangle, vec2 barycentrics)
         + triangle.uvs[2] * barycentrics.y;
 }
 
-// Whether the picture of triangle `id` has a hole at this place. The largest mip level counts, whatever the distance.
+// Whether the texture of triangle `id` has a hole at this place. The largest mip level counts, whatever the distance.
 bool is_cut_out(uint id, vec2 barycentrics)
 {
     Triangle triangle = fetch_Triangle(frame.scene.triangles, id);
@@ -20,7 +20,7 @@ bool is_cut_out(uint id, vec2 barycentrics)
     if ((material.flags & MATERIAL_ALPHA_TEST) == 0u)
         return false;
     vec2 uv = interpolate_uv(triangle, barycentrics) + material.uv_scroll;
-    return textureLod(VKPT_PICTURE(material.texture, SAMPLER_REPEAT), uv, 0.0).a < 0.5;
+    return textureLod(VKPT_TEXTURE(material.texture, SAMPLER_REPEAT), uv, 0.0).a < 0.5;
 }
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The one surface model: a diffuse base under a GGX layer, or a GGX metal, mixed by `metallic`.
+// The one surface model: a diffuse base under a GGX coat, or a GGX metal, mixed by `metallic`.
 // Sources: Walter et al. 2007 (GGX), Heitz 2014 (height-correlated Smith), Dupuy and Benyoub 2023 (visible normals by
-// spherical caps), Kelemen and Szirmay-Kalos 2001 (a base that reflects what the layer lets through). Directions are
+// spherical caps), Kelemen and Szirmay-Kalos 2001 (a base that reflects what the coat lets through). Directions are
 // unit vectors that point away from the surface.
 #ifndef VKPT_LIB_BSDF
 #define VKPT_LIB_BSDF
@@ -80,13 +80,13 @@ float schlick_power(float cosine)
     return m2 * m2 * m;
 }
 
-// The layer over the diffuse base fades out towards roughness 1: matte surfaces have none.
-float layer_strength(Surface s) { return quick_clamp(5.0f * (1.0f - s.roughness), 0.0f, 1.0f); }
+// The coat over the diffuse base fades out towards roughness 1: matte surfaces have none.
+float coat_strength(Surface s) { return quick_clamp(5.0f * (1.0f - s.roughness), 0.0f, 1.0f); }
 
 // Schlick's approximation; `power` = schlick_power of the cosine.
 float dielectric_fresnel(Surface s, float power)
 {
-    return layer_strength(s) * (bsdf_dielectric_f0 + (1.0f - bsdf_dielectric_f0) * power);
+    return coat_strength(s) * (bsdf_dielectric_f0 + (1.0f - bsdf_dielectric_f0) * power);
 }
 
 vec3 specular_fresnel(Surface s, float power)
@@ -95,23 +95,23 @@ vec3 specular_fresnel(Surface s, float power)
     return mix(vec3(dielectric_fresnel(s, power)), metal, s.metallic);
 }
 
-// The layer reflects less towards grazing angles than Fresnel's formula has it, the rougher it is.
-float layer_rise(Surface s) { return 1.0f - 0.9f * s.roughness * s.roughness; }
+// The coat reflects less towards grazing angles than Fresnel's formula has it, the rougher it is.
+float coat_rise(Surface s) { return 1.0f - 0.9f * s.roughness * s.roughness; }
 
 // The two factors of coupled_diffuse: what depends on the light's height, and all else.
 float coupled_diffuse_share(Surface s, float nl)
 {
-    return 1.0f - dielectric_fresnel(s, layer_rise(s) * schlick_power(nl));
+    return 1.0f - dielectric_fresnel(s, coat_rise(s) * schlick_power(nl));
 }
 
 float coupled_diffuse_base(Surface s, float nv)
 {
-    float mean = dielectric_fresnel(s, layer_rise(s) / 21.0f);
+    float mean = dielectric_fresnel(s, coat_rise(s) / 21.0f);
     return (1.0f - s.metallic) * coupled_diffuse_share(s, nv) / ((1.0f - mean) * bsdf_pi);
 }
 
-// What passes the layer inwards, reflects, and passes it outwards, so that base and layer together never reflect more
-// than they receive: (1 - F(l)) (1 - F(v)) / (1 - mean F), 1 / pi without a layer. F is the share that the layer
+// What passes the coat inwards, reflects, and passes it outwards, so that base and coat together never reflect more
+// than they receive: (1 - F(l)) (1 - F(v)) / (1 - mean F), 1 / pi without a coat. F is the share that the coat
 // reflects in all; towards grazing angles that rises less the rougher it is (the factor is fitted to the furnace).
 float coupled_diffuse(Surface s, float nl, float nv)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What pt_debug_view shows instead of the picture, as linear colour.
+// What pt_debug_view shows instead of the image, as linear colour.
 #ifndef VKPT_LIB_DEBUG_VIEWS
 #define VKPT_LIB_DEBUG_VIEWS
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// How a picture is read over the footprint of a ray's cone: where the cone meets the surface it cuts out an ellipse,
+// How a texture is read over the footprint of a ray's cone: where the cone meets the surface it cuts out an ellipse,
 // which grazing rays draw out (Akenine-Moeller et al., Ray Tracing Gems, chapter 20; Ray Tracing Gems II, chapter 10).
 // One smooth texel as large as its longer axis would blur across the shorter one: so the longer one has several taps.
 #ifndef VKPT_LIB_FOOTPRINT
@@ -27,7 +27,7 @@ float choose_mip(Triangle triangle, vec2 size, float cone_width, float cosine)
     return 0.5 * log2(quick_max(texels / quick_max(area, 1e-12), 1e-12)) + log2(quick_max(footprint, 1e-6));
 }
 
-// `size`: of the picture in texels; `normal` and `direction`: the surface's and the ray's; at most `max_taps`.
+// `size`: of the texture in texels; `normal` and `direction`: the surface's and the ray's; at most `max_taps`.
 Footprint find_footprint(Triangle triangle, vec2 size, float cone_width, vec3 normal, vec3 direction, float max_taps)
 {
     vec3 e1 = triangle.positions[1] - triangle.positions[0], e2 = triangle.positions[2] - triangle.positions[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What every pass has: the frame's uniforms, the screen buffers, the pictures, and the walk over the screen's pixels.
+// What every pass has: the frame's uniforms, the screen buffers, the images, and the walk over the screen's pixels.
 // Include this first: it enables the extensions.
 #ifndef VKPT_LIB_FRAME
 #define VKPT_LIB_FRAME
@@ -27,9 +27,9 @@ layout(set = 1, binding = 0) uniform texture2D textures[];
 #define VKPT_PUSH_CONSTANTS                                                                                            \
     layout(push_constant, scalar) uniform PushBlock { VKPT_PUSH push; };
 
-// A picture that may be another one in every lane. Both the index and what is made of it have to be called nonuniform,
-// or the CPU driver takes the first lane's picture for all.
-#define VKPT_PICTURE(slot, sampler_index)                                                                              \
+// An image that may be another one in every lane. Both the index and what is made of it have to be called nonuniform,
+// or the CPU driver takes the first lane's image for all.
+#define VKPT_TEXTURE(slot, sampler_index)                                                                              \
     nonuniformEXT(sampler2D(textures[nonuniformEXT(slot)], samplers[sampler_index]))
 
 // An element of a buffer at an address; the last parameter of load_element tells its type. By 64-bit loads and stores

@@ -99,7 +99,7 @@ CachedLight read_light_cache(uint cache_face, vec3 position)
     return result;
 }
 
-// What a GGX layer without Fresnel's term reflects in the mean over all views; the rest would be reflected more than
+// What a GGX coat without Fresnel's term reflects in the mean over all views; the rest would be reflected more than
 // once, or leaves below the horizon. Fitted to sums over directions, within 0.01 for alpha from 0.1 to 1.
 float mean_ggx_reflectance(float alpha)
 {
@@ -110,20 +110,20 @@ float mean_ggx_reflectance(float alpha)
 float direction_spread(CachedLight cached) { return quick_clamp(1.0 - length(cached.direction), 0.0, 1.0); }
 
 // Radiance that the surface sends back of the light. Diffuse light exactly: Fresnel's term is linear in schlick_power.
-// The layer sees one light in the mean direction, and is rougher by as much as directions are spread: half vectors half
+// The coat sees one light in the mean direction, and is rougher by as much as directions are spread: half vectors half
 // as much as directions, whose variance along each axis is about one less the mean's length. It reflects as much as
 // with its own roughness.
 vec3 reflect_cached_light(Surface s, CachedLight cached)
 {
-    float rise = layer_rise(s), nv = dot(s.normal, view_above_horizon(s));
+    float rise = coat_rise(s), nv = dot(s.normal, view_above_horizon(s));
     float diffuse = coupled_diffuse_base(s, nv) * (1.0 - dielectric_fresnel(s, rise * cached.power));
     float alpha = ggx_alpha(s.roughness),
           wide_alpha = sqrt(quick_min(alpha * alpha + 0.5 * direction_spread(cached), 1.0));
     Surface wide = s;
     wide.roughness = sqrt(wide_alpha);
-    vec3 layer = evaluate_brdf(wide, normalize(cached.direction + s.normal * 1e-6)).specular
+    vec3 coat = evaluate_brdf(wide, normalize(cached.direction + s.normal * 1e-6)).specular
         * (mean_ggx_reflectance(alpha) / mean_ggx_reflectance(wide_alpha));
-    return cached.light * (bsdf_pi * (s.albedo * diffuse + layer));
+    return cached.light * (bsdf_pi * (s.albedo * diffuse + coat));
 }
 
 // For pt_debug_view.

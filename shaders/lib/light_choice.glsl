@@ -10,7 +10,7 @@
 #ifdef VKPT_TRACE_SOFTWARE
 #define VKPT_LANE_MEMORY lane_stack() // see light_subsets.glsl
 #endif
-#ifdef VKPT_ALWAYS_RIS // a pass that measures, whatever sampler the picture is made with
+#ifdef VKPT_ALWAYS_RIS // a pass that measures, whatever sampler the image is made with
 #include "../light_samplers/ris.glsl"
 #elif defined(VKPT_ALWAYS_SUBSET_PPS)
 #include "../light_samplers/subset_pps.glsl"

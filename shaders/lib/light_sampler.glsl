@@ -11,7 +11,7 @@
 #include "random.glsl"
 #include "device/whole_numbers.glsl"
 
-// The random numbers of one choice. `light` and `point` are dimensions of their own, stratified over the picture.
+// The random numbers of one choice. `light` and `point` are dimensions of their own, stratified over the image.
 struct LightRandom {
     float light; // in [0, 1): which light
     vec2 point; // which point on it

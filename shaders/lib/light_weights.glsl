@@ -29,7 +29,7 @@ struct LightPredictor {
     float view_root; // smith_root
     float alpha2; // alpha^2
     vec2 base; // diffuse reflectance (luminance): x - y schlick_power
-    vec2 layer; // specular_fresnel (luminance) times alpha^2 / (2 pi): x + y schlick_power
+    vec2 coat; // specular_fresnel (luminance) times alpha^2 / (2 pi): x + y schlick_power
     // LTC only: rows that turn the world into the space where the lobe is a cosine, and what the lobes reflect
     // (luminance).
     vec3 diffuse_rows[3];
@@ -114,7 +114,7 @@ void prepare_reflectance(INOUT(LightPredictor) p)
     float upright = coupled_diffuse_share(p.s, 1.0f), level = coupled_diffuse_share(p.s, 0.0f);
     p.base = base * vec2(upright, upright - level);
     float head_on = luminance(specular_fresnel(p.s, 0.0f)), grazing = luminance(specular_fresnel(p.s, 1.0f));
-    p.layer = p.alpha2 * (0.5f / bsdf_pi) * vec2(head_on, grazing - head_on);
+    p.coat = p.alpha2 * (0.5f / bsdf_pi) * vec2(head_on, grazing - head_on);
 }
 
 LightPredictor make_predictor(Surface s, LightOptions options)
@@ -317,7 +317,7 @@ float predict_reflectance(LightPredictor p, float height, float view_cosine, flo
     float inverse = sum2 * quick_inversesqrt(d * d * roots);
     float schlick = schlick_power(
         0.5f * sum2 * quick_inversesqrt(sum2)); // half the sum's length is the cosine to the half vector
-    return p.base.x - p.base.y * schlick_power(height) + (p.layer.x + p.layer.y * schlick) * inverse * inverse;
+    return p.base.x - p.base.y * schlick_power(height) + (p.coat.x + p.coat.y * schlick) * inverse * inverse;
 }
 
 // Reflectance at the horizon-clipped centre, its lobes not too narrow, x solid angle x bounded cosine.

@@ -29,7 +29,7 @@ uint medium_before(uint face, bool front)
 }
 uint medium_behind(uint face, bool front) { return medium_before(face, !front); }
 
-// Of light that passes a pane, or a murky liquid's surface: of what is covered the picture's colour passes.
+// Of light that passes a pane, or a murky liquid's surface: of what is covered the texture's colour passes.
 vec3 pane_transmittance(vec3 albedo, float opacity) { return 1.0 - opacity + opacity * albedo; }
 
 #endif

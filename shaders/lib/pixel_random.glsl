@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The random numbers of a pixel of the picture, as pt_noise wants them. After frame.glsl.
+// The random numbers of a pixel of the image, as pt_noise wants them. After frame.glsl.
 #ifndef VKPT_LIB_PIXEL_RANDOM
 #define VKPT_LIB_PIXEL_RANDOM
 
 #include "random.glsl"
 
-// Probes are not neighbours in a picture, and where many stand at one place their numbers must not repeat with the
+// Probes are not neighbours in an image, and where many stand at one place their numbers must not repeat with the
 // masks.
 Random make_pixel_random_of(uvec2 pixel, uint frame_index)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A pixel of the finished picture as the words that a window's format has for it.
+// A pixel of the finished image as the words that a window's format has for it.
 #ifndef VKPT_LIB_PRESENT_PACKING
 #define VKPT_LIB_PRESENT_PACKING
 

@@ -7,7 +7,7 @@
 #include "trace_software.glsl"
 
 // How many holes in a row a ray passes: more than any scene has, so that the loop ends whatever the driver makes of it.
-const uint max_alpha_layers = 256u;
+const uint max_alpha_tests = 256u;
 
 // This lane's stack: TRACE_STACK_ENTRIES entries of 8 bytes, one every TRACE_STACK_INTERLEAVE * 8 bytes. Free for
 // others while no ray is traced.
@@ -31,7 +31,7 @@ RawHit search_ray(Ray ray, uint mask, bool any_hit)
 {
     bool test_alpha = (frame.flags & FRAME_ALPHA_TEST) != 0u;
     RawHit hit;
-    ROLLED_FOR (uint layer = 0u; layer < max_alpha_layers; layer++) {
+    ROLLED_FOR (uint i = 0u; i < max_alpha_tests; i++) {
         hit = search_trees(ray, mask, any_hit && !test_alpha);
         if (!test_alpha || hit.triangle == TRACE_MISS || !is_cut_out(hit.triangle, hit.barycentrics))
             break;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The sky: six pictures around the world, turning if the map says so.
+// The sky: six textures around the world, turning if the map says so.
 #ifndef VKPT_LIB_SKY
 #define VKPT_LIB_SKY
 
 #include "frame.glsl"
 
-// xy: where a direction meets the cube around the eye, -1..1 from a picture's left top; z: which picture
+// xy: where a direction meets the cube around the eye, -1..1 from a texture's left top; z: which texture
 // (Sky::textures).
 vec3 sky_face(vec3 d)
 {
@@ -30,8 +30,7 @@ vec3 sky_radiance(vec3 direction)
     vec3 face = sky_face(d);
     uint slot = frame.scene.sky.textures[floor_to_uint(face.z)];
     vec2 uv = face.xy * 0.5 + 0.5;
-    vec3 picture = textureLod(VKPT_PICTURE(slot, SAMPLER_CLAMP), uv, 0.0).rgb;
-    return picture * frame.scene.sky.radiance;
+    return textureLod(VKPT_TEXTURE(slot, SAMPLER_CLAMP), uv, 0.0).rgb * frame.scene.sky.radiance;
 }
 
 #endif

@@ -49,36 +49,36 @@ LightTables light_tables()
 
 float lightstyle_scale(uint lightstyle) { return LightstyleBuffer(frame.scene.lightstyles).v[lightstyle]; }
 
-// Liquids wobble: the picture is displaced along each axis by a sine of the other.
+// Liquids wobble: the texture is displaced along each axis by a sine of the other.
 vec2 warp_uv(vec2 uv) { return uv + WARP_AMPLITUDE * sin(uv.yx * WARP_FREQUENCY + frame.time * WARP_SPEED); }
 
-// How pictures are read, at the level of detail that the ray's footprint asks for.
-const int PICTURE_SMOOTH = 0; // over the footprint's ellipse, between texels
-const int PICTURE_TEXEL = 1; // one texel: enough for bounces, where what is sharp is noise among other noise
+// How textures are read, at the level of detail that the ray's footprint asks for.
+const int TEXTURE_SMOOTH = 0; // over the footprint's ellipse, between texels
+const int TEXTURE_TEXEL = 1; // one texel: enough for bounces, where what is sharp is noise among other noise
 
-uvec2 picture_size(Material material) { return split_halves(material.texture_size); }
+uvec2 texture_size(Material material) { return split_halves(material.texture_size); }
 
 // The mean over the footprint; of texels that are larger than it the nearest one, where the player wants to see them
 // (gl_texturemode).
-vec4 sample_picture(Material material, vec2 uv, Footprint footprint)
+vec4 sample_texture(Material material, vec2 uv, Footprint footprint)
 {
     if ((frame.flags & FRAME_NEAREST_TEXELS) != 0u && footprint.mip <= 0.0)
-        return textureLod(VKPT_PICTURE(material.texture, SAMPLER_REPEAT_NEAREST), uv, 0.0);
+        return textureLod(VKPT_TEXTURE(material.texture, SAMPLER_REPEAT_NEAREST), uv, 0.0);
     vec2 step = footprint.axis / footprint.taps;
     uv -= step * (0.5 * (footprint.taps - 1.0));
     vec4 sum = vec4(0.0);
     ROLLED_FOR (float tap = 0.0; tap < footprint.taps; tap++)
-        sum += textureLod(VKPT_PICTURE(material.texture, SAMPLER_REPEAT), uv + step * tap, footprint.mip);
+        sum += textureLod(VKPT_TEXTURE(material.texture, SAMPLER_REPEAT), uv + step * tap, footprint.mip);
     return sum / footprint.taps;
 }
 
 vec4 fetch_texel(Material material, vec2 uv, float mip)
 {
-    uvec2 first = picture_size(material);
+    uvec2 first = texture_size(material);
     int level = clamp(whole_to_int(floor(mip + 0.5)), 0, findMSB(max(first.x, first.y)));
     ivec2 size = ivec2(max(first >> uint(level), 1u));
     ivec2 texel = clamp(whole_to_int(floor(fract(uv) * vec2(size))), ivec2(0), size - 1);
-    return texelFetch(VKPT_PICTURE(material.texture, SAMPLER_REPEAT), texel, level);
+    return texelFetch(VKPT_TEXTURE(material.texture, SAMPLER_REPEAT), texel, level);
 }
 
 // How much of a particle covers what is behind: all within 0.4 of its width, nothing at its rim. The engine's OpenGL 3
@@ -89,7 +89,7 @@ float particle_cover(vec2 uv, uint flags)
     return (flags & MATERIAL_SQUARE) != 0u ? 1.0 : quick_clamp(1.2 * (1.0 - dot(place, place)), 0.0, 1.0);
 }
 
-// `cone_width`: the ray's footprint there, in units. `way`: PICTURE_*.
+// `cone_width`: the ray's footprint there, in units. `way`: TEXTURE_*.
 HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
 {
     Triangle triangle = fetch_Triangle(frame.scene.triangles, hit.triangle);
@@ -114,17 +114,17 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
     vec2 uv = interpolate_uv(triangle, b) + material.uv_scroll;
     if ((material.flags & MATERIAL_WARP) != 0u)
         uv = warp_uv(uv);
-    vec2 size = vec2(ivec2(picture_size(material)));
-    vec4 picture = way == PICTURE_TEXEL
+    vec2 size = vec2(ivec2(texture_size(material)));
+    vec4 texel = way == TEXTURE_TEXEL
         ? fetch_texel(material, uv, choose_mip(triangle, size, cone_width, dot(s.geometric_normal, s.view)))
-        : sample_picture(material, uv,
-            find_footprint(triangle, size, cone_width, s.geometric_normal, ray.direction, frame.picture_taps));
+        : sample_texture(material, uv,
+            find_footprint(triangle, size, cone_width, s.geometric_normal, ray.direction, frame.texture_taps));
 
-    s.albedo = quick_clamp(picture.rgb * material.tint, 0.0, 1.0);
+    s.albedo = quick_clamp(texel.rgb * material.tint, 0.0, 1.0);
     s.roughness = material.roughness;
     s.metallic = material.metallic;
     result.surface = s;
-    result.emission = material.emission * picture.rgb * lightstyle_scale(triangle.lightstyle) * result.front;
+    result.emission = material.emission * texel.rgb * lightstyle_scale(triangle.lightstyle) * result.front;
     result.opacity = material.opacity;
     if ((material.flags & MATERIAL_PARTICLE) != 0u)
         result.opacity *= particle_cover(uv, material.flags);
@@ -150,7 +150,7 @@ void store_surface(uint pixel, HitSurface hit)
 
 // position.w of pixels without a surface to light.
 const float DEPTH_NOTHING = -1.0; // sky, or outside of everything
-const float DEPTH_UNLIT = -2.0; // a picture that is shown as it is
+const float DEPTH_UNLIT = -2.0; // a texture that is shown as it is
 
 // What `surface` holds of the material.
 void unpack_material(uvec4 bits, inout Surface s)

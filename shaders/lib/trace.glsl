@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // All tracing of the renderer goes through trace_nearest and trace_visible. Masks are MASK_* of shared/scene.h;
-// alpha-tested triangles are met where their picture has no hole; both sides of a triangle are met. Behind the two
+// alpha-tested triangles are met where their texture has no hole; both sides of a triangle are met. Behind the two
 // functions stands the backend that the pass is compiled for (shaders/CMakeLists.txt defines one of VKPT_TRACE_*): each
 // brings search_ray().
 #ifndef VKPT_LIB_TRACE
@@ -26,17 +26,19 @@ uvec2 traced_rays = uvec2(0u);
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayCountsBuffer { RayCounts v; };
 
+void count_ray(bool visibility) { traced_rays += visibility ? uvec2(0u, 1u) : uvec2(1u, 0u); }
+
 // hit.triangle is TRACE_MISS where nothing was met.
 RawHit trace_nearest(Ray ray, uint mask)
 {
-    traced_rays.x += 1u;
+    count_ray(false);
     return search_ray(ray, mask, false);
 }
 
 // Whether nothing of the masked triangles lies on the ray between t_min and t_max.
 bool trace_visible(Ray ray, uint mask)
 {
-    traced_rays.y += 1u;
+    count_ray(true);
     return search_ray(ray, mask, true).triangle == TRACE_MISS;
 }
 

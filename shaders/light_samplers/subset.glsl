@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Listing 47-1: a strided subset of the list, then a light of it by predicted contribution, in two sweeps with one
-// random number. Each light owns one interval of that number, so that blue noise in it stays blue in the picture.
+// random number. Each light owns one interval of that number, so that blue noise in it stays blue in the image.
 #ifndef VKPT_LIGHT_SAMPLER_SUBSET
 #define VKPT_LIGHT_SAMPLER_SUBSET
 

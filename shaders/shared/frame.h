@@ -35,21 +35,21 @@ VKPT_CONST uint FRAME_PROBE_VISIBILITY = 32u; // probe_rays.comp asks whether an
 
 VKPT_CONST uint FRAME_HISTORY = 64u; // the buffers named previous_ hold the last view of this scene
 VKPT_CONST uint FRAME_REPROJECTED = 512u; // primary_visibility tells where things were in the last view
-VKPT_CONST uint FRAME_DENOISED = 128u; // the picture is made from the filtered light
-VKPT_CONST uint FRAME_ANTIALIASED = 1024u; // the picture is averaged over views
+VKPT_CONST uint FRAME_DENOISED = 128u; // the image is made from the filtered light
+VKPT_CONST uint FRAME_ANTIALIASED = 1024u; // the image is averaged over views
 VKPT_CONST uint FRAME_REPLAYED
     = 256u; // random numbers follow the buffer random_seed: some pixels repeat an older sample
-VKPT_CONST uint FRAME_BLOOM = 2048u; // the picture is mixed with what bloom_*.comp made of it
+VKPT_CONST uint FRAME_BLOOM = 2048u; // the image is mixed with what bloom_*.comp made of it
 VKPT_CONST uint FRAME_LAYERED = 8192u; // pixels share out what glass and water show, and are mixed by blend_layers
-VKPT_CONST uint FRAME_NEAREST_TEXELS = 262144u; // large texels of pictures are shown as squares
+VKPT_CONST uint FRAME_NEAREST_TEXELS = 262144u; // large texels of images are shown as squares
 VKPT_CONST uint FRAME_LIGHT_CACHE = 524288u; // bounce rays may end in the light cache
 VKPT_CONST uint FRAME_GUIDES = 1048576u; // and are aimed at what stands out in it
 VKPT_CONST uint FRAME_FOG = 2097152u; // there is fog
 VKPT_CONST uint FRAME_GOD_RAYS = 4194304u; // and it scatters a sun's light
-VKPT_CONST uint FRAME_WIPE = 8388608u; // a part of the picture shows baked lightmaps
+VKPT_CONST uint FRAME_WIPE = 8388608u; // a part of the image shows baked lightmaps
 VKPT_CONST uint FRAME_COUNT_RAYS = 4096u; // every ray is counted in `ray_counts`
 VKPT_CONST uint FRAME_SPATIAL = 16384u; // the denoiser also filters over neighbours
-VKPT_CONST uint FRAME_FULLBRIGHT = 32768u; // r_fullbright: surfaces show their pictures
+VKPT_CONST uint FRAME_FULLBRIGHT = 32768u; // r_fullbright: surfaces show their images
 VKPT_CONST uint FRAME_LIGHT_ALONE = 65536u; // r_lightmap: all surfaces are white
 VKPT_CONST uint FRAME_GREY_LIGHT = 131072u; // not gl3_colorlight
 
@@ -100,7 +100,7 @@ struct FrameStatistics {
 };
 
 VKPT_CONST uint BLOOM_FIRST_STEP
-    = 4u; // the pyramid's first level has a pixel for so many of the picture's, in either direction
+    = 4u; // the pyramid's first level has a pixel for so many of the image's, in either direction
 
 // Light that a surface reflects: diffuse without albedo.
 struct ReflectedLight {
@@ -111,7 +111,7 @@ VKPT_ASSERT_SIZE(ReflectedLight, 24);
 
 // One level of the bloom's pyramid, which is made smaller from, or added to, another (push constants).
 struct BloomPush {
-    uint64_t source; // uvec2: rgb, 16 bits each; 0: the picture's radiance
+    uint64_t source; // uvec2: rgb, 16 bits each; 0: the image's radiance
     uint64_t target;
     uvec2 source_size;
     uvec2 target_size;
@@ -150,11 +150,11 @@ struct Camera {
     vec3 up; // scaled by tan(fov_y / 2)
 };
 
-// Six pictures, their directions turned by `rotation` (columns: sky space axes in the world).
+// Six images, their directions turned by `rotation` (columns: sky space axes in the world).
 struct Sky {
     vec3 rotation[3];
     uint textures[6]; // on +x, -x, +y, -y, +z, -z; files named rt, lf, bk, ft, up, dn
-    vec3 radiance; // multiplies the pictures
+    vec3 radiance; // multiplies the images
     uint present; // 0: `radiance` alone is the sky
 };
 
@@ -209,7 +209,7 @@ struct FrameUniforms {
     Camera previous_camera; // where FRAME_HISTORY
     vec2 pixel_offset; // where in their pixel camera rays pass, unless FRAME_JITTER
     uint offset_phase; // that place's number of OFFSETS_PER_PIXEL, where as many pixels are rendered as are shown
-    float picture_taps; // at most, along a ray's footprint in a picture
+    float texture_taps; // at most, along a ray's footprint in an image
     uvec2 previous_size; // pixels of the buffers named previous_, other than previous_resolved
     vec2 previous_scale; // previous_size / size
     vec2 offset_change; // from `reprojected` to where the last view's pixels were sampled, in its pixels
@@ -230,7 +230,7 @@ struct FrameUniforms {
     uvec2 size; // pixels rendered
     uvec2 bloom_size; // pixels of the level of `bloom` that is its result, where FRAME_BLOOM
     uvec2 resolved_size; // pixels of the buffers `resolved` and `accumulated`: more where anti-aliasing upscales
-    uint64_t output_words; // the picture that is shown: a word a pixel, RGBA, red in the lowest byte, sRGB-encoded
+    uint64_t output_words; // the image that is shown: a word a pixel, RGBA, red in the lowest byte, sRGB-encoded
     uint output_across; // its pixels in a row
     uvec2 output_origin; // where the view lies in it
     uvec2 output_size;
@@ -244,7 +244,7 @@ struct FrameUniforms {
     vec4 blend; // the engine's screen blend, sRGB-encoded, alpha
     float gamma; // vid_gamma
     float overbright; // multiplies the exposed radiance: vk_overbrightbits
-    float intensity; // multiplies the encoded picture: by vk_intensity
+    float intensity; // multiplies the encoded image: by vk_intensity
     ShaderCvars cvars;
 };
 

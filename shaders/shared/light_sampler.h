@@ -29,7 +29,7 @@ VKPT_SHARED_BEGIN
 // BSDF rays that meet an emitter count, too, and both are weighted by mis_weight (lib/lighting.glsl). Without: light
 // sampling alone accounts for the lists' emitters.
 VKPT_CONST uint SAMPLER_MIS = 1u;
-// There to be compared: its pictures are wrong.
+// There to be compared: its images are wrong.
 VKPT_CONST uint SAMPLER_BIASED = 2u;
 // pt_light_subset means something to it.
 VKPT_CONST uint SAMPLER_USES_SUBSET = 4u;

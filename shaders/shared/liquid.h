@@ -7,7 +7,7 @@
 
 VKPT_SHARED_BEGIN
 
-// Pictures of liquids: each coordinate (1 = one picture) is displaced by WARP_AMPLITUDE * sin(WARP_FREQUENCY * the
+// Textures of liquids: each coordinate (1 = one texture) is displaced by WARP_AMPLITUDE * sin(WARP_FREQUENCY * the
 // other + WARP_SPEED * time).
 VKPT_CONST float WARP_AMPLITUDE = 0.0625f;
 VKPT_CONST float WARP_FREQUENCY = 6.2831853f;

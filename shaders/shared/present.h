@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The finished picture in the window's own format: what present.comp is told.
+// The finished image in the window's own format: what present.comp is told.
 #ifndef VKPT_SHARED_PRESENT_H
 #define VKPT_SHARED_PRESENT_H
 
@@ -15,10 +15,10 @@ VKPT_CONST uint PRESENT_BGR10A2 = 3u;
 VKPT_CONST uint PRESENT_RGBA16F = 4u; // two words a pixel
 
 struct PresentPush {
-    uint64_t picture; // FrameUniforms::output_words
+    uint64_t image; // FrameUniforms::output_words
     uint64_t words;
-    uvec2 picture_size;
-    uvec2 size; // of the window; the picture is cut or repeated at its edge where they differ for a frame
+    uvec2 image_size;
+    uvec2 size; // of the window; the image is cut or repeated at its edge where they differ for a frame
     uint packing; // PRESENT_*
 };
 VKPT_ASSERT_SIZE(PresentPush, 40);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What hosts ask of the scene beside pictures (ref_vkpt/extension.hpp): irradiance at points, rays, and what the light
+// What hosts ask of the scene beside images (ref_vkpt/extension.hpp): irradiance at points, rays, and what the light
 // sampler makes of one pixel. Quake world units, linear RGB.
 #ifndef VKPT_SHARED_PROBES_H
 #define VKPT_SHARED_PROBES_H
@@ -35,7 +35,7 @@ VKPT_ASSERT_SIZE(TracedHit, 20);
 // The surface that a pixel of the last view shows.
 struct InspectedSurface {
     vec3 position;
-    float depth; // path length from the eye; < 0: sky or an unlit picture, the other fields but `emitted` mean nothing
+    float depth; // path length from the eye; < 0: sky or an unlit image, the other fields but `emitted` mean nothing
     vec3 normal;
     float roughness;
     vec3 geometric_normal;

@@ -12,7 +12,7 @@ VKPT_SHARED_BEGIN
 // Ray masks: a ray meets a triangle if (ray mask & triangle mask) != 0.
 VKPT_CONST uint MASK_OPAQUE = 1u; // solid world and models
 VKPT_CONST uint MASK_TRANSLUCENT = 2u; // water, glass, translucent models: let shadow rays pass
-VKPT_CONST uint MASK_ALPHA_TEST = 4u; // opaque where the picture's alpha is >= 0.5
+VKPT_CONST uint MASK_ALPHA_TEST = 4u; // opaque where the texture's alpha is >= 0.5
 VKPT_CONST uint MASK_VIEW_WEAPON = 8u; // seen by camera rays only
 VKPT_CONST uint MASK_OWN_BODY = 16u; // the player's own model: seen by all but camera rays
 VKPT_CONST uint MASK_SKY = 32u; // sky faces
@@ -35,7 +35,7 @@ VKPT_CONST uint MEDIUM_IN_FRONT = 4u; // the liquid is before the face, not behi
 // One entry per triangle id (the id that a trace returns).
 struct Triangle {
     vec3 positions[3]; // cross(p1 - p0, p2 - p0) points to the front
-    vec2 uvs[3]; // picture coordinates, 1 = one picture width
+    vec2 uvs[3]; // texture coordinates, 1 = one texture width
     uint normals[3]; // shading normals, octahedral, 2 x 16 bit snorm
     uint material; // index into the material table
     int emitter; // index into the emitter table, or EMITTER_UNLISTED, EMITTER_SAMPLED_APART
@@ -80,16 +80,16 @@ VKPT_CONST uint MATERIAL_SKY = 1u; // radiance comes from the sky
 VKPT_CONST uint MATERIAL_WARP = 2u; // liquid: turbulent texture, refracting surface
 VKPT_CONST uint MATERIAL_TRANSLUCENT = 4u; // `opacity` < 1
 VKPT_CONST uint MATERIAL_ALPHA_TEST = 8u;
-VKPT_CONST uint MATERIAL_FULLBRIGHT = 16u; // shown as its picture, unlit
+VKPT_CONST uint MATERIAL_FULLBRIGHT = 16u; // shown as its texture, unlit
 VKPT_CONST uint MATERIAL_PARTICLE
     = 32u; // a disc in the square of its uv, as bright on the screen in dark rooms as in bright ones
 VKPT_CONST uint MATERIAL_SQUARE = 64u; // a particle without the disc's soft edge
 VKPT_CONST uint MATERIAL_GLASS = 128u; // a thin pane: translucent, smooth, colours what is behind
 
 struct Material {
-    vec3 tint; // multiplies the picture
+    vec3 tint; // multiplies the texture
     float opacity; // 1 opaque
-    vec3 emission; // radiance = emission * picture colour
+    vec3 emission; // radiance = emission * texture colour
     float roughness; // GGX alpha = roughness^2
     float metallic;
     uint texture; // bindless index

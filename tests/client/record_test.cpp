@@ -237,7 +237,7 @@ constexpr const char* registration = "init\nprepare_for_window\ninit_context fal
                                      "register_model models/broken.md2\nregister_model models/thing.md2\n"
                                      "set_sky unit1_ 2 0 0 1\nend_registration\n";
 constexpr const char* frame_at_full_size = "begin_frame 0\nrender_view 800 600 0 0 46 0 0 1\n"
-                                           "draw_picture 10 20 num_0 2 -1\ndraw_character 30 40 65 1\n"
+                                           "draw_pic 10 20 num_0 2 -1\ndraw_character 30 40 65 1\n"
                                            "draw_fill 0 590 800 10 7\nend_frame\n";
 
 TEST_F(Replay, AsksTheModuleWhatTheEngineAsked)

@@ -119,13 +119,13 @@ struct BadTrace {
 
 std::string long_name_again_and_again()
 {
-    const auto [first, again] = code_twice([](Coding& c) { c.call(CallKind::find_picture, std::string(60'000, 'A')); });
+    const auto [first, again] = code_twice([](Coding& c) { c.call(CallKind::find_pic, std::string(60'000, 'A')); });
     return pack(begin + first + repeat(again, 100'000));
 }
 
 std::string long_names_in_many_chunks()
 {
-    const auto [first, again] = code_twice([](Coding& c) { c.call(CallKind::find_picture, std::string(60'000, 'A')); });
+    const auto [first, again] = code_twice([](Coding& c) { c.call(CallKind::find_pic, std::string(60'000, 'A')); });
     return fill(pack(begin + first + repeat(again, 2'000) + end));
 }
 
@@ -146,7 +146,7 @@ std::string many_names()
     return pack(code_calls([](Coding& c) {
         c.call(CallKind::begin_frame);
         for (int i = 0; i < 300'000; i++)
-            c.call(CallKind::find_picture, std::to_string(i));
+            c.call(CallKind::find_pic, std::to_string(i));
     }));
 }
 

@@ -173,7 +173,7 @@ std::vector<View> write_sample(const std::filesystem::path& path, bool finish = 
         writer.write(views.back());
         if (i == 50)
             writer.write(make_call(CallKind::register_skin, "skin.pcx", 2));
-        writer.write(make_call(CallKind::find_picture, "num_" + std::to_string(i % 10)));
+        writer.write(make_call(CallKind::find_pic, "num_" + std::to_string(i % 10)));
         writer.write(make_call(CallKind::end_frame));
     }
     if (finish)

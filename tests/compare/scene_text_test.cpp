@@ -96,7 +96,7 @@ TEST_F(SceneText, SkyShowsItsSides)
     EXPECT_EQ(green_at(16, 16), 1); // +y: missing, white
     EXPECT_EQ(green_at(0, 16), 1);
     EXPECT_EQ(green_at(32, 1), 1);
-    contents.sky.pictures[0] = "";
+    contents.sky.textures[0] = "";
     EXPECT_TRUE(pictures->sky(contents.sky, 64).rgb.empty());
 }
 

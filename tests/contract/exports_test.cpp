@@ -57,17 +57,17 @@ const SlotCall render { "call render_view 640 480 1 2 3 10 20 0", [](auto f) {
                            refdef.view_angles[1] = 20;
                            call_as<void(const engine::RefDef*)>(f, &refdef);
                        } };
-const SlotCall find_pic { "call find_picture ch1",
+const SlotCall find_pic { "call find_pic ch1",
     [](auto f) { EXPECT_NE(call_as<void*(const char*)>(f, "ch1"), nullptr); } };
-const SlotCall pic_size { "call get_picture_size ch1", [](auto f) {
+const SlotCall pic_size { "call get_pic_size ch1", [](auto f) {
                              int width = 0, height = 0;
                              call_as<void(int*, int*, const char*)>(f, &width, &height, "ch1");
                              EXPECT_EQ(width, 12);
                              EXPECT_EQ(height, 34);
                          } };
-const SlotCall pic { "call draw_picture 1 2 ch1 2.5 -1",
+const SlotCall pic { "call draw_pic 1 2 ch1 2.5 -1",
     [](auto f) { call_as<void(int, int, const char*, float)>(f, 1, 2, "ch1", 2.5f); } };
-const SlotCall stretch { "call draw_stretched_picture 1 2 3 4 ch1",
+const SlotCall stretch { "call draw_stretched_pic 1 2 3 4 ch1",
     [](auto f) { call_as<void(int, int, int, int, const char*)>(f, 1, 2, 3, 4, "ch1"); } };
 const SlotCall character { "call draw_character 1 2 65 2.5",
     [](auto f) { call_as<void(int, int, int, float)>(f, 1, 2, 65, 2.5f); } };
@@ -86,7 +86,7 @@ const SlotCall palette { "call set_palette true", [](auto f) { call_as<void(cons
 const SlotCall begin_frame { "call begin_frame 0.25", [](auto f) { call_as<void(float)>(f, 0.25f); } };
 const SlotCall end_frame { "call end_frame", [](auto f) { call_as<void()>(f); } };
 const SlotCall end_world { "call end_world_renderpass", [](auto f) { EXPECT_EQ(call_as<QBoolean()>(f), 1); } };
-const SlotCall tinted { "call draw_picture 1 2 ch1 2.5 3",
+const SlotCall tinted { "call draw_pic 1 2 ch1 2.5 3",
     [](auto f) { call_as<void(int, int, const char*, float, const float*)>(f, 1, 2, "ch1", 2.5f, axis); } };
 
 std::vector<SlotCall> slots_of(int api)

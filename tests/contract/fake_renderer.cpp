@@ -216,24 +216,24 @@ bool end_world_renderpass()
     note("end_world_renderpass");
     return true;
 }
-void* find_picture(std::string_view name)
+void* find_pic(std::string_view name)
 {
-    note("find_picture", name);
+    note("find_pic", name);
     return &handle_target;
 }
-void get_picture_size(std::string_view name, int* width, int* height)
+void get_pic_size(std::string_view name, int* width, int* height)
 {
-    note("get_picture_size", name);
+    note("get_pic_size", name);
     *width = 12;
     *height = 34;
 }
-void draw_picture(int x, int y, std::string_view name, float scale, const float* tint)
+void draw_pic(int x, int y, std::string_view name, float scale, const float* tint)
 {
-    note("draw_picture", x, y, name, scale, tint ? tint[2] : -1);
+    note("draw_pic", x, y, name, scale, tint ? tint[2] : -1);
 }
-void draw_stretched_picture(int x, int y, int width, int height, std::string_view name)
+void draw_stretched_pic(int x, int y, int width, int height, std::string_view name)
 {
-    note("draw_stretched_picture", x, y, width, height, name);
+    note("draw_stretched_pic", x, y, width, height, name);
 }
 void draw_character(int x, int y, int code, float scale) { note("draw_character", x, y, code, scale); }
 void draw_tiled(int x, int y, int width, int height, std::string_view name)

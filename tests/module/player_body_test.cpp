@@ -136,7 +136,7 @@ protected:
             if (std::abs(longest - size * std::sqrt(2.0f)) > 0.5f)
                 continue;
             const glm::vec3 lowest = glm::min(glm::min(corner(0), corner(1)), corner(2));
-            const std::string picture = contents.materials[triangle.material].picture;
+            const std::string picture = contents.materials[triangle.material].texture;
             return Part { lowest.z, lowest, triangle.ray_mask, picture };
         }
         return std::nullopt;

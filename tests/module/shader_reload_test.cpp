@@ -84,15 +84,15 @@ TEST_F(ShaderReload, ErrorsAreShownAndTheOldShaderStays)
 {
     start(shaders_.string());
     const std::vector<formats::Rgba8> first = picture();
-    replace("lib/picture.glsl", "vec3 before =", "vec3 befor =");
+    replace("lib/image.glsl", "vec3 before =", "vec3 befor =");
     const std::vector<formats::Rgba8> broken = picture_after_command();
-    EXPECT_TRUE(session_->has_line("lib/picture.glsl:"));
+    EXPECT_TRUE(session_->has_line("lib/image.glsl:"));
     EXPECT_TRUE(session_->has_line("undeclared identifier"));
     EXPECT_TRUE(std::ranges::equal(first.end() - 400 * 20, first.end(), broken.end() - 400 * 20, broken.end()))
         << "below the message";
     EXPECT_GT(std::ranges::count(broken, formats::Rgba8 { 255, 255, 255, 255 }), 2000) << "the message";
     EXPECT_EQ(std::ranges::count(first, formats::Rgba8 { 255, 255, 255, 255 }), 0);
-    replace("lib/picture.glsl", "vec3 befor =", "vec3 before =");
+    replace("lib/image.glsl", "vec3 befor =", "vec3 before =");
     EXPECT_EQ(picture_after_command(), first);
 }
 

@@ -53,7 +53,7 @@ struct Shown {
     std::vector<SceneEmitter> emitters; // all
 
     const SceneMaterial& material(size_t triangle = 0) const { return materials.at(triangles.at(triangle).material); }
-    std::string picture(size_t triangle = 0) const { return material(triangle).picture; }
+    std::string picture(size_t triangle = 0) const { return material(triangle).texture; }
     glm::vec3 lowest() const
     {
         return extreme([](glm::vec3 a, glm::vec3 b) { return glm::min(a, b); });
@@ -496,7 +496,7 @@ TEST_F(Wiring, PicturesOfTheMapChangeTwiceASecond)
             session_->view.time = 0.5f * float(tick) + part;
             const Shown shown = show({});
             for (int i = 0; i < 3; i++) {
-                const std::string picture = shown.materials.at(size_t(texinfos_.first + i)).picture;
+                const std::string picture = shown.materials.at(size_t(texinfos_.first + i)).texture;
                 EXPECT_NE(picture.find(pictures[(i + tick) % 3]), std::string::npos)
                     << picture << " at " << session_->view.time;
             }
@@ -525,8 +525,8 @@ TEST_F(Wiring, SurfacesAreWhatTheirNamesSay)
     session_->set("pt_roughness_default", 0.7);
     session_->set("pt_metallic_default", 0);
     const auto expect_surface = [&](uint16_t texinfo, float roughness, float metallic) {
-        EXPECT_FLOAT_EQ(shown.materials.at(texinfo).roughness, roughness) << shown.materials.at(texinfo).picture;
-        EXPECT_FLOAT_EQ(shown.materials.at(texinfo).metallic, metallic) << shown.materials.at(texinfo).picture;
+        EXPECT_FLOAT_EQ(shown.materials.at(texinfo).roughness, roughness) << shown.materials.at(texinfo).texture;
+        EXPECT_FLOAT_EQ(shown.materials.at(texinfo).metallic, metallic) << shown.materials.at(texinfo).texture;
     };
     expect_surface(texinfos_.wall, 0.77f, 0.125f);
     expect_surface(texinfos_.metal, 0.42f, 0.8f);

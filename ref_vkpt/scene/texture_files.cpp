@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "ref_vkpt/scene/picture_files.hpp"
+#include "ref_vkpt/scene/texture_files.hpp"
 
 #include "common/colour.hpp"
 #include "formats/image_room.hpp"
@@ -47,7 +47,7 @@ struct Size {
     int width = 0, height = 0;
 };
 
-// Width and height of a Quake II picture without decoding its pixels where the format allows.
+// Width and height of a Quake II texture without decoding its pixels where the format allows.
 Size read_size(formats::Bytes bytes, const std::string& path)
 {
     const std::string_view ending = ending_of(path);
@@ -91,14 +91,14 @@ glm::vec3 decode_colour(formats::Rgba8 pixel)
     return { table[pixel.r], table[pixel.g], table[pixel.b] };
 }
 
-PictureFiles::PictureFiles(LoadFile load_file, Report report)
+TextureFiles::TextureFiles(LoadFile load_file, Report report)
     : load_file_(std::move(load_file))
     , report_(std::move(report))
     , palette_(make_neutral_palette())
 {
 }
 
-void PictureFiles::load_palette()
+void TextureFiles::load_palette()
 {
     palette_ = make_neutral_palette();
     constexpr const char* consequence = "8-bit textures use a substitute palette and have wrong colours";
@@ -117,13 +117,13 @@ void PictureFiles::load_palette()
     }
 }
 
-std::vector<std::string> PictureFiles::original_paths(std::string_view name, TextureUse use)
+std::vector<std::string> TextureFiles::original_paths(std::string_view name, TextureUse use)
 {
     const std::string path = use_forward_slashes(name);
     switch (use) {
     case TextureUse::wall:
         return { "textures/" + path + ".wal", "textures/" + path + ".m32", "textures/" + path + ".m8" };
-    case TextureUse::picture:
+    case TextureUse::image:
         if (path.starts_with('/'))
             return { path.substr(1) };
         return { "pics/" + path + ".pcx", "pics/misc/" + path + ".m32", "pics/misc/" + path + ".m8" };
@@ -137,42 +137,42 @@ std::vector<std::string> PictureFiles::original_paths(std::string_view name, Tex
     return { path };
 }
 
-std::optional<LoadedPicture> PictureFiles::load(std::string_view name, TextureUse use, bool retexturing)
+std::optional<LoadedTexture> TextureFiles::load(std::string_view name, TextureUse use, bool retexturing)
 {
     if (name.empty())
         return std::nullopt;
-    PixelBudget& budget = use == TextureUse::picture ? flat_budget_ : level_budget_;
+    PixelBudget& budget = use == TextureUse::image ? flat_budget_ : level_budget_;
     for (const std::string& path : original_paths(name, use)) {
         if (!is_readable_ending(ending_of(path)))
             continue;
-        std::optional<LoadedPicture> picture;
+        std::optional<LoadedTexture> texture;
         if (retexturing)
-            picture = load_replacement(path, budget);
-        if (!picture)
-            picture = load_original(path, budget);
-        if (!picture)
+            texture = load_replacement(path, budget);
+        if (!texture)
+            texture = load_original(path, budget);
+        if (!texture)
             continue;
         // The engine's own renderers ignore the alpha of these; hi-res packs keep other things in it.
         if (use == TextureUse::skin || use == TextureUse::sky)
-            for (formats::Rgba8& pixel : picture->image.pixels)
+            for (formats::Rgba8& pixel : texture->image.pixels)
                 pixel.a = 255;
-        return picture;
+        return texture;
     }
     return std::nullopt;
 }
 
-std::optional<LoadedPicture> PictureFiles::load_replacement(const std::string& path, PixelBudget& budget) const
+std::optional<LoadedTexture> TextureFiles::load_replacement(const std::string& path, PixelBudget& budget) const
 {
     for (const char* ending : { ".tga", ".png", ".jpg", ".jpeg" }) {
-        LoadedPicture picture;
-        picture.path = path;
-        picture.file = std::string(without_ending(path)) + ending;
-        const std::optional<std::vector<std::byte>> file = load_file_(picture.file);
+        LoadedTexture texture;
+        texture.path = path;
+        texture.file = std::string(without_ending(path)) + ending;
+        const std::optional<std::vector<std::byte>> file = load_file_(texture.file);
         if (!file)
             continue;
         try {
-            picture.image = formats::read_common_image(*file, picture.file, budget.room(file->size()));
-            budget.spend(picture.image, file->size());
+            texture.image = formats::read_common_image(*file, texture.file, budget.room(file->size()));
+            budget.spend(texture.image, file->size());
         } catch (const formats::FormatError& error) {
             report_(describe(error));
             continue;
@@ -184,33 +184,33 @@ std::optional<LoadedPicture> PictureFiles::load_replacement(const std::string& p
         } catch (const formats::FormatError&) {
             // The replacement stands in for the damaged original, too.
         }
-        if (picture.image.width < original.width || picture.image.height < original.height) {
-            report_(fmt::format("{} is not used: its {} x {} pixels are fewer than the {} x {} of {}", picture.file,
-                picture.image.width, picture.image.height, original.width, original.height, path));
+        if (texture.image.width < original.width || texture.image.height < original.height) {
+            report_(fmt::format("{} is not used: its {} x {} pixels are fewer than the {} x {} of {}", texture.file,
+                texture.image.width, texture.image.height, original.width, original.height, path));
             continue;
         }
-        picture.width = original.width > 0 ? original.width : picture.image.width;
-        picture.height = original.height > 0 ? original.height : picture.image.height;
-        return picture;
+        texture.width = original.width > 0 ? original.width : texture.image.width;
+        texture.height = original.height > 0 ? original.height : texture.image.height;
+        return texture;
     }
     return std::nullopt;
 }
 
-std::optional<LoadedPicture> PictureFiles::load_original(const std::string& path, PixelBudget& budget) const
+std::optional<LoadedTexture> TextureFiles::load_original(const std::string& path, PixelBudget& budget) const
 {
     const std::optional<std::vector<std::byte>> file = load_file_(path);
     if (!file)
         return std::nullopt;
     try {
-        LoadedPicture picture;
-        picture.path = picture.file = path;
-        picture.image = is_common_ending(ending_of(path))
+        LoadedTexture texture;
+        texture.path = texture.file = path;
+        texture.image = is_common_ending(ending_of(path))
             ? formats::read_common_image(*file, path, budget.room(file->size()))
             : formats::read_image(*file, path, palette_);
-        budget.spend(picture.image, file->size());
-        picture.width = picture.image.width;
-        picture.height = picture.image.height;
-        return picture;
+        budget.spend(texture.image, file->size());
+        texture.width = texture.image.width;
+        texture.height = texture.image.height;
+        return texture;
     } catch (const formats::FormatError& error) {
         report_(describe(error));
         return std::nullopt;
@@ -237,9 +237,9 @@ formats::Palette make_neutral_palette()
     return palette;
 }
 
-PictureMeasure measure_picture(const formats::Image& image)
+TextureMeasure measure_texture(const formats::Image& image)
 {
-    PictureMeasure measure;
+    TextureMeasure measure;
     glm::dvec3 sum(0);
     double weight = 0;
     size_t opaque = 0;
@@ -258,7 +258,7 @@ PictureMeasure measure_picture(const formats::Image& image)
     return measure;
 }
 
-formats::Image halve_picture(const formats::Image& from)
+formats::Image halve_texture(const formats::Image& from)
 {
     formats::Image to;
     to.width = std::max(from.width / 2, 1);
@@ -281,10 +281,10 @@ formats::Image halve_picture(const formats::Image& from)
     return to;
 }
 
-formats::Image shrink_picture(formats::Image image, int limit)
+formats::Image shrink_texture(formats::Image image, int limit)
 {
     while (image.width > limit || image.height > limit)
-        image = halve_picture(image);
+        image = halve_texture(image);
     return image;
 }
 

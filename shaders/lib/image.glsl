@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The picture's radiance on its way from the passes that make it to anti-aliasing, or to the average.
-#ifndef VKPT_LIB_PICTURE
-#define VKPT_LIB_PICTURE
+// The image's radiance on its way from the passes that make it to anti-aliasing, or to the average.
+#ifndef VKPT_LIB_IMAGE
+#define VKPT_LIB_IMAGE
 
 #include "packing.glsl"
 
 // temporal_antialiasing stores `accumulated` itself, perhaps at another size.
-void store_picture(uint index, vec3 radiance)
+void store_image(uint index, vec3 radiance)
 {
     if ((frame.flags & FRAME_ANTIALIASED) != 0u) {
         store_composed(index, pack_light3(radiance));

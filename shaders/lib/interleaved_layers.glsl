@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The layers of what is seen through glass and in water: what is reflected, or the pane's own picture, and what is
-// behind. A camera ray follows one of them, at random and by how much it is of the whole. In pictures that are filtered
+// The layers of what is seen through glass and in water: what is reflected, or the pane's own image, and what is
+// behind. A camera ray follows one of them, at random and by how much it is of the whole. In images that are filtered
 // (FRAME_LAYERED) neighbouring pixels share them out in a pattern instead, so that each layer has neighbours and a
 // history to be filtered with; what it counts for makes up for the number of its pixels. blend_layers.comp puts the
 // layers together. The pattern moves on with every view, and anti-aliasing averages what is left of it.
-#ifndef VKPT_LIB_LAYERS
-#define VKPT_LIB_LAYERS
+#ifndef VKPT_LIB_INTERLEAVED_LAYERS
+#define VKPT_LIB_INTERLEAVED_LAYERS
 
 #include "device/whole_numbers.glsl"
 

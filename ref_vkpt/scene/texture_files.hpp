@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Finds and decodes the game's pictures by the engine's naming rules. No engine, no GPU: files come from a callback.
+// Finds and decodes the game's textures by the engine's naming rules. No engine, no GPU: files come from a callback.
 #pragma once
 
 #include "formats/image.hpp"
@@ -14,29 +14,29 @@
 
 namespace vkpt {
 
-// What a picture is asked for; decides where it is searched and how it is stored.
+// What a texture is asked for; decides where it is searched and how it is stored.
 //   wall     "e1u1/floor": textures/e1u1/floor.wal
 //   skin     full path with ending, always opaque
 //   sprite   full path with ending
-//   picture  "inven": pics/inven.pcx; "/players/male/a_i.pcx": the path behind the slash, as it stands
+//   image    "inven": pics/inven.pcx; "/players/male/a_i.pcx": the path behind the slash, as it stands
 //   sky      "unit1_rt": env/unit1_rt.tga
-enum class TextureUse : uint8_t { wall, skin, sprite, picture, sky };
+enum class TextureUse : uint8_t { wall, skin, sprite, image, sky };
 inline constexpr size_t texture_use_count = 5;
 
-struct LoadedPicture {
+struct LoadedTexture {
     std::string path; // the original, whether or not a replacement was loaded: "pics/conchars.pcx"
     std::string file; // what was read
     formats::Image image;
     int width = 0, height = 0; // of the original: texture coordinates and 2D sizes refer to these
 };
 
-// How many pixels the pictures of a level may have together, because an archive of a megabyte can ask for gigabytes: so
+// How many pixels the textures of a level may have together, because an archive of a megabyte can ask for gigabytes: so
 // many from any files, and more by the files' size. (Packs for Quake II have a byte for each ten pixels or fewer.)
 class PixelBudget {
 public:
     static constexpr size_t pixels_of_any_files = size_t(1) << 25, pixels_per_byte = 32;
 
-    // For a picture in a file of so many bytes.
+    // For a texture in a file of so many bytes.
     size_t room(size_t file_bytes) const
     {
         const size_t most = pixels_of_any_files + (bytes_ + file_bytes) * pixels_per_byte;
@@ -52,13 +52,13 @@ private:
     size_t pixels_ = 0, bytes_ = 0;
 };
 
-class PictureFiles {
+class TextureFiles {
 public:
     using LoadFile = std::function<std::optional<std::vector<std::byte>>(const std::string& path)>;
     using Report = std::function<void(std::string_view line)>;
 
     // `report` gets one line for every file that is there but cannot be used.
-    PictureFiles(LoadFile load_file, Report report);
+    TextureFiles(LoadFile load_file, Report report);
 
     // From pics/colormap.pcx; without a usable one, a palette of even steps in grey and hue, and a line that says so.
     void load_palette();
@@ -66,16 +66,16 @@ public:
 
     // Replacements (TGA, PNG, JPG beside the original, not smaller than it) are preferred where `retexturing`.
     // Nothing: no usable file.
-    std::optional<LoadedPicture> load(std::string_view name, TextureUse use, bool retexturing);
-    // The next level's pictures have a budget of their own. Those of 2D are kept from level to level, and so is theirs.
+    std::optional<LoadedTexture> load(std::string_view name, TextureUse use, bool retexturing);
+    // The next level's textures have a budget of their own. Those of 2D are kept from level to level, and so is theirs.
     void begin_level() { level_budget_ = {}; }
 
     // Where the original may lie, in the order of the search.
     static std::vector<std::string> original_paths(std::string_view name, TextureUse use);
 
 private:
-    std::optional<LoadedPicture> load_replacement(const std::string& path, PixelBudget& budget) const;
-    std::optional<LoadedPicture> load_original(const std::string& path, PixelBudget& budget) const;
+    std::optional<LoadedTexture> load_replacement(const std::string& path, PixelBudget& budget) const;
+    std::optional<LoadedTexture> load_original(const std::string& path, PixelBudget& budget) const;
 
     LoadFile load_file_;
     Report report_;
@@ -89,18 +89,18 @@ formats::Palette make_neutral_palette();
 // Radiance for an sRGB colour, 0..1.
 glm::vec3 decode_colour(formats::Rgba8 pixel);
 
-struct PictureMeasure {
+struct TextureMeasure {
     glm::vec3 average { 0 }; // linear RGB, weighted by alpha; black where nothing is opaque
     float opaque_fraction = 1; // share of pixels that pass an alpha test at one half
     bool has_alpha = false; // some pixel is not fully opaque
     uint8_t brightest = 0; // component of all pixels
 };
-PictureMeasure measure_picture(const formats::Image& image);
+TextureMeasure measure_texture(const formats::Image& image);
 
 // The next mip level: half as wide and high, rounded down, at least 1; averages linear light.
-formats::Image halve_picture(const formats::Image& from);
+formats::Image halve_texture(const formats::Image& from);
 
 // Halves (averaging linear light) until neither side exceeds `limit`.
-formats::Image shrink_picture(formats::Image image, int limit);
+formats::Image shrink_texture(formats::Image image, int limit);
 
 } // namespace vkpt

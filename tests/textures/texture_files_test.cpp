@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The search for pictures, on a made-up set of files.
-#include "ref_vkpt/scene/picture_files.hpp"
+#include "ref_vkpt/scene/texture_files.hpp"
 #include "tests/formats/picture_bombs.hpp"
 
 #include <algorithm>
@@ -44,9 +44,9 @@ protected:
         files[path] = formats::write_wal(make_indexed(width, height, index), info);
     }
 
-    PictureFiles make()
+    TextureFiles make()
     {
-        PictureFiles pictures(
+        TextureFiles pictures(
             [this](const std::string& path) -> std::optional<std::vector<std::byte>> {
                 asked.push_back(path);
                 const auto found = files.find(path);
@@ -83,19 +83,19 @@ TEST_F(PictureFilesTest, PicturesHaveTransparentPixelsSkinsDoNot)
 {
     files["pics/a.pcx"] = formats::write_pcx(make_indexed(8, 8, 255));
     files["players/male/a.pcx"] = files["pics/a.pcx"];
-    PictureFiles pictures = make();
-    EXPECT_EQ(pictures.load("a", TextureUse::picture, originals_only)->image.at(0, 0).a, 0);
-    EXPECT_EQ(pictures.load("/players/male/a.pcx", TextureUse::picture, originals_only)->image.at(0, 0).a, 0);
+    TextureFiles pictures = make();
+    EXPECT_EQ(pictures.load("a", TextureUse::image, originals_only)->image.at(0, 0).a, 0);
+    EXPECT_EQ(pictures.load("/players/male/a.pcx", TextureUse::image, originals_only)->image.at(0, 0).a, 0);
     EXPECT_EQ(pictures.load("players/male/a.pcx", TextureUse::sprite, originals_only)->image.at(0, 0).a, 0);
     EXPECT_EQ(pictures.load("players/male/a.pcx", TextureUse::skin, originals_only)->image.at(0, 0).a, 255);
 }
 
 TEST_F(PictureFilesTest, NamesBecomePaths)
 {
-    const auto first = [](std::string_view name, TextureUse use) { return PictureFiles::original_paths(name, use)[0]; };
-    EXPECT_EQ(first("inven", TextureUse::picture), "pics/inven.pcx");
-    EXPECT_EQ(first("/pics/colors.png", TextureUse::picture), "pics/colors.png");
-    EXPECT_EQ(first("\\players\\male\\a_i.pcx", TextureUse::picture), "players/male/a_i.pcx");
+    const auto first = [](std::string_view name, TextureUse use) { return TextureFiles::original_paths(name, use)[0]; };
+    EXPECT_EQ(first("inven", TextureUse::image), "pics/inven.pcx");
+    EXPECT_EQ(first("/pics/colors.png", TextureUse::image), "pics/colors.png");
+    EXPECT_EQ(first("\\players\\male\\a_i.pcx", TextureUse::image), "players/male/a_i.pcx");
     EXPECT_EQ(first("e1u1/floor", TextureUse::wall), "textures/e1u1/floor.wal");
     EXPECT_EQ(first("unit1_rt", TextureUse::sky), "env/unit1_rt.tga");
     EXPECT_EQ(first("models\\a\\skin.pcx", TextureUse::skin), "models/a/skin.pcx");
@@ -121,13 +121,13 @@ TEST_F(PictureFilesTest, ReplacementsComeFirstInTheEnginesOrderAndKeepTheOrigina
 TEST_F(PictureFilesTest, ReplacementWithoutOriginalHasItsOwnSize)
 {
     files["pics/new.png"] = formats::write_png(make_plain(20, 10, { 1, 2, 3, 128 }));
-    PictureFiles pictures = make();
-    const auto picture = pictures.load("new", TextureUse::picture, with_replacements);
+    TextureFiles pictures = make();
+    const auto picture = pictures.load("new", TextureUse::image, with_replacements);
     ASSERT_TRUE(picture);
     EXPECT_EQ(picture->width, 20);
     EXPECT_EQ(picture->height, 10);
     EXPECT_EQ(picture->image.at(0, 0).a, 128);
-    EXPECT_FALSE(pictures.load("new", TextureUse::picture, originals_only));
+    EXPECT_FALSE(pictures.load("new", TextureUse::image, originals_only));
 }
 
 TEST_F(PictureFilesTest, SmallerOrDamagedReplacementIsNamedAndPassedOver)
@@ -168,9 +168,9 @@ TEST_F(PictureFilesTest, EveryCutOfAWallIsReportedNotThrown)
 
 TEST_F(PictureFilesTest, MissingPicturesAreNothingAndSilent)
 {
-    PictureFiles pictures = make();
+    TextureFiles pictures = make();
     for (TextureUse use :
-        { TextureUse::wall, TextureUse::skin, TextureUse::sprite, TextureUse::picture, TextureUse::sky })
+        { TextureUse::wall, TextureUse::skin, TextureUse::sprite, TextureUse::image, TextureUse::sky })
         for (const char* name : { "none", "", "/", "/a", "a.b", "../x.pcx", "dir.x/none" })
             EXPECT_FALSE(pictures.load(name, use, with_replacements)) << name;
     EXPECT_TRUE(reports.empty());
@@ -214,7 +214,7 @@ TEST_F(PictureFilesTest, ALevelsPicturesHaveABudgetTogether)
         files["textures/" + std::string(name) + ".png"] = black;
     add_wall("textures/c.wal", 32, 16, 5);
     files["textures/d.png"] = samples::make_black_png({ .width = 64, .height = 64 });
-    PictureFiles pictures = make();
+    TextureFiles pictures = make();
     for (const char* name : { "a", "b" })
         EXPECT_EQ(pictures.load(name, TextureUse::wall, with_replacements).value().image.width, large);
     EXPECT_TRUE(reports.empty());
@@ -260,12 +260,12 @@ TEST(MeasurePictureTest, AveragesLinearLightByAlpha)
     image.pixels[1] = { 0, 255, 0, 0 };
     image.pixels[2] = { 188, 0, 0, 255 }; // about half the light
     image.pixels[3] = { 0, 0, 0, 127 };
-    const PictureMeasure measure = measure_picture(image);
+    const TextureMeasure measure = measure_texture(image);
     EXPECT_NEAR(measure.average.x, (1 + 0.503) / (2 + 127 / 255.0), 0.002);
     EXPECT_EQ(measure.average.y, 0);
     EXPECT_FLOAT_EQ(measure.opaque_fraction, 0.5f);
     EXPECT_TRUE(measure.has_alpha);
-    EXPECT_FALSE(measure_picture(make_plain(3, 3, { 1, 1, 1, 255 })).has_alpha);
+    EXPECT_FALSE(measure_texture(make_plain(3, 3, { 1, 1, 1, 255 })).has_alpha);
 }
 
 TEST(ShrinkPictureTest, HalvesInLinearLightUntilItFits)
@@ -274,11 +274,11 @@ TEST(ShrinkPictureTest, HalvesInLinearLightUntilItFits)
     for (int y = 0; y < image.height; y++)
         for (int x = 0; x < image.width; x += 2)
             image.pixels[size_t(y * image.width + x)] = { 255, 255, 255, 255 };
-    const formats::Image small = shrink_picture(image, 16);
+    const formats::Image small = shrink_texture(image, 16);
     EXPECT_EQ(small.width, 16);
     EXPECT_EQ(small.height, 1);
     EXPECT_NEAR(small.at(5, 0).r, 188, 1);
-    EXPECT_EQ(shrink_picture(image, 64).pixels, image.pixels);
+    EXPECT_EQ(shrink_texture(image, 64).pixels, image.pixels);
 }
 
 } // namespace
