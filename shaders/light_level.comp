@@ -33,7 +33,6 @@ void look_down(uint lane)
         level = sample_floor(hit.surface, hit.cluster, lane) + luminance(hit.emission);
     }
     LightLevelBuffer(frame.light_level).v[lane] = level;
-    count_traced_rays();
 }
 
 VKPT_RUN_OVER_LANES(look_down)

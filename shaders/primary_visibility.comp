@@ -308,7 +308,7 @@ void see_pixel(uvec2 pixel, uint index)
     ROLLED_FOR (uint segment = 0u; segment < max_specular_segments + path.unlit_segments; segment++)
         if (!follow_path(path, cone_spread, random))
             break;
-    count_traced_rays_of(index, 0u);
+    store_traced_rays(index, 0u);
 
     if ((frame.flags & FRAME_REPROJECTED) != 0u)
         store_reprojection(index, path, direction, offset);

@@ -155,7 +155,6 @@ void update_cell(uvec2, uint number)
     CacheFacePlane plane = load_cache_plane(cell.face);
     ROLLED_FOR (uint i = 0u; i < cache.samples; i++)
         sample_cell(cell, face, plane, first_sample + i);
-    count_traced_rays();
 }
 
 VKPT_RUN_OVER_CELLS(update_cell)

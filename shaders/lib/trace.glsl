@@ -21,12 +21,22 @@
 // A pass that does not trace is compiled without a backend.
 #if defined(VKPT_TRACE_SOFTWARE) || defined(VKPT_TRACE_QUERY) || defined(VKPT_TRACE_PIPELINE)
 
-// Of this invocation since it was last counted: for the nearest hit, for visibility.
-uvec2 traced_rays = uvec2(0u);
+// Of this invocation since it was last asked.
+uint traced_rays = 0u;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer RayCountsBuffer { RayCounts v; };
 
-void count_ray(bool visibility) { traced_rays += visibility ? uvec2(0u, 1u) : uvec2(1u, 0u); }
+void count_ray(bool visibility)
+{
+    traced_rays += 1u;
+    if ((frame.flags & FRAME_COUNT_RAYS) == 0u)
+        return;
+    RayCountsBuffer counts = RayCountsBuffer(frame.ray_counts);
+    if (visibility)
+        atomicAdd(counts.v.visible, 1u);
+    else
+        atomicAdd(counts.v.nearest, 1u);
+}
 
 // hit.triangle is TRACE_MISS where nothing was met.
 RawHit trace_nearest(Ray ray, uint mask)
@@ -42,23 +52,12 @@ bool trace_visible(Ray ray, uint mask)
     return search_ray(ray, mask, true).triangle == TRACE_MISS;
 }
 
-// Adds what this invocation has traced to the view's counts, and begins anew.
-void count_traced_rays()
-{
-    if ((frame.flags & FRAME_COUNT_RAYS) != 0u) {
-        RayCountsBuffer counts = RayCountsBuffer(frame.ray_counts);
-        atomicAdd(counts.v.nearest, traced_rays.x);
-        atomicAdd(counts.v.visible, traced_rays.y);
-    }
-    traced_rays = uvec2(0u);
-}
-
-// The same, and adds it to `before` for the pixel.
-void count_traced_rays_of(uint index, uint before)
+// Adds what this invocation has traced for a pixel to `before`, and begins to count anew.
+void store_traced_rays(uint index, uint before)
 {
     if (frame.cvars.pt_debug_view == DEBUG_VIEW_RAYS)
-        store_ray_count(index, before + traced_rays.x + traced_rays.y);
-    count_traced_rays();
+        store_ray_count(index, before + traced_rays);
+    traced_rays = 0u;
 }
 
 #endif
