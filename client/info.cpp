@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // vkpt info: what the module found on this machine.
 #include "client/cvar_table.hpp"
+#include "client/host/name_list.hpp"
 #include "client/options.hpp"
 #include "client/pass_table.hpp"
 #include "client/trace_info.hpp"
@@ -24,14 +25,6 @@ struct InfoOptions {
     bool json = false, cvars = false, passes = false;
 };
 
-Json make_list(const char* const* names)
-{
-    Json list = Json::array();
-    for (; names && *names; names++)
-        list.push_back(*names);
-    return list;
-}
-
 const char* text(const char* text_or_null) { return text_or_null ? text_or_null : ""; }
 
 Json make_info(const Host& host)
@@ -50,9 +43,9 @@ Json make_info(const Host& host)
         json["api_versions"].push_back(api);
     }
     json["trace_backend"] = text(info.trace_backend);
-    json["trace_backends"] = make_list(info.trace_backends);
-    json["light_samplers"] = make_list(info.light_samplers);
-    json["denoisers"] = make_list(info.denoisers);
+    json["trace_backends"] = list_names(info.trace_backends);
+    json["light_samplers"] = list_names(info.light_samplers);
+    json["denoisers"] = list_names(info.denoisers);
     json["limits"] = { { "entities", info.max_entities }, { "dlights", info.max_dlights },
         { "particles", info.max_particles }, { "image_size", info.max_image_size } };
     return json;

@@ -2,9 +2,9 @@
 #include "client/options.hpp"
 
 #include "client/host/errors.hpp"
+#include "common/numbers.hpp"
 #include "formats/image.hpp"
 
-#include <charconv>
 #include <fmt/format.h>
 
 namespace vkpt::client {
@@ -76,13 +76,13 @@ HostOptions make_host_options(const ModuleOptions& options)
 
 Size parse_size(const std::string& text)
 {
-    Size size;
-    const char* const end = text.data() + text.size();
-    const auto [x, error] = std::from_chars(text.data(), end, size.width);
-    const bool has_x = error == std::errc() && x != end && *x == 'x';
-    const auto [rest, second_error] = std::from_chars(has_x ? x + 1 : end, end, size.height);
+    const size_t x = text.find('x');
+    const auto parse_side = [](std::string_view side) { return parse_number<int>(side).value_or(0); };
+    const Size size = x == std::string::npos
+        ? Size {}
+        : Size { parse_side(std::string_view(text).substr(0, x)), parse_side(std::string_view(text).substr(x + 1)) };
     const auto is_possible = [](int n) { return n >= 1 && n <= formats::max_image_size; };
-    if (!has_x || second_error != std::errc() || rest != end || !is_possible(size.width) || !is_possible(size.height))
+    if (x == std::string::npos || !is_possible(size.width) || !is_possible(size.height))
         throw WrongUse(
             fmt::format("--size {}: write WIDTHxHEIGHT, each 1 to {}, e.g. 1280x720", text, formats::max_image_size));
     return size;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "formats/entities.hpp"
+#include "common/numbers.hpp"
 #include "formats/byte_reader.hpp"
 
-#include <charconv>
 #include <cmath>
 
 namespace formats {
@@ -18,14 +18,8 @@ std::optional<float> take_number(std::string_view& text)
         text.remove_prefix(1);
     if (text.size() > 1 && text[0] == '+' && text[1] != '-')
         text.remove_prefix(1);
-    float value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || !std::isfinite(value))
-        return std::nullopt;
-    text.remove_prefix(size_t(end - text.data()));
-    if (!text.empty() && !is_space(text.front()))
-        return std::nullopt;
-    return value;
+    const std::optional<float> value = vkpt::take_number<float>(text);
+    return text.empty() || is_space(text.front()) ? value : std::nullopt;
 }
 
 struct Token {
@@ -177,6 +171,14 @@ std::vector<EntityText> parse_entities(std::string_view text, std::string_view f
                 token.offset, "entities: '{' expected, found \"" + std::string(token.text.substr(0, 40)) + "\"");
         entities.push_back(parse_entity(tokens, token.offset));
     }
+}
+
+std::optional<size_t> brush_model_index(std::string_view name)
+{
+    if (!name.starts_with('*'))
+        return std::nullopt;
+    name.remove_prefix(1);
+    return vkpt::take_number<size_t>(name); // as the engine, which reads no farther
 }
 
 } // namespace formats

@@ -2,6 +2,7 @@
 // The entity string: a list of { "key" "value" ... } blocks, in BSP files and in map sources.
 #pragma once
 
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
@@ -20,6 +21,9 @@ struct EntityText {
     std::vector<float> numbers(std::string_view key) const; // those it begins with
     std::string_view class_name() const { return get("classname"); }
 };
+
+// The index of BspModel in a model's name: "*1", "*2" ...
+std::optional<size_t> brush_model_index(std::string_view name);
 
 // Throws FormatError (offset = byte in `text`) on an unclosed quote or brace.
 std::vector<EntityText> parse_entities(std::string_view text, std::string_view file);

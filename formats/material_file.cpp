@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "formats/material_file.hpp"
 
+#include "common/numbers.hpp"
+
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 
 namespace formats {
@@ -174,9 +175,7 @@ bool is_attribute_value(const AttributeRow& row, std::string_view value)
         return false;
     if (row.type == AttributeType::word)
         return is_printable(value) && value.find_first_of(",:#") == std::string_view::npos;
-    float number = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-    return error == std::errc() && end == value.data() + value.size() && std::isfinite(number);
+    return vkpt::parse_number<float>(value).has_value();
 }
 
 std::string material_name(std::string_view picture)

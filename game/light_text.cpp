@@ -2,6 +2,7 @@
 #include "game/light_text.hpp"
 
 #include "common/colour.hpp"
+#include "common/numbers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -125,14 +126,12 @@ Light parse_light_line(std::span<const std::string> words)
 
 float parse_number(const std::string& word, std::string_view what, float least, float most)
 {
-    float value = 0;
-    const char* end = word.data() + word.size();
-    const auto result = std::from_chars(word.data(), end, value);
-    if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
+    const std::optional<float> value = vkpt::parse_number<float>(word);
+    if (!value)
         throw TextError(fmt::format("{} is a number, not '{}'", what, word));
-    if (value < least || value > most)
+    if (*value < least || *value > most)
         throw TextError(fmt::format("{} is {}, but has to be from {} to {}", what, word, least, most));
-    return value;
+    return *value;
 }
 
 std::vector<std::string> split_words(std::string_view line)

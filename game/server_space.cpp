@@ -5,7 +5,6 @@
 #include "formats/entities.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 namespace vkpt::game {
 
@@ -35,11 +34,10 @@ BrushEntities read_brush_entities(std::string_view entity_text)
     BrushEntities result;
     try {
         for (const formats::EntityText& entity : formats::parse_entities(entity_text, "the map's entities")) {
-            const std::string model(entity.get("model"));
-            int number = 0;
-            if (model.size() < 2 || model[0] != '*'
-                || std::from_chars(model.data() + 1, model.data() + model.size(), number).ec != std::errc())
+            const std::optional<size_t> model = formats::brush_model_index(entity.get("model"));
+            if (!model)
                 continue;
+            const int number = int(*model);
             if (std::ranges::find(giving_way, entity.class_name()) != std::end(giving_way))
                 result.doors.push_back(number);
             else if (entity.class_name() == "func_plat" && entity.get("targetname").empty())

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/cvars.hpp"
 
+#include "common/numbers.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -54,8 +54,8 @@ int engine_flags(CvarKeep keep)
     return engine::CVAR_NONE;
 }
 
-// All of `text` must be one finite number, spaces around it aside.
-std::optional<double> parse_number(std::string_view text)
+// All of `text` must be one finite number, spaces around it and a plus sign aside.
+std::optional<double> parse_value(std::string_view text)
 {
     const size_t first = text.find_first_not_of(" \t");
     if (first == std::string_view::npos)
@@ -63,11 +63,7 @@ std::optional<double> parse_number(std::string_view text)
     text = text.substr(first, text.find_last_not_of(" \t") - first + 1);
     if (text.front() == '+')
         text.remove_prefix(1);
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
-        return std::nullopt;
-    return number;
+    return parse_number<double>(text);
 }
 
 std::string number_text(double number) { return fmt::format("{}", float(number)); }
@@ -75,7 +71,7 @@ std::string number_text(double number) { return fmt::format("{}", float(number))
 // What the row makes of `text`: the same text where it is valid.
 std::string correct_number(const CvarRow& row, const std::string& text)
 {
-    const std::optional<double> number = parse_number(text);
+    const std::optional<double> number = parse_value(text);
     if (!number) {
         engine::print("ref_vkpt: {} \"{}\" is not a number; range {} to {}, using the default {}", row.name, text,
             row.lowest, row.highest, row.initial);
@@ -124,7 +120,7 @@ const std::string& read_text(size_t index)
     return state.texts[index].emplace(std::move(text));
 }
 
-double read_number(size_t index) { return parse_number(read_text(index)).value_or(0); }
+double read_number(size_t index) { return parse_value(read_text(index)).value_or(0); }
 
 void read_field(size_t index, int& field) { field = int(std::clamp(read_number(index), -2147483648.0, 2147483647.0)); }
 void read_field(size_t index, float& field) { field = float(read_number(index)); }

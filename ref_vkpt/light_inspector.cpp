@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/light_inspector.hpp"
 
+#include "common/numbers.hpp"
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/module.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <map>
@@ -83,9 +83,8 @@ constexpr const char* heading = "  #  chosen   light  units  what it is";
 // 1, 2 ...: of the rows; 0: no such row.
 size_t read_number(std::string_view text, size_t count)
 {
-    size_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && end == text.data() + text.size() && number <= count ? number : 0;
+    const size_t number = parse_number<size_t>(text).value_or(0);
+    return number <= count ? number : 0;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/photo_commands.hpp"
 
+#include "common/numbers.hpp"
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
 #include "ref_vkpt/engine/engine.hpp"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fmt/ranges.h>
 #include <vector>
@@ -146,13 +146,6 @@ void print_state(const Module& m)
         camera.eye.x, camera.eye.y, camera.eye.z, camera.angles.x, camera.angles.y, camera.angles.z, camera.fov,
         camera.exposure, lens.pt_aperture, lens.pt_focus, m.photo.follows_focus() ? " (auto)" : "",
         projection_names()[size_t(camera.projection)], m.view().accumulated_frames);
-}
-
-template <class Number> std::optional<Number> parse_number(std::string_view text)
-{
-    Number number {};
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && rest == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
 void set_lens(Module& m, const char* cvar, float low, float high)

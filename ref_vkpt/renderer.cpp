@@ -360,12 +360,11 @@ static bool wants_settled_frames()
     return cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
 }
 
-// GPUs' shaders are compiled for settings that change rarely. The CPU driver takes seconds to compile, and reading them
-// costs it little. Shaders that are edited are compiled often enough.
+// Shaders that are edited are compiled often enough.
 static void fix_choices(Module& m)
 {
     const shared::ShaderCvars cvars = cvars::shader_values();
-    if (!m.graphics.device.is_cpu && !m.shader_reload.is_on())
+    if (m.graphics.device.traits.specializes_pipelines && !m.shader_reload.is_on())
         m.graphics.pipelines.fix(
             { cvars.pt_light_weight, cvars.pt_light_point, cvars.pt_bounces }, wants_settled_frames());
 }

@@ -7,10 +7,7 @@
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
 . "$root/scripts/lib/common.sh"
-check=no
-[[ ${1:-} == --check ]] && { check=yes; shift; }
-top=${1:-$root}
-[[ -d $top ]] || die_usage "$top is not a folder"
+read_check_options "$@"
 wanted=14
 program=clang-format-$wanted
 has "$program" || program=clang-format

@@ -2,6 +2,7 @@
 #include "client/analysis/display.hpp"
 #include "client/analysis/linear_image.hpp"
 #include "client/host/errors.hpp"
+#include "common/numbers.hpp"
 #include "formats/byte_reader.hpp"
 #include "formats/image.hpp"
 
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
@@ -97,11 +97,10 @@ public:
     template <class Number> Number number()
     {
         const std::string_view text = word();
-        Number value {};
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size())
+        const std::optional<Number> value = parse_number<Number>(text);
+        if (!value)
             fail(path_, fmt::format("\"{}\" in the header is no number", text.substr(0, 20)));
-        return value;
+        return *value;
     }
     size_t end() const { return at_; }
 

@@ -3,6 +3,7 @@
 #include "client/compare/report.hpp"
 #include "client/compare/sheet.hpp"
 #include "client/host/errors.hpp"
+#include "client/host/name_list.hpp"
 #include "client/options.hpp"
 #include "client/output_folder.hpp"
 
@@ -75,13 +76,6 @@ std::string make_command(const CompareOptions& options)
     return command + " -o " + options.output;
 }
 
-void use_all_samplers(VariantLists& lists, const ModuleInfo& module)
-{
-    lists.samplers.clear();
-    for (const char* const* name = module.light_samplers; name && *name; name++)
-        lists.samplers.emplace_back(*name);
-}
-
 // Scene by scene; the plan needs to know what the module has, which the first one's stage can tell.
 void measure_all(const CompareOptions& options, Report& report)
 {
@@ -96,7 +90,7 @@ void measure_all(const CompareOptions& options, Report& report)
     } else {
         VariantLists lists = options.lists;
         if (options.has_all_samplers)
-            use_all_samplers(lists, stage->info());
+            lists.samplers = list_names(stage->info().light_samplers);
         for (FigureScene& scene : plan.scenes)
             scene.variants = make_variants(lists, stage->info());
     }

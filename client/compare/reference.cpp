@@ -4,6 +4,7 @@
 #include "shaders/shared/light_sampler.h"
 
 #include "client/host/errors.hpp"
+#include "client/host/name_list.hpp"
 #include "client/host/output_file.hpp"
 #include "client/host/private_folder.hpp"
 #include "common/hash.hpp"
@@ -37,10 +38,9 @@ struct Converged {
 std::string choose_sampler(const std::string& wanted, const ModuleInfo& module)
 {
     std::string first;
-    for (const char* const* name = module.light_samplers; name && *name; name++) {
-        const std::string_view known = *name;
+    for (const std::string& known : list_names(module.light_samplers)) {
         if (known == wanted || (wanted.empty() && known == "subset_mis"))
-            return *name;
+            return known;
         if (first.empty() && !(find_sampler_traits(module, known) & shared::SAMPLER_BIASED))
             first = known;
     }

@@ -2,6 +2,7 @@
 #include "client/compare/variant.hpp"
 
 #include "client/host/errors.hpp"
+#include "client/host/name_list.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
 #include "shaders/shared/light_sampler.h"
 
@@ -15,14 +16,6 @@ namespace vkpt::client {
 namespace {
 
 constexpr int longest_subset = 64;
-
-std::vector<std::string> list_of(const char* const* names)
-{
-    std::vector<std::string> list;
-    for (; names && *names; names++)
-        list.emplace_back(*names);
-    return list;
-}
 
 // "a|b|c" of the cvar's row.
 std::vector<std::string> choices_of(std::string_view cvar)
@@ -59,9 +52,9 @@ Variant make_variant(const std::string& sampler, std::optional<int> subset, cons
 
 std::vector<Variant> make_variants(const VariantLists& lists, const ModuleInfo& module)
 {
-    check_names("--samplers", lists.samplers, list_of(module.light_samplers));
+    check_names("--samplers", lists.samplers, list_names(module.light_samplers));
     check_names("--noise", lists.noises, choices_of("pt_noise"));
-    check_names("--denoisers", lists.denoisers, list_of(module.denoisers));
+    check_names("--denoisers", lists.denoisers, list_names(module.denoisers));
     for (const int subset : lists.subsets)
         if (subset < 1 || subset > longest_subset)
             throw WrongUse(fmt::format("--subsets {}: 1 to {}", subset, longest_subset));

@@ -3,7 +3,7 @@
 #include "client/film/encoder.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/output_file.hpp"
-#include "client/host/temporary_folder.hpp"
+#include "client/host/session_folder.hpp"
 #include "client/host/trace_frames.hpp"
 #include "client/options.hpp"
 #include "client/progress.hpp"
@@ -104,7 +104,7 @@ private:
 
     std::filesystem::path folder_;
     std::optional<OutputFile> file_;
-    std::optional<TemporaryFolder> temporary_;
+    std::optional<SessionFolder> temporary_;
     std::optional<Encoder> encoder_;
     int count_ = 0;
 };

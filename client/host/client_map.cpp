@@ -4,7 +4,6 @@
 #include "client/host/errors.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -106,11 +105,8 @@ void ClientMap::place_brush_models()
     };
     std::vector<Candidate> candidates;
     for (const formats::EntityText& text : entities_) {
-        const std::string_view model = text.get("model");
-        size_t index = 0;
-        if (!model.starts_with('*')
-            || std::from_chars(model.data() + 1, model.data() + model.size(), index).ec != std::errc() || index == 0
-            || index >= models_.size() || !models_[index])
+        const size_t index = formats::brush_model_index(text.get("model")).value_or(0);
+        if (index == 0 || index >= models_.size() || !models_[index])
             continue;
         const formats::BspModel& box = bsp_.models[index];
         const auto placement = place_brush_model(text, box, entities_);

@@ -3,8 +3,8 @@
 
 #include "client/host/errors.hpp"
 #include "client/host/trace_frames.hpp"
+#include "common/numbers.hpp"
 
-#include <charconv>
 #include <fmt/format.h>
 #include <utility>
 
@@ -43,14 +43,13 @@ private:
 
 int parse_frame(std::string_view text, std::string_view whole)
 {
-    int frame = 0;
     if (text.empty())
-        return frame;
-    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), frame);
-    if (error != std::errc() || end != text.data() + text.size() || frame < 0)
+        return 0;
+    const std::optional<int> frame = parse_number<int>(text.substr(1));
+    if (!frame || *frame < 0)
         throw WrongUse(fmt::format(
             "\"{}\": \"{}\" is not a frame number; write FILE.rtrace@0 for the first", whole, text.substr(1)));
-    return frame;
+    return *frame;
 }
 
 } // namespace

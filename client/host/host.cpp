@@ -80,7 +80,7 @@ void Host::choose_write_folder()
     const PrivateFolder cache = open_cache_folder();
     if (cache.path.empty()) {
         std::fprintf(stderr, "vkpt: nothing is cached for the next run: %s\n", cache.problem.c_str());
-        temporary_folder_ = std::make_unique<TemporaryFolder>("vkpt-run-");
+        temporary_folder_ = std::make_unique<SessionFolder>("vkpt-run-");
     }
     write_folder_ = temporary_folder_ ? temporary_folder_->path() : cache.path;
     write_folder_text_ = write_folder_.string();

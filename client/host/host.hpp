@@ -4,7 +4,7 @@
 
 #include "client/host/cvar_store.hpp"
 #include "client/host/file_system.hpp"
-#include "client/host/temporary_folder.hpp"
+#include "client/host/session_folder.hpp"
 #include "ref_vkpt/extension.hpp"
 
 #include <deque>
@@ -74,7 +74,7 @@ private:
     std::string pending_text_;
     std::deque<std::string> console_;
     std::string console_line_; // not ended yet
-    std::unique_ptr<TemporaryFolder> temporary_folder_; // where there is no place for caches
+    std::unique_ptr<SessionFolder> temporary_folder_; // where there is no place for caches
     std::filesystem::path write_folder_;
     std::string write_folder_text_;
     int screenshots_ = 0;

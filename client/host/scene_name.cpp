@@ -2,8 +2,8 @@
 #include "client/host/scene_name.hpp"
 
 #include "client/host/errors.hpp"
+#include "common/numbers.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <vector>
@@ -17,12 +17,11 @@ std::vector<float> parse_numbers(std::string_view text, std::string_view whole)
     std::vector<float> numbers;
     while (true) {
         const std::string_view part = text.substr(0, text.find(','));
-        float number = 0;
-        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-        if (error != std::errc() || end != part.data() + part.size() || !std::isfinite(number))
+        const std::optional<float> number = parse_number<float>(part);
+        if (!number)
             throw WrongUse(
                 fmt::format("\"{}\": \"{}\" in the camera is not a number; write @x,y,z,pitch,yaw", whole, part));
-        numbers.push_back(number);
+        numbers.push_back(*number);
         if (part.size() == text.size())
             return numbers;
         text.remove_prefix(part.size() + 1);

@@ -3,7 +3,7 @@
 // afterwards.
 #pragma once
 
-#include "client/host/temporary_folder.hpp"
+#include "client/host/session_folder.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -45,7 +45,7 @@ private:
     void watch(int process, const EngineRunOptions& options) const;
     [[noreturn]] void fail(const std::string& reason) const;
 
-    TemporaryFolder temporary_folder_;
+    SessionFolder temporary_folder_;
     std::filesystem::path folder_, home_, data_, trace_, engine_;
     User user_;
     bool changes_user_ = false;

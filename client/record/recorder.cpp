@@ -4,11 +4,11 @@
 #include "common/hash.hpp"
 #include "common/trace/view_copy.hpp"
 #include "formats/bsp.hpp"
+#include "formats/entities.hpp"
 #include "formats/model.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 
 namespace vkpt {
@@ -151,11 +151,8 @@ void Recorder::begin_registration(std::string_view map)
 
 bool Recorder::is_usable_model(const std::string& name)
 {
-    if (name.starts_with('*')) {
-        size_t index = 0;
-        const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), index);
-        return error == std::errc() && index < brush_models_;
-    }
+    if (name.starts_with('*'))
+        return formats::brush_model_index(name).value_or(brush_models_) < brush_models_;
     if (name.ends_with(".bsp"))
         return brush_models_ > 0;
     const auto file = load_file(name);

@@ -5,6 +5,7 @@
 #include "client/bench/collected_times.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/frame_source.hpp"
+#include "client/host/name_list.hpp"
 #include "common/quantile.hpp"
 
 #include <chrono>
@@ -66,14 +67,6 @@ Json read_ray_times(const std::vector<std::string>& lines)
             for (std::sregex_iterator found(line.begin(), line.end(), time), end; found != end; ++found)
                 times[(*found)[1]] = std::stod((*found)[2]);
     return times;
-}
-
-Json list_names(const char* const* names)
-{
-    Json list = Json::array();
-    for (; names && *names; names++)
-        list.push_back(*names);
-    return list;
 }
 
 } // namespace

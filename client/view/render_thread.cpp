@@ -2,6 +2,7 @@
 #include "client/view/render_thread.hpp"
 
 #include "client/host/errors.hpp"
+#include "client/host/name_list.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
 
 #include <algorithm>
@@ -14,14 +15,6 @@ namespace vkpt::client::view {
 namespace {
 
 constexpr size_t max_inspected_lights = 4096;
-
-std::vector<std::string> copy_names(const char* const* names)
-{
-    std::vector<std::string> result;
-    for (; *names; names++)
-        result.emplace_back(*names);
-    return result;
-}
 
 Settings read_settings(Host& host)
 {
@@ -38,8 +31,8 @@ SceneFacts find_facts(Host& host, const FrameSource& source)
     SceneFacts facts;
     facts.device = info.device;
     facts.driver = info.driver;
-    facts.light_samplers = copy_names(info.light_samplers);
-    facts.backends = copy_names(info.trace_backends);
+    facts.light_samplers = list_names(info.light_samplers);
+    facts.backends = list_names(info.trace_backends);
     facts.settings = read_settings(host);
     facts.frame_count = source.frame_count();
     facts.first_frame = source.chosen_frame();

@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/air.hpp"
 
 #include "common/colour.hpp"
+#include "common/numbers.hpp"
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/lights/media.hpp"
@@ -38,10 +39,8 @@ uint32_t find_eye_medium(const formats::Bsp& bsp, glm::vec3 eye)
 glm::vec3 read_fog_colour(const std::string& text)
 {
     static std::string refused;
-    glm::vec3 colour(0.5f);
-    if (std::sscanf(text.c_str(), "%f %f %f", &colour.x, &colour.y, &colour.z) == 3
-        && std::isfinite(glm::dot(colour, colour)))
-        return glm::max(colour, glm::vec3(0));
+    if (const auto rgb = parse_numbers<float, 3>(text))
+        return glm::max(glm::vec3((*rgb)[0], (*rgb)[1], (*rgb)[2]), glm::vec3(0));
     if (refused != text)
         engine::print(
             "ref_vkpt: pt_fog_color \"{}\" is not three numbers, such as \"0.5 0.55 0.6\": grey is taken", text);

@@ -27,7 +27,9 @@ glm::uvec2 choose_bounce_block(const Device& device)
     const std::string& pixels = cvars::values().pt_bounce_pixels;
     if (cvars::values().pt_bounces == 0 || pixels == "all")
         return glm::uvec2(1); // without bounces there is next to nothing to share
-    return { 2, pixels == "quarter" || (pixels == "auto" && device.is_cpu) ? 2 : 1 };
+    if (pixels == "auto")
+        return { 2, device.traits.bounce_block_rows };
+    return { 2, pixels == "quarter" ? 2 : 1 };
 }
 
 PassWork stratum_work(const shared::FrameUniforms& uniforms)

@@ -28,9 +28,6 @@ static_assert(shared::LIGHT_LEVEL_LANES == shared::PIXEL_GROUP_SIZE);
 
 constexpr VkAccessFlags shader_access = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
 
-// Along a ray's footprint in an image. CPU drivers have no texture units.
-int max_image_taps(bool is_cpu) { return std::clamp(cvars::values().r_anisotropic, 1, is_cpu ? 4 : 16); }
-
 } // namespace
 
 Frame::Frame(Graphics& graphics, Workers& workers)
@@ -159,7 +156,7 @@ shared::FrameUniforms Frame::make_uniforms(View& view, const Viewpoint& from, gl
     uniforms.cvars.pt_exposure_bias += from.exposure_stops;
     uniforms.cvars.pt_projection = from.projection;
     uniforms.cvars.pt_water_warp *= from.is_photo ? 0.0f : 1.0f;
-    uniforms.texture_taps = float(max_image_taps(graphics_.device.is_cpu));
+    uniforms.texture_taps = float(std::clamp(cvars.r_anisotropic, 1, graphics_.device.traits.max_texture_taps));
     uniforms.flags = (from.underwater ? shared::FRAME_UNDERWATER : 0)
         | (cvars.r_fullbright != 0 ? shared::FRAME_FULLBRIGHT : 0)
         | (cvars.r_lightmap != 0 ? shared::FRAME_LIGHT_ALONE : 0)

@@ -20,7 +20,7 @@ VkDeviceSize place_of(uint32_t frame_slot, uint32_t pass)
 
 PassMarkers::PassMarkers(const Gpu& gpu)
 {
-    if (gpu.device.is_cpu)
+    if (!gpu.device.traits.can_be_lost)
         return;
     marks_ = Buffer(gpu, place_of(frames_in_flight, 0), BufferHome::readback, MemoryKind::staging, "pass marks");
     std::memset(marks_.mapped(), 0, marks_.size());

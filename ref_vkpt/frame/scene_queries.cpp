@@ -95,9 +95,8 @@ void SceneQueries::trace_chunk(
             = (uniforms.flags & shared::FRAME_ALPHA_TEST) | (request.visibility ? shared::FRAME_PROBE_VISIBILITY : 0);
         offset = frame.write_uniforms(uniforms);
     });
-    // On GPUs by their own clock: the way there and back takes as long as some thousand rays.
     std::optional<DeviceStopwatch> stopwatch;
-    if (!graphics.device.is_cpu && graphics.device.timestamp_bits > 0)
+    if (graphics.device.traits.has_distant_clock && graphics.device.timestamp_bits > 0)
         stopwatch.emplace(graphics.device);
     const auto run = [&](uint32_t rounds) {
         graphics.run_once([&](VkCommandBuffer commands) {

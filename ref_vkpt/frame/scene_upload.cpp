@@ -238,8 +238,7 @@ void SceneUpload::write_structures(const Job& job, const MovingTarget& target)
 {
     const SceneSnapshot& scene = job.scene;
     const CpuTimer timer("cpu bvh");
-    // Only Mesa's CPU driver depends on the order, and sorting costs time every frame.
-    const bool sorts = graphics_.device.is_cpu;
+    const bool sorts = graphics_.device.traits.sorts_triangles;
     const bool has_world = scene.world && job.gpu_world;
     if (has_world && !structures_.holds_world(job.gpu_world->version)) {
         const MapGeometry& map = scene.world->models[0];

@@ -14,7 +14,7 @@ namespace vkpt {
 namespace {
 
 constexpr std::chrono::milliseconds watch_interval { 300 };
-constexpr size_t max_shown_lines = 12, max_shown_columns = 100;
+constexpr size_t max_shown_lines = 12;
 
 } // namespace
 
@@ -83,7 +83,7 @@ void ShaderReload::tell_errors()
             if (!line.empty() && told.insert(line).second) {
                 engine::print("ref_vkpt: {}", line);
                 if (error_lines_.size() < max_shown_lines)
-                    error_lines_.push_back(line.substr(0, max_shown_columns));
+                    error_lines_.push_back(line);
             }
     }
 }

@@ -86,7 +86,7 @@ ShaderWarmUp::ShaderWarmUp(const Device& device, Pipelines& pipelines, std::vect
     , shaders_(std::move(shaders))
 {
     const std::string directory = device.driver_cache_directory();
-    if (device.is_cpu && !directory.empty() && !std::getenv("MESA_SHADER_CACHE_DISABLE")) {
+    if (device.traits.keeps_compiled_shaders && !directory.empty() && !std::getenv("MESA_SHADER_CACHE_DISABLE")) {
         compiled_file_ = directory + "/compiled.txt";
         read_compiled();
     }

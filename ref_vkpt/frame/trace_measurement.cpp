@@ -13,13 +13,12 @@ namespace {
 struct Grid {
     uint32_t width, height, rounds;
 };
-// A CPU does one tile after the other. GPUs need many to be busy: a million rays, as long as the screen buffers that
-// there are have room for them.
+// A million on GPUs, as long as the screen buffers that there are have room for them.
 constexpr Grid cpu_grid { 320, 184, 5 }, gpu_grid { 1280, 800, 2 }, small_gpu_grid { 640, 400, 4 };
 
 Grid choose_grid(const SceneQueries& queries)
 {
-    if (queries.graphics.device.is_cpu)
+    if (!queries.graphics.device.traits.traces_in_parallel)
         return cpu_grid;
     return queries.rays_at_once() >= gpu_grid.width * gpu_grid.height ? gpu_grid : small_gpu_grid;
 }

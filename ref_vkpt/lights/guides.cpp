@@ -2,6 +2,7 @@
 #include "ref_vkpt/lights/guides.hpp"
 
 #include "common/colour.hpp"
+#include "shaders/shared/octahedral.h"
 
 #include <algorithm>
 #include <bit>
@@ -179,7 +180,7 @@ private:
         // The length of the octahedron's normal.
         const float length = 1 / (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
         const uint32_t power = glm::packHalf1x16(std::min(block.power * cell_area() * power_scale / length, 6e4f));
-        return { block.centre / block.power, glm::packSnorm2x8(fold_normal(normal)) | power << 16 };
+        return { block.centre / block.power, glm::packSnorm2x8(shared::direction_to_octahedron(normal)) | power << 16 };
     }
 
     // The number stays 0 where there are too many.
@@ -203,14 +204,6 @@ private:
             values_[cell.first_value].last |= block.number << shared::CACHE_GUIDE_SHIFT;
         }
         result_.blocks.push_back(out);
-    }
-
-    // Octahedral.
-    static glm::vec2 fold_normal(glm::vec3 n)
-    {
-        n /= std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-        const glm::vec2 folded(std::copysign(1 - std::abs(n.y), n.x), std::copysign(1 - std::abs(n.x), n.y));
-        return n.z < 0 ? folded : glm::vec2(n.x, n.y);
     }
 
     const GuideSources& sources_;

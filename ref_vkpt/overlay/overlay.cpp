@@ -2,6 +2,7 @@
 #include "ref_vkpt/overlay/overlay.hpp"
 
 #include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/overlay/wrap_line.hpp"
 #include "ref_vkpt/preset_command.hpp"
 
 #include <fmt/format.h>
@@ -33,11 +34,12 @@ void Overlay::obey_keys(double frame_milliseconds)
     choose_key_user();
 }
 
-static std::vector<PanelLine> describe_shader_errors(const std::vector<std::string>& errors)
+static std::vector<PanelLine> describe_shader_errors(const std::vector<std::string>& errors, size_t columns)
 {
     std::vector<PanelLine> lines;
     for (const std::string& error : errors)
-        lines.push_back({ error, lines.empty() });
+        for (const std::string& part : wrap_line(error, columns))
+            lines.push_back({ part, &error == &errors.front() });
     return lines;
 }
 
@@ -67,7 +69,8 @@ void Overlay::draw(Draw2d& draw2d, const OverlayFacts& facts)
     if (menu_.is_open())
         draw_panel(draw2d, facts.window, PanelSide::left, menu_.describe(facts.frame_milliseconds));
     else if (!facts.shader_errors->empty())
-        draw_panel(draw2d, facts.window, PanelSide::left, describe_shader_errors(*facts.shader_errors));
+        draw_panel(draw2d, facts.window, PanelSide::left,
+            describe_shader_errors(*facts.shader_errors, panel_columns(facts.window)));
     else
         draw_panel(draw2d, facts.window, PanelSide::left, facts.photo.empty() ? facts.lights : facts.photo);
 }

@@ -14,6 +14,12 @@ constexpr int other_colour = 128; // the font's second half
 
 float panel_scale(int window_height) { return float(std::max(1, window_height / 360)); }
 
+// Beside them there is a margin of two on either side: before the ground and within it.
+size_t panel_columns(VkExtent2D window)
+{
+    return size_t(std::max(0, int(float(window.width) / (character * panel_scale(int(window.height)))) - 4));
+}
+
 void draw_panel(Draw2d& draw2d, VkExtent2D window, PanelSide side, std::span<const PanelLine> lines)
 {
     if (lines.empty())

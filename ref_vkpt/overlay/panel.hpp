@@ -20,6 +20,9 @@ enum class PanelSide { left, right };
 // How large a character of 8 pixels is shown in a window so high: the menus' whole scales.
 float panel_scale(int window_height);
 
+// How many characters of a line there is room for.
+size_t panel_columns(VkExtent2D window);
+
 void draw_panel(Draw2d& draw2d, VkExtent2D window, PanelSide side, std::span<const PanelLine> lines);
 
 } // namespace vkpt

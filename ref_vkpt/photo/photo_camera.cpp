@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/photo/photo_camera.hpp"
 
+#include "common/numbers.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
 #include "ref_vkpt/scene/projection.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -114,10 +114,10 @@ std::string obey_words(PhotoCamera& camera, std::string_view word, std::span<con
         return fmt::format("usage: pt_photo {}", usage);
     Numbers numbers {};
     for (size_t i = 0; i < given.size(); i++) {
-        const char* const end = given[i].data() + given[i].size();
-        const auto [rest, error] = std::from_chars(given[i].data(), end, numbers[i]);
-        if (error != std::errc() || rest != end || !std::isfinite(numbers[i]))
+        const auto number = parse_number<Numbers::value_type>(given[i]);
+        if (!number)
             return fmt::format("\"{}\" is no number; usage: pt_photo {}", given[i], usage);
+        numbers[i] = *number;
     }
     known->obey(camera, numbers);
     keep_in_limits(camera);

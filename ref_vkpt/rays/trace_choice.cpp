@@ -74,9 +74,7 @@ TraceBackend TraceChoice::choose_automatically()
         say(measured->fastest, fmt::format("measured on this device: {}", measured->figures));
         return measured->fastest;
     }
-    // Our own trees are 3 to 5 times as fast as Mesa's ray query (docs/benchmarks.md), and measuring it costs seconds
-    // of compilation before the first image.
-    if (device_.is_cpu) {
+    if (!device_.traits.measures_traces) {
         say(TraceBackend::software, "the fastest on CPU drivers; use pt_trace_measure to check");
         return TraceBackend::software;
     }
@@ -87,9 +85,8 @@ TraceBackend TraceChoice::choose_automatically()
 void TraceChoice::measure(const Measure& measure)
 {
     wants_measurement_ = false;
-    const int turns = device_.is_cpu ? 1 : 5; // whose measurements take seconds
     std::vector<std::vector<double>> times(offered_.size());
-    for (int turn = 0; turn < turns; turn++)
+    for (int turn = 0; turn < device_.traits.trace_measurements; turn++)
         for (size_t i = 0; i < offered_.size(); i++)
             times[i].push_back(measure(offered_[i]));
     const std::optional<TraceRanking> ranking = rank_traces(times);

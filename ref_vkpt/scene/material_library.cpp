@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/material_library.hpp"
 
+#include "common/numbers.hpp"
+
 #include <algorithm>
-#include <charconv>
 
 namespace vkpt {
 
@@ -13,10 +14,7 @@ using Attributes = std::map<std::string, std::string, std::less<>>;
 float number_of(const Attributes& attributes, std::string_view name, float fallback)
 {
     const auto found = attributes.find(name);
-    float value = fallback;
-    if (found != attributes.end()) // a number: the reader has seen to it
-        std::from_chars(found->second.data(), found->second.data() + found->second.size(), value);
-    return value;
+    return found != attributes.end() ? parse_number<float>(found->second).value_or(fallback) : fallback;
 }
 
 std::string word_of(const Attributes& attributes, std::string_view name)

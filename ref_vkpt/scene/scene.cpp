@@ -14,7 +14,6 @@
 #include "ref_vkpt/scene/entity_geometry.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -240,11 +239,10 @@ std::optional<Model> Scene::load_model(const std::string& name) const
     model.name = name;
     model.light = formats::find_light_model(name);
     if (name[0] == '*') {
-        size_t index = 0;
-        const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), index);
-        if (error != std::errc() || !world_ || index >= world_->models.size())
+        const std::optional<size_t> index = formats::brush_model_index(name);
+        if (!index || !world_ || *index >= world_->models.size())
             return std::nullopt;
-        model.shape = Model::Brush { index };
+        model.shape = Model::Brush { *index };
         return model;
     }
     if (ends_with(name, ".bsp")) {

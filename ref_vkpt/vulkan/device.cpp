@@ -3,7 +3,6 @@
 
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/errors.hpp"
-#include "ref_vkpt/vulkan/lavapipe.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -11,7 +10,6 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <optional>
-#include <sys/resource.h>
 
 namespace vkpt {
 
@@ -246,68 +244,7 @@ Candidate examine(VkPhysicalDevice device, const std::string& name_part)
     return candidate;
 }
 
-// With less, the CPU driver's compiler crashes instead of reporting an error.
-constexpr rlim_t min_address_space = rlim_t(2) << 30;
-
-void check_address_space()
-{
-    rlimit limit {};
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur < min_address_space)
-        throw FatalError(
-            fmt::format("this process may take {} MiB of address space, and Vulkan drivers need {}: lift the "
-                        "limit with \"ulimit -v unlimited\" and start again",
-                limit.rlim_cur >> 20, min_address_space >> 20));
-}
-
-// Sets an environment variable unless the user did, until the end of life.
-class ScopedVariable {
-public:
-    ScopedVariable(const char* name, const std::string& value)
-        : name_(std::getenv(name) ? nullptr : name)
-    {
-        if (name_)
-            setenv(name_, value.c_str(), 1);
-    }
-    ScopedVariable(const ScopedVariable&) = delete;
-    ScopedVariable& operator=(const ScopedVariable&) = delete;
-    ~ScopedVariable()
-    {
-        if (name_)
-            unsetenv(name_);
-    }
-
-private:
-    const char* name_;
-};
-
 } // namespace
-
-// Mesa's CPU driver runs our compute BVH up to twice as fast with 512-bit vectors, and its disk cache ignores the
-// width: code of one width, found by a program that runs with another, crashes it. So the width is changed only
-// together with a cache of our own. The driver reads the width again and again, so both stay as long as the device.
-// Then they go: Mesa's OpenGL, which an engine that goes on with another renderer loads into the same process, cannot
-// draw with such vectors.
-class CpuDriverSettings {
-public:
-    explicit CpuDriverSettings(const std::string& cache_directory)
-    {
-        if (cache_directory.empty() || std::getenv("MESA_SHADER_CACHE_DIR"))
-            return;
-#if defined(__x86_64__)
-        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw"))
-            width_.emplace("LP_NATIVE_VECTOR_WIDTH", "512");
-#endif
-        const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
-        directory_ = fmt::format("{}/driver-{}", cache_directory, width ? width : "default");
-        cache_.emplace("MESA_SHADER_CACHE_DIR", directory_);
-    }
-
-    const std::string& directory() const { return directory_; }
-
-private:
-    std::string directory_; // empty: not ours
-    std::optional<ScopedVariable> width_, cache_;
-};
 
 void check_vulkan(VkResult result, const char* call)
 {
@@ -342,7 +279,7 @@ Device::Device(const DeviceSettings& settings)
     try {
         create_instance(settings);
         choose_physical_device(settings);
-        reads_texels_ = choose_texels(settings.table_reads);
+        reads_texels_ = choose_texels(properties, settings.table_reads);
         create_logical_device();
     } catch (...) {
         destroy();
@@ -359,7 +296,7 @@ Device::Device(Twin, const Device& original)
     , memory(original.memory)
     , driver(original.driver)
     , identity(original.identity)
-    , is_cpu(original.is_cpu)
+    , traits(original.traits)
     , maps_all_memory(original.maps_all_memory)
     , timestamp_bits(original.timestamp_bits)
     , has_debug_utils(original.has_debug_utils)
@@ -493,22 +430,11 @@ void Device::read_queue_and_memory()
     driver = fmt::format("{} {}", v12.driverName, v12.driverInfo);
     max_textures = std::min(
         v12.maxPerStageDescriptorUpdateAfterBindSampledImages, v12.maxDescriptorSetUpdateAfterBindSampledImages);
-    is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    traits = find_traits(properties);
     timestamp_bits = queue_families(physical)[queue_family].timestampValidBits;
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
     maps_all_memory = vkpt::maps_all_memory(memory);
     identity = identify_driver(physical);
-}
-
-// CPU drivers load a texel lane by lane, and make gathers of what is read by address: which is quicker is the
-// processor's matter (docs/notes/cpu-driver.md).
-bool Device::choose_texels(TableReads wanted) const
-{
-    constexpr uint32_t min_texels = 1u << 27; // tables may grow to so many
-    constexpr double slow_gathers = 3;
-    if (!is_cpu || properties.limits.maxTexelBufferElements < min_texels)
-        return false;
-    return wanted == TableReads::automatic ? measure_gathers() > slow_gathers : wanted == TableReads::texels;
 }
 
 // Asks for the device's own ray tracing where it has it, and notes that in it.

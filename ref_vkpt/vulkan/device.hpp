@@ -5,6 +5,7 @@
 #include "ref_vkpt/files/pipeline_cache_file.hpp"
 #include "ref_vkpt/vulkan/device_choice.hpp"
 #include "ref_vkpt/vulkan/functions.hpp"
+#include "ref_vkpt/vulkan/lavapipe.hpp"
 #include "ref_vkpt/vulkan/window.hpp"
 
 #include <cstdint>
@@ -22,10 +23,6 @@ inline constexpr const char* memory_remedy
 void check_vulkan(VkResult result, const char* call);
 #define VKPT_CHECK(call) ::vkpt::check_vulkan((call), #call)
 
-// How shaders read tables and screen buffers, in the order of pt_table_reads. GPUs read by address, whatever is asked
-// for.
-enum class TableReads { automatic, texels, address };
-
 struct DeviceSettings {
     std::string name_part; // empty: the best device
     bool validation = false;
@@ -35,8 +32,6 @@ struct DeviceSettings {
     TableReads table_reads = TableReads::automatic;
     std::string cache_directory; // for the driver's shader cache; empty: the driver's own place
 };
-
-class CpuDriverSettings;
 
 class Device {
 public:
@@ -59,7 +54,7 @@ public:
     VkPhysicalDeviceMemoryProperties memory {};
     std::string driver;
     DriverIdentity identity;
-    bool is_cpu = false;
+    DeviceTraits traits;
     // Whether shaders read tables and screen buffers as texels (lib/device/texels.glsl) or by address.
     bool reads_texels() const { return reads_texels_; }
     const char* table_reads() const { return reads_texels_ ? "texels" : "address"; }
@@ -106,7 +101,6 @@ private:
     void choose_physical_device(const DeviceSettings& settings);
     void read_queue_and_memory();
     void create_logical_device();
-    bool choose_texels(TableReads wanted) const;
     void read_ray_tracing_limits();
     void destroy();
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/vulkan/shader_folder.hpp"
 
+#include "common/temporary_folder.hpp"
+
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -22,28 +23,6 @@ namespace {
 
 // The one include that is no file of the folder: it stands for the sampler that a shader is built with.
 constexpr std::string_view selected_sampler = "selected_light_sampler.glsl";
-
-class TemporaryFolder {
-public:
-    TemporaryFolder()
-    {
-        std::string name = (fs::temp_directory_path() / "ref_vkpt-shader-XXXXXX").string();
-        if (!mkdtemp(name.data()))
-            throw ShaderError(fmt::format("cannot make a folder {}: {}", name, std::strerror(errno)));
-        path_ = name;
-    }
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 std::string read_text(const fs::path& path)
 {
@@ -88,6 +67,15 @@ std::string included_name(std::string_view line)
         return {};
     line.remove_prefix(1);
     return std::string(line.substr(0, line.find_first_of("\">")));
+}
+
+TemporaryFolder make_folder()
+{
+    try {
+        return TemporaryFolder("ref_vkpt-shader-");
+    } catch (const fs::filesystem_error& error) {
+        throw ShaderError(error.what());
+    }
 }
 
 // Lines fit the screen without the folder before every name.
@@ -159,7 +147,7 @@ ShaderFolder::Files ShaderFolder::find_files(std::string_view shader)
 std::vector<uint32_t> ShaderFolder::compile(std::string_view shader) const
 {
     const ShaderBuild build = find_shader_build(shader);
-    const TemporaryFolder temporary;
+    const TemporaryFolder temporary = make_folder();
     const fs::path code = temporary.path() / "code.spv", log = temporary.path() / "log.txt";
     std::ofstream(temporary.path() / selected_sampler)
         << fmt::format("#include \"light_samplers/{}.glsl\"\n", build.light_sampler);

@@ -22,6 +22,15 @@ die_usage() {
     exit 2
 }
 
+# Reads "[--check] [FOLDER]" into `check` (yes or no) and `top` (default: the whole source tree).
+read_check_options() {
+    check=no
+    [[ ${1:-} == --check ]] && { check=yes; shift; }
+    # shellcheck disable=SC2034
+    top=${1:-$root}
+    [[ -d $top ]] || die_usage "$top is not a folder"
+}
+
 is_root() { [[ $(id -u) -eq 0 ]]; }
 has() { command -v "$1" >/dev/null 2>&1; }
 has_terminal() { [[ -t 0 && -t 1 ]]; }

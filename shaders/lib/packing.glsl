@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Numbers in a few bits each, unit vectors in 32 (octahedral map; Cigolle et al., JCGT 2014). CPU drivers' own
+// Numbers in a few bits each, unit vectors in 32. CPU drivers' own
 // functions for it convert lane by lane (whole_numbers.glsl): here numbers are added to one so great that they end up,
 // rounded, in its last bits.
 #ifndef VKPT_LIB_PACKING
 #define VKPT_LIB_PACKING
 
 #include "../shared/functions.h"
+#include "../shared/octahedral.h"
 #include "device/quick_floats.glsl"
 #include "device/whole_numbers.glsl"
 
@@ -45,24 +46,8 @@ uint pack_upper_halves(vec2 v)
 }
 vec2 unpack_upper_halves(uint bits) { return uintBitsToFloat(uvec2(bits << 16u, bits & 0xffff0000u)); }
 
-// The octahedron's lower half, folded out.
-vec2 fold_octahedron(vec2 p)
-{
-    return (1.0f - abs(vec2(p.y, p.x))) * mix(vec2(-1.0f), vec2(1.0f), greaterThanEqual(p, vec2(0.0f)));
-}
-
-uint pack_direction(vec3 direction)
-{
-    vec2 p = vec2(direction) / (abs(direction.x) + abs(direction.y) + abs(direction.z));
-    return pack_snorm2(direction.z < 0.0f ? fold_octahedron(p) : p);
-}
-
-vec3 unpack_direction(uint bits)
-{
-    vec2 p = unpack_snorm2(bits);
-    float z = 1.0f - abs(p.x) - abs(p.y);
-    return normalize(vec3(z < 0.0f ? fold_octahedron(p) : p, z));
-}
+uint pack_direction(vec3 direction) { return pack_snorm2(direction_to_octahedron(direction)); }
+vec3 unpack_direction(uint bits) { return octahedron_to_direction(unpack_snorm2(bits)); }
 
 // Light, and what else is never negative, in 16 bits: 6 of exponent and 10 of mantissa, from 7e-15, which stands for 0,
 // to 131,000; what is greater, infinite or NaN becomes the greatest. Half floats would reach only to 6e-5 and 65,504,

@@ -15,6 +15,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vector_relational.hpp>
+#define VKPT_INLINE inline
 #define INOUT(type) type&
 #define ROLLED_FOR for
 #define UNROLLED_FOR for
@@ -25,6 +26,7 @@
     }
 #else
 #extension GL_EXT_control_flow_attributes : require
+#define VKPT_INLINE
 #define INOUT(type) inout type
 #define ROLLED_FOR [[dont_unroll]] for
 #define UNROLLED_FOR [[unroll]] for

@@ -5,7 +5,7 @@
 #include "client/host/file_system.hpp"
 #include "client/host/output_file.hpp"
 #include "client/host/private_folder.hpp"
-#include "client/host/temporary_folder.hpp"
+#include "client/host/session_folder.hpp"
 #include "tests/client/run_program.hpp"
 
 #include <csignal>
@@ -333,7 +333,7 @@ TEST(OutputFile, LeavesNothingOnAFullDisk)
     EXPECT_EQ(folder.names(), std::vector<std::string> { "from" });
 }
 
-TEST(TemporaryFolder, VanishesHoweverItsOwnerEnds)
+TEST(SessionFolder, VanishesHoweverItsOwnerEnds)
 {
     for (const int signal : { 0, SIGTERM, SIGKILL }) {
         int ends[2];
@@ -341,7 +341,7 @@ TEST(TemporaryFolder, VanishesHoweverItsOwnerEnds)
         const pid_t child = fork();
         if (child == 0) {
             {
-                const TemporaryFolder folder("vkpt-test-");
+                const SessionFolder folder("vkpt-test-");
                 std::filesystem::create_directories(folder.path() / "a/b");
                 const std::string name = folder.path().string();
                 if (write(ends[1], name.data(), name.size()) < 0)

@@ -255,7 +255,7 @@ TEST_F(Replay, FitsAnotherSize)
     EXPECT_EQ(result.status, 0) << result.errors;
     EXPECT_EQ(calls_of(result),
         std::string(registration)
-            + "begin_frame 0\nrender_view 400 300 0 0 46 0 0 1\ndraw_picture 5 10 num_0 1 -1\n"
+            + "begin_frame 0\nrender_view 400 300 0 0 46 0 0 1\ndraw_pic 5 10 num_0 1 -1\n"
               "draw_character 15 20 65 0.5\ndraw_fill 0 295 400 5 7\nend_frame\nshutdown\n");
 }
 

@@ -18,36 +18,22 @@ namespace vkpt::tests {
 
 namespace fs = std::filesystem;
 
-ScratchFolder::ScratchFolder()
-{
-    std::string name = (fs::temp_directory_path() / "vkpt-test-XXXXXX").string();
-    if (!mkdtemp(name.data()))
-        throw std::runtime_error("cannot make a folder " + name);
-    path_ = name;
-}
-
-ScratchFolder::~ScratchFolder()
-{
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
-
 void ScratchFolder::write(const std::string& name, const std::string& text) const
 {
-    fs::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
+    fs::create_directories((path() / name).parent_path());
+    std::ofstream(path() / name, std::ios::binary) << text;
 }
 
 std::string ScratchFolder::read(const std::string& name) const
 {
-    std::ifstream stream(path_ / name, std::ios::binary);
+    std::ifstream stream(path() / name, std::ios::binary);
     return { std::istreambuf_iterator<char>(stream), {} };
 }
 
 std::vector<std::string> ScratchFolder::names() const
 {
     std::vector<std::string> names;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path_))
+    for (const fs::directory_entry& entry : fs::directory_iterator(path()))
         names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
     return names;

@@ -2,6 +2,8 @@
 // Runs `vkpt` as a user does, in a folder of its own that vanishes afterwards.
 #pragma once
 
+#include "common/temporary_folder.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,19 +19,14 @@ struct ProgramResult {
 
 class ScratchFolder {
 public:
-    ScratchFolder();
-    ~ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& path() const { return folder_.path(); }
     // Creates the folders on the way.
     void write(const std::string& name, const std::string& text) const;
     std::string read(const std::string& name) const;
     std::vector<std::string> names() const; // of everything in it, hidden files too
 
 private:
-    std::filesystem::path path_;
+    TemporaryFolder folder_ { "vkpt-test-" };
 };
 
 // environment: "NAME=VALUE" entries added to ours.

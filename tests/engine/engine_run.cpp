@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/engine/engine_run.hpp"
 
+#include "common/temporary_folder.hpp"
 #include "tests/runner/process_tree.hpp"
 
 #include <gtest/gtest.h>
@@ -104,10 +105,7 @@ EngineRun::~EngineRun()
 
 void EngineRun::make_folder(const EngineOptions& options)
 {
-    std::string name = (std::filesystem::temp_directory_path() / "vkpt-engine-XXXXXX").string();
-    if (!mkdtemp(name.data()))
-        throw std::runtime_error("cannot make a folder " + name);
-    folder = name;
+    folder = make_temporary_folder("vkpt-engine-");
     std::filesystem::permissions(folder, std::filesystem::perms(0755)); // the engine's user has to enter
     std::filesystem::create_directories(folder / "files");
     std::map<std::string, std::string> files = options.files;

@@ -127,6 +127,8 @@ TEST(EngineGame, ARecordedWalkIsWalkedAgain)
     for (int i = 0; i < 8; i++)
         options.script += "wait_100\n";
     options.script += "quit\n";
+    // Every frame is 1/60 s of the game, however long it takes: keys are held for as long on a slow machine.
+    options.arguments.insert(options.arguments.begin(), { "+set", "fixedtime", "16667" });
     watch_player(options);
     const EngineRun run(options);
     run.expect_clean();

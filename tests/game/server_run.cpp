@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/game/server_run.hpp"
 
+#include "common/temporary_folder.hpp"
 #include "tests/runner/process_tree.hpp"
 
 #include <gtest/gtest.h>
@@ -67,10 +68,7 @@ ServerRun::~ServerRun()
 
 void ServerRun::make_folder(const ServerOptions& options)
 {
-    std::string name = (fs::temp_directory_path() / "vkpt-server-XXXXXX").string();
-    if (!mkdtemp(name.data()))
-        throw std::runtime_error("cannot make a folder " + name);
-    folder_ = name;
+    folder_ = make_temporary_folder("vkpt-server-");
     // The server's user, who may be another than ours, has to come in and to write its files there.
     fs::permissions(folder_, fs::perms(0777));
     const fs::path files = folder_ / "files";

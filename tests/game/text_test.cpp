@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What players write: lights, walks, names of libraries and files.
+#include "common/temporary_folder.hpp"
 #include "game/files.hpp"
 #include "game/library.hpp"
 #include "game/light_text.hpp"
@@ -32,17 +33,6 @@ Light parse(std::vector<std::string> words)
     parse_light_words(words, light);
     return light;
 }
-
-class Folder {
-public:
-    Folder()
-    {
-        std::string name = (fs::temp_directory_path() / "vkpt-text-XXXXXX").string();
-        path = mkdtemp(name.data());
-    }
-    ~Folder() { fs::remove_all(path); }
-    fs::path path;
-};
 
 } // namespace
 
@@ -146,42 +136,42 @@ TEST(WalkText, ErrorsNameLineAndWord)
 
 TEST(GameFiles, LinksAreNotFollowedAndStrangersFilesStay)
 {
-    const Folder folder;
-    const Folder outside;
-    const TextFiles files(folder.path, "lights", "# mark");
+    const TemporaryFolder folder("vkpt-text-");
+    const TemporaryFolder outside("vkpt-text-");
+    const TextFiles files(folder.path(), "lights", "# mark");
     files.write("a", "# mark 1\n");
     files.write("a", "# mark 2\n");
     EXPECT_EQ(files.read("a"), "# mark 2\n");
-    std::ofstream(outside.path / "b.txt") << "# mark\n";
-    fs::create_symlink(outside.path / "b.txt", folder.path / "lights/b.txt");
-    std::ofstream(folder.path / "lights/c.txt") << "mine";
+    std::ofstream(outside.path() / "b.txt") << "# mark\n";
+    fs::create_symlink(outside.path() / "b.txt", folder.path() / "lights/b.txt");
+    std::ofstream(folder.path() / "lights/c.txt") << "mine";
     EXPECT_NE(error_of([&] { files.write("b", "# mark"); }).find("link"), std::string::npos);
     EXPECT_NE(error_of([&] { files.read("b"); }).find("link"), std::string::npos);
     EXPECT_NE(error_of([&] { files.write("c", "# mark"); }).find("did not write"), std::string::npos);
     for (const char* name : { "", "../x", "a/b", "a.txt", ".", "a b" })
         EXPECT_NE(error_of([&] { files.write(name, "# mark"); }).find("no name for a file"), std::string::npos) << name;
-    const TextFiles linked(outside.path, "lights", "# mark");
-    fs::create_directory_symlink(folder.path / "lights", outside.path / "lights");
+    const TextFiles linked(outside.path(), "lights", "# mark");
+    fs::create_directory_symlink(folder.path() / "lights", outside.path() / "lights");
     EXPECT_NE(error_of([&] { linked.write("a", "# mark"); }), "");
     EXPECT_NE(error_of([&] { linked.read("a"); }), "");
-    std::ofstream(folder.path / "lights/big.txt") << std::string(TextFiles::max_bytes + 1, 'x');
+    std::ofstream(folder.path() / "lights/big.txt") << std::string(TextFiles::max_bytes + 1, 'x');
     EXPECT_NE(error_of([&] { files.read("big"); }).find("longer than"), std::string::npos);
 }
 
 TEST(GameFiles, TheWritableFolderFollowsTheEngine)
 {
-    const Folder home;
-    Surroundings s { {}, "/engine", home.path, "" };
+    const TemporaryFolder home("vkpt-text-");
+    Surroundings s { {}, "/engine", home.path(), "" };
     EXPECT_EQ(find_write_folder(s, "vkpt"), std::nullopt);
-    fs::create_directories(home.path / ".yq2/vkpt");
-    fs::create_directories(home.path / ".local/share/YamagiQ2/vkpt");
-    fs::create_directories(home.path / ".mine/baseq2");
-    EXPECT_EQ(find_write_folder(s, "vkpt"), home.path / ".yq2/vkpt");
+    fs::create_directories(home.path() / ".yq2/vkpt");
+    fs::create_directories(home.path() / ".local/share/YamagiQ2/vkpt");
+    fs::create_directories(home.path() / ".mine/baseq2");
+    EXPECT_EQ(find_write_folder(s, "vkpt"), home.path() / ".yq2/vkpt");
     s.command_line = { "quake2", "-cfgdir", ".mine" };
-    EXPECT_EQ(find_write_folder(s, ""), home.path / ".mine/baseq2");
-    fs::remove_all(home.path / ".yq2");
+    EXPECT_EQ(find_write_folder(s, ""), home.path() / ".mine/baseq2");
+    fs::remove_all(home.path() / ".yq2");
     s.command_line.clear();
-    EXPECT_EQ(find_write_folder(s, "vkpt"), home.path / ".local/share/YamagiQ2/vkpt");
+    EXPECT_EQ(find_write_folder(s, "vkpt"), home.path() / ".local/share/YamagiQ2/vkpt");
 }
 
 // Servers can set variables, and put files into game folders.

@@ -9,6 +9,7 @@
 #include "shaders/shared/light_sampler.h"
 #include "shaders/shared/ltc.h"
 #include "shaders/shared/noise.h"
+#include "shaders/shared/octahedral.h"
 #include "shaders/shared/scene.h"
 
 #pragma GCC diagnostic push

@@ -3,7 +3,7 @@
 
 #include "client/host/client_map.hpp"
 #include "client/host/errors.hpp"
-#include "client/host/temporary_folder.hpp"
+#include "client/host/session_folder.hpp"
 #include "common/colour.hpp"
 
 #include <array>
@@ -57,7 +57,7 @@ engine::RefDef steady_view(client::ClientMap& scene, std::array<engine::Lightsty
 std::vector<float> measure_kind(
     const formats::Bsp& bsp, const std::vector<Luxel>& luxels, LightKind kind, const MeasureOptions& options)
 {
-    const client::TemporaryFolder folder("vkpt-calibrate-");
+    const client::SessionFolder folder("vkpt-calibrate-");
     const fs::path file = folder.path() / "variant.bsp";
     const std::vector<std::byte> bytes = formats::write_bsp(keep_lights_of(bsp, kind));
     std::ofstream output(file, std::ios::binary);

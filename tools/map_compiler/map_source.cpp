@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tools/map_compiler/map_source.hpp"
 
-#include <charconv>
+#include "common/numbers.hpp"
+
 #include <cmath>
 #include <fmt/format.h>
 
@@ -36,11 +37,7 @@ std::optional<double> to_number(std::string_view text)
 {
     if (text.starts_with('+'))
         text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        return {};
-    return value;
+    return parse_number<double>(text);
 }
 
 std::string_view next_word(std::string_view& text)

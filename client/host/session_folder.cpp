@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "client/host/temporary_folder.hpp"
+#include "client/host/session_folder.hpp"
 
 #include "client/host/errors.hpp"
+#include "common/temporary_folder.hpp"
 
 #include <cerrno>
 #include <chrono>
@@ -20,10 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void fail(const std::string& name)
+[[noreturn]] void fail(const fs::path& folder, const char* reason)
 {
     throw Failure(
-        fmt::format("cannot make a folder {}: {}; set $TMPDIR to use another place", name, std::strerror(errno)));
+        fmt::format("cannot make a folder {}: {}; set $TMPDIR to use another place", folder.string(), reason));
 }
 
 // A process of its own removes the folder when the pipe's other end is closed: by the owner, or by the kernel once the
@@ -50,12 +51,13 @@ namespace {
 
 } // namespace
 
-TemporaryFolder::TemporaryFolder(const std::string& prefix)
+SessionFolder::SessionFolder(const std::string& prefix)
 {
-    std::string name = (fs::temp_directory_path() / (prefix + "XXXXXX")).string();
-    if (!mkdtemp(name.data()))
-        fail(name);
-    path_ = name;
+    try {
+        path_ = make_temporary_folder(prefix);
+    } catch (const fs::filesystem_error& error) {
+        fail(error.path1(), error.code().message().c_str());
+    }
     int ends[2];
     const bool has_pipe = pipe2(ends, O_CLOEXEC) == 0;
     cleaner_ = has_pipe ? fork() : -1;
@@ -64,14 +66,15 @@ TemporaryFolder::TemporaryFolder(const std::string& prefix)
         clean_up(path_, ends[0]);
     }
     if (cleaner_ < 0) {
-        rmdir(name.c_str());
-        fail(name);
+        const int error = errno;
+        rmdir(path_.c_str());
+        fail(path_, std::strerror(error));
     }
     close(ends[0]);
     end_ = ends[1];
 }
 
-TemporaryFolder::~TemporaryFolder()
+SessionFolder::~SessionFolder()
 {
     close(end_);
     while (waitpid(cleaner_, nullptr, 0) < 0 && errno == EINTR) { }

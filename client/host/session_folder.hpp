@@ -7,13 +7,13 @@
 
 namespace vkpt::client {
 
-class TemporaryFolder {
+class SessionFolder {
 public:
     // The name begins with `prefix`. Throws Failure.
-    explicit TemporaryFolder(const std::string& prefix);
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    explicit SessionFolder(const std::string& prefix);
+    ~SessionFolder();
+    SessionFolder(const SessionFolder&) = delete;
+    SessionFolder& operator=(const SessionFolder&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
 
