@@ -9,6 +9,7 @@
 #include "ref_vkpt/frame/scene_queries.hpp"
 #include "ref_vkpt/frame/shader_reload.hpp"
 #include "ref_vkpt/frame/shader_warm_up.hpp"
+#include "ref_vkpt/free_memory.hpp"
 #include "ref_vkpt/light_inspector.hpp"
 #include "ref_vkpt/overlay/overlay.hpp"
 #include "ref_vkpt/photo/photo_mode.hpp"
@@ -61,6 +62,7 @@ struct Module {
     std::string replay_name_for_key; // waits for the player's key
     LightInspector light_inspector;
     PassStatistics pass_statistics; // with pt_times 1
+    FreeMemory free_memory;
     const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     double first_frame_seconds = 0; // from the start to the end of the first view; 0: there was none
 };

@@ -25,9 +25,6 @@
 #include <fmt/format.h>
 #include <memory>
 #include <utility>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace vkpt {
 
@@ -281,15 +278,6 @@ bool init_context(void* sdl_window)
     if (sdl_window)
         running->overlay.take_keys();
     return true;
-}
-
-// What levels, drivers and their threads have freed lies about in many heaps; in the long run it would be more than is
-// used.
-static void give_back_free_memory()
-{
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
 }
 
 void shutdown_context() { close_module(); }
@@ -626,6 +614,7 @@ void end_frame()
     m.draw2d.record(m.graphics.commands());
     m.graphics.timer.mark(m.graphics.commands(), "2d");
     m.graphics.end_frame();
+    m.free_memory.end_frame({ m.gpu_world.version, m.graphics.pipelines.made() }, FreeMemory::Clock::now());
     // What the engine's server reads as the light on the player: 255 * half the radiance of a white floor, as lightmaps
     // go.
     constexpr float server_scale = 150 * 0.5f;

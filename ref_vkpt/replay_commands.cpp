@@ -2,6 +2,7 @@
 #include "ref_vkpt/replay_commands.hpp"
 
 #include "common/hash.hpp"
+#include "common/numbers.hpp"
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/files/new_files.hpp"
@@ -11,7 +12,6 @@
 #include "ref_vkpt/photo_commands.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -128,9 +128,8 @@ std::optional<double> number_argument(double initial)
     const std::string_view text = engine::argument(2);
     if (text.empty())
         return initial;
-    double number = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc() && rest == text.data() + text.size() && std::abs(number) < 1e6)
+    const std::optional<double> number = parse_number<double>(text);
+    if (number && std::abs(*number) < 1e6)
         return number;
     engine::print("pt_replay: \"{}\" is no number", text);
     return std::nullopt;

@@ -11,7 +11,7 @@ top=${1:-$root}
 # From below to above; of two entries that fit a file the longer one counts. docs/architecture.md says what each part does.
 layers='
 common shaders/shared shaders/passes.def formats ref_vkpt/extension.hpp ref_vkpt/renderer.hpp ref_vkpt/engine/contract.hpp
-ref_vkpt/engine ref_vkpt/cvars ref_vkpt/files ref_vkpt/noise ref_vkpt/preset ref_vkpt/pass_statistics ref_vkpt/workers
+ref_vkpt/engine ref_vkpt/cvars ref_vkpt/files ref_vkpt/free_memory ref_vkpt/noise ref_vkpt/preset ref_vkpt/pass_statistics ref_vkpt/workers
 ref_vkpt/vulkan
 ref_vkpt/lights
 ref_vkpt/rays

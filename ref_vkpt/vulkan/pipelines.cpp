@@ -229,6 +229,7 @@ VkPipeline Pipelines::make_compute_pipeline(std::string_view shader, const Fixed
     const VkResult result = vkCreateComputePipelines(gpu_.device.handle, cache_, 1, &info, nullptr, &pipeline);
     vkDestroyShaderModule(gpu_.device.handle, module, nullptr);
     check_vulkan(result, "vkCreateComputePipelines");
+    made_++;
     gpu_.device.name_object(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shader);
     return pipeline;
 }
@@ -296,6 +297,7 @@ VkPipeline Pipelines::make_ray_pipeline(std::string_view shader, const FixedChoi
     for (const VkPipelineShaderStageCreateInfo& stage : stages)
         vkDestroyShaderModule(gpu_.device.handle, stage.module, nullptr);
     check_vulkan(result, "vkCreateRayTracingPipelinesKHR");
+    made_++;
     gpu_.device.name_object(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shader);
     return pipeline;
 }

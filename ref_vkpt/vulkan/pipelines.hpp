@@ -6,6 +6,7 @@
 #include "ref_vkpt/vulkan/shaders.hpp"
 #include "shaders/shared/specialization.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -56,6 +57,8 @@ public:
     // False: it has that code already. What fails is thrown, and leaves all as it was. On the thread that calls ray().
     bool replace(const std::string& shader, const std::vector<uint32_t>& code, const std::function<void()>& finish);
     VkPipelineCache cache() const { return cache_; }
+    // How many there have been.
+    uint64_t made() const { return made_; }
 
 private:
     void save_cache() const;
@@ -74,6 +77,7 @@ private:
     const Bindings& bindings_;
     std::string cache_file_;
     VkPipelineCache cache_ = VK_NULL_HANDLE;
+    std::atomic<uint64_t> made_ = 0;
     std::mutex mutex_; // of all below
     FixedChoices choices_;
     bool at_once_ = true;

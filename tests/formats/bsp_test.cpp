@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace formats {
 
@@ -75,6 +76,15 @@ TEST(Bsp, FacesAreCounterClockwiseAndHaveTheirNormals)
         EXPECT_EQ(normal, glm::vec3(0, 0, 1));
         EXPECT_GT(glm::dot(glm::cross(polygon[1] - polygon[0], polygon[2] - polygon[0]), normal), 0);
     }
+}
+
+// The second square goes back along an edge of the first.
+TEST(Bsp, FacesFollowEdgesInBothDirections)
+{
+    const Bsp bsp = make_bsp();
+    const auto& v = bsp.vertices;
+    EXPECT_EQ(bsp.face_polygon(0), (std::vector<glm::vec3> { v[1], v[4], v[5], v[0] }));
+    EXPECT_EQ(bsp.face_polygon(1), (std::vector<glm::vec3> { v[2], v[3], v[4], v[1] }));
 }
 
 TEST(Bsp, TextureCoordinatesAndLightmaps)
