@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The parts of the module that talk to Vulkan, as far as scene update and 2D need them, without any: pictures and
+// The parts of the module that talk to Vulkan, as far as scene update and 2D need them, without any: images and
 // buffers are kept or dropped on the CPU. Everything above (textures.cpp, scene.cpp, draw2d.cpp ...) is the module's
 // own.
 #include "ref_vkpt/draw2d/draw2d.hpp"
@@ -10,7 +10,7 @@
 
 namespace vkpt {
 
-class CpuDriverSettings { };
+ScopedVariable::~ScopedVariable() = default; // there is none
 
 Device::Device(const DeviceSettings&)
     : windowed_(false)
