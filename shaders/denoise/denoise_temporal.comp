@@ -219,7 +219,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
     ReprojectionQuery query = make_query(features, unpack_upper_halves(depth_gradient), load_reprojected(index));
     History history = find_history(index, query, query.shown.xy);
     float specular_hit_distance = update_specular_hit_distance(index, history.moments.specular_hit_distance);
-    vec3 direction = camera_direction(pixel, frame.pixel_offset);
+    vec3 direction = perspective_direction(pixel, frame.pixel_offset);
     float direction_length = length(direction), path_length = feature_depth(features) * direction_length;
     float reach = find_lobe_reach(surface.roughness, path_length, specular_hit_distance);
     float max_specular = max_glossy_frames(pixel, query.shown.xy);

@@ -8,14 +8,24 @@
 #include "pixel_random.glsl"
 #include "projection.glsl"
 
-// Along the camera's ray through a pixel, `offset` from its corner; 1 along the camera's axis, or of length 1 in other
-// projections than a perspective one. Those are of averaged images alone: all else here is about perspective views.
+// From -1 to 1, y down: a place in a pixel, `offset` from its corner.
+vec2 screen_place(uvec2 pixel, vec2 offset) { return (vec2(pixel) + offset) / vec2(frame.size) * 2.0 - 1.0; }
+
+// Along a perspective camera's ray through a pixel, `offset` from its corner; 1 along the camera's axis. Images that
+// are filtered have no other projection.
+vec3 perspective_direction(uvec2 pixel, vec2 offset)
+{
+    vec2 screen = screen_place(pixel, offset);
+    return frame.camera.forward + frame.camera.right * screen.x - frame.camera.up * screen.y;
+}
+
+// The same in any projection; of length 1 in others than a perspective one.
 vec3 camera_direction(uvec2 pixel, vec2 offset)
 {
-    vec2 screen = (vec2(pixel) + offset) / vec2(frame.size) * 2.0 - 1.0;
-    Camera camera = frame.camera;
     if (frame.cvars.pt_projection == PROJECTION_PERSPECTIVE)
-        return camera.forward + camera.right * screen.x - camera.up * screen.y;
+        return perspective_direction(pixel, offset);
+    vec2 screen = screen_place(pixel, offset);
+    Camera camera = frame.camera;
     float across = length(camera.right), upward = length(camera.up);
     vec3 seen = unproject(frame.cvars.pt_projection, vec2(across, -upward) * screen);
     return camera.right * (seen.x / across) + camera.up * (seen.y / upward) + camera.forward * seen.z;
