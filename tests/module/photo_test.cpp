@@ -3,8 +3,7 @@
 // photographs are written where, and only where, they should be.
 #include "formats/model.hpp"
 #include "shaders/shared/scene.h"
-#include "tests/module/map_builder.hpp"
-#include "tests/module/session.hpp"
+#include "tests/module/cube_room.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -20,30 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr glm::vec3 players_eye { -100, -60, 60 }, players_target { 100, 60, 40 };
-
-class PhotoMode : public testing::Test {
+class PhotoMode : public CubeRoomTest {
 protected:
     void start(const CvarList& cvars = {}, glm::ivec2 size = { 64, 48 })
     {
-        folder_.add_wall("wall", 180);
-        folder_.add_wall("lamp", white_index);
-        MapBuilder map;
-        map.add_lit_room("wall");
-        folder_.add_map("room", map.finish());
-        const std::string cube = folder_.add_cube("cube", 8, red_index);
-        CvarList all { { "pt_player_body", "0" } };
-        all.insert(all.end(), cvars.begin(), cvars.end());
-        session_ = std::make_unique<Session>(folder_, all, size);
-        session_->load_map("room");
-        cube_ = make_entity(session_->module().register_model(cube.c_str()), { 40, 0, 30 });
-        session_->view.entities = &cube_;
-        session_->view.entity_count = 1;
-        session_->look(players_eye, players_target);
+        CubeRoomTest::start(cvars, size);
         session_->draw();
     }
 
-    void run(const std::string& text) { session_->host().run_text(text + "\n"); }
     // Where the last line that says so has written to.
     fs::path written(std::string_view ending) const
     {
@@ -62,10 +45,6 @@ protected:
         const auto bytes = std::as_bytes(std::span(text));
         return { bytes.begin(), bytes.end() };
     }
-
-    GameFolder folder_;
-    std::unique_ptr<Session> session_;
-    engine::Entity cube_ {};
 };
 
 class PhotoLimitLong : public PhotoMode { };

@@ -2,8 +2,7 @@
 // Instant replay: a moment is shown as it was, through the player's eyes and a free camera's; what is saved is a trace
 // that vkpt replays; another map forgets it.
 #include "client/host/trace_frames.hpp"
-#include "tests/module/map_builder.hpp"
-#include "tests/module/session.hpp"
+#include "tests/module/cube_room.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -15,26 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class InstantReplay : public testing::Test {
+class InstantReplay : public CubeRoomTest {
 protected:
-    void start(const CvarList& cvars = {})
-    {
-        folder_.add_wall("wall", 180);
-        folder_.add_wall("lamp", white_index);
-        MapBuilder map;
-        map.add_lit_room("wall");
-        folder_.add_map("room", map.finish());
-        const std::string cube = folder_.add_cube("cube", 8, red_index);
-        CvarList all { { "pt_player_body", "0" } };
-        all.insert(all.end(), cvars.begin(), cvars.end());
-        session_ = std::make_unique<Session>(folder_, all, glm::ivec2(64, 48));
-        session_->load_map("room");
-        cube_ = make_entity(session_->module().register_model(cube.c_str()), { 40, 0, 30 });
-        session_->view.entities = &cube_;
-        session_->view.entity_count = 1;
-        session_->look({ -100, -60, 60 }, { 100, 60, 40 });
-    }
-
     // Where things are at a moment of the game, 0 and later.
     void set_moment(float time)
     {
@@ -49,11 +30,6 @@ protected:
             session_->draw();
         }
     }
-    void run(const std::string& text) { session_->host().run_text(text + "\n"); }
-
-    GameFolder folder_;
-    std::unique_ptr<Session> session_;
-    engine::Entity cube_ {};
 };
 
 TEST_F(InstantReplay, ShowsAMomentAsItWas)
