@@ -36,8 +36,8 @@ void expect_captured(const EngineRun& run, const std::filesystem::path& path)
     for (const std::filesystem::path& capture : captures)
         least = std::min(least, largest_difference(picture, load_picture(capture)));
     EXPECT_EQ(least, 0) << path << " is none of the captured frames";
-    EXPECT_LT(measure_texture(picture).black, 0.9) << path;
-    EXPECT_GT(measure_texture(picture).deviation, 0.01) << path;
+    EXPECT_LT(measure_picture(picture).black, 0.9) << path;
+    EXPECT_GT(measure_picture(picture).deviation, 0.01) << path;
 }
 
 } // namespace vkpt::tests

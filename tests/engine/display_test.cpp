@@ -38,7 +38,7 @@ void expect_sizes(const EngineRun& run, const std::vector<std::pair<int, int>>& 
     for (size_t i = 0; i < sizes.size(); i++) {
         EXPECT_EQ(pictures[i].width, sizes[i].first) << i;
         EXPECT_EQ(pictures[i].height, sizes[i].second) << i;
-        EXPECT_LT(measure_texture(pictures[i]).black, 0.9) << i;
+        EXPECT_LT(measure_picture(pictures[i]).black, 0.9) << i;
     }
 }
 

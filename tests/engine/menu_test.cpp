@@ -82,7 +82,7 @@ TEST(Engine, VideoMenuChoosesThisRendererAndItsRowsAct)
     const auto before = list_pictures(run.captures(1)), after = list_pictures(run.captures(2));
     ASSERT_FALSE(before.empty() || after.empty()) << run.result().console;
     EXPECT_GT(
-        measure_texture(load_picture(after.back())).mean, 1.2 * measure_texture(load_picture(before.back())).mean);
+        measure_picture(load_picture(after.back())).mean, 1.2 * measure_picture(load_picture(before.back())).mean);
 }
 
 // While the page is open its keys do not reach the engine, whose menu escape would open.

@@ -101,7 +101,7 @@ TEST_F(OurMap, ScreenshotsHaveTheKindThatIsAskedFor)
         if (entry.path().extension() == ".tga")
             targas.push_back(entry.path());
     ASSERT_EQ(targas.size(), 1u);
-    EXPECT_LT(measure_texture(load_picture(targas.front())).black, 0.9);
+    EXPECT_LT(measure_picture(load_picture(targas.front())).black, 0.9);
 }
 
 TEST_F(OurMap, SettingsChangeWhileItRuns)

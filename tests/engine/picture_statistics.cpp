@@ -37,7 +37,7 @@ double estimate_noise(const formats::Image& picture)
 
 } // namespace
 
-PictureStatistics measure_texture(const formats::Image& picture)
+PictureStatistics measure_picture(const formats::Image& picture)
 {
     PictureStatistics statistics;
     double sum = 0, squares = 0, black = 0;

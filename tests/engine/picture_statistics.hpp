@@ -19,7 +19,7 @@ struct PictureStatistics {
 // Noise is estimated after Immerkaer, "Fast Noise Variance Estimation" (1996): the mean absolute answer of a filter
 // that cancels constant and linear signals, so that walls and their shading do not count, only what varies pixel by
 // pixel.
-PictureStatistics measure_texture(const formats::Image& picture);
+PictureStatistics measure_picture(const formats::Image& picture);
 
 formats::Image load_picture(const std::filesystem::path& path);
 

@@ -29,20 +29,20 @@ formats::Image make_ramp(int width, int height, double noise)
 TEST(PictureStatistics, FindsTheNoiseOnARamp)
 {
     for (const double noise : { 0.02, 0.04 }) {
-        const PictureStatistics statistics = measure_texture(make_ramp(320, 200, noise));
+        const PictureStatistics statistics = measure_picture(make_ramp(320, 200, noise));
         EXPECT_NEAR(statistics.noise, noise, 0.1 * noise);
         EXPECT_NEAR(statistics.mean, 0.5, 0.01);
         EXPECT_EQ(statistics.black, 0);
     }
 }
 
-TEST(PictureStatistics, ASmoothRampHasHardlyAny) { EXPECT_LT(measure_texture(make_ramp(320, 200, 0)).noise, 0.002); }
+TEST(PictureStatistics, ASmoothRampHasHardlyAny) { EXPECT_LT(measure_picture(make_ramp(320, 200, 0)).noise, 0.002); }
 
 TEST(PictureStatistics, CountsBlackPixels)
 {
     formats::Image picture { 4, 4, std::vector<formats::Rgba8>(16) };
     picture.pixels[3] = { 1, 0, 0, 255 };
-    EXPECT_DOUBLE_EQ(measure_texture(picture).black, 15.0 / 16);
+    EXPECT_DOUBLE_EQ(measure_picture(picture).black, 15.0 / 16);
 }
 
 } // namespace vkpt::tests

@@ -67,7 +67,7 @@ std::vector<PictureStatistics> play_and_measure()
         const formats::Image picture = load_picture(path);
         EXPECT_EQ(picture.width, options.width);
         EXPECT_EQ(picture.height, options.height);
-        rows.push_back(measure_texture(picture));
+        rows.push_back(measure_picture(picture));
     }
     return rows;
 }

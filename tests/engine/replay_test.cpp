@@ -158,7 +158,7 @@ TEST_F(Recording, InstantReplayIsSavedAndRendered)
         "--spp", "8", "-o", "moment.png" });
     ASSERT_EQ(rendered.status, 0) << rendered.errors;
     EXPECT_EQ(rendered.errors.find("differ here"), std::string::npos) << rendered.errors;
-    EXPECT_GT(measure_texture(load_picture(folder.path() / "moment.png")).mean, 0.01);
+    EXPECT_GT(measure_picture(load_picture(folder.path() / "moment.png")).mean, 0.01);
 }
 
 } // namespace vkpt::tests
