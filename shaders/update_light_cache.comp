@@ -72,7 +72,7 @@ uvec2 pack_light(vec3 light)
 void add_sample(uint value, SampledLight found, vec4 xi)
 {
     LightOfStyle before = load_cache_value(value);
-    float share = 1.0 / float(min(before.count + 1u, CACHE_MOST_SAMPLES));
+    float share = 1.0 / float(min(before.count + 1u, CACHE_MAX_SAMPLES));
     float old_weight = luminance(before.light) * (1.0 - share), new_weight = luminance(found.light) * share;
     float new_share = new_weight / quick_max(old_weight + new_weight, 1e-20);
     vec3 direction = mix(before.direction, found.direction, new_share);

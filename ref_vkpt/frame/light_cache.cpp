@@ -19,7 +19,7 @@ namespace {
 constexpr uint32_t first_samples = 16, max_first_samples = 1u << 20;
 // Cells that a frame takes a sample of.
 constexpr uint32_t cells_per_frame = 2048;
-static_assert(cells_per_frame <= shared::CACHE_MOST_UPDATED);
+static_assert(cells_per_frame <= shared::CACHE_MAX_UPDATED);
 // Updates that rays do not see. A-SVGF takes each change of what a repeated sample brings for a change of the light,
 // and cells that change a little with every frame would shorten all histories.
 constexpr uint32_t frames_per_publication = 32;
@@ -117,15 +117,15 @@ void LightCacheKeeper::fill(Graphics& graphics, Frame& frame, View& view, GpuWor
 {
     const uint32_t count = gpu_world.light_cache.cell_count;
     const uint32_t samples = std::clamp(
-        max_first_samples / count, shared::CACHE_LEAST_SAMPLES, std::max(first_samples, shared::CACHE_LEAST_SAMPLES));
+        max_first_samples / count, shared::CACHE_MIN_SAMPLES, std::max(first_samples, shared::CACHE_MIN_SAMPLES));
     graphics.finish();
     const uint32_t frames = view.accumulated_frames;
-    for (uint32_t first = 0; first < count; first += shared::CACHE_MOST_UPDATED)
+    for (uint32_t first = 0; first < count; first += shared::CACHE_MAX_UPDATED)
         graphics.run_once([&](VkCommandBuffer commands) {
             shared::FrameUniforms uniforms
                 = frame.begin_query(commands, view, view.viewpoint, *view.snapshot, gpu_world);
             uniforms.scene.cache.first_updated = first;
-            uniforms.scene.cache.updated = std::min(shared::CACHE_MOST_UPDATED, count - first);
+            uniforms.scene.cache.updated = std::min(shared::CACHE_MAX_UPDATED, count - first);
             uniforms.scene.cache.samples = samples;
             frame.bind(commands, view, frame.write_uniforms(uniforms));
             graphics.timer.begin_untimed(graphics.slot());

@@ -64,7 +64,7 @@ void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
     // Updates of the light cache may be more lanes than a small image's pixels.
-    const uint32_t cache_groups = pixel_groups({ CACHE_ROW, CACHE_MOST_UPDATED / CACHE_ROW });
+    const uint32_t cache_groups = pixel_groups({ CACHE_ROW, CACHE_MAX_UPDATED / CACHE_ROW });
     const size_t lanes = size_t(std::max(groups, cache_groups)) * PIXEL_GROUP_SIZE;
     trace_stack_ = Buffer();
     if (with_stacks)

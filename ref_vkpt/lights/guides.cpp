@@ -159,7 +159,7 @@ private:
                             way = glm::clamp(centre, bounds.mins, bounds.maxs) - centre;
             entries.push_back({ block.moment / std::max(glm::dot(way, way), cell_area()), i });
         }
-        const size_t kept = std::min<size_t>(entries.size(), shared::CACHE_MOST_GUIDES);
+        const size_t kept = std::min<size_t>(entries.size(), shared::CACHE_MAX_GUIDES);
         std::ranges::partial_sort(entries, entries.begin() + std::ptrdiff_t(kept), std::greater(), &Entry::score);
         entries.resize(kept);
         for (Entry& entry : entries)
@@ -186,7 +186,7 @@ private:
     // The number stays 0 where there are too many.
     void number_guide(Block& block)
     {
-        if (block.number != 0 || result_.blocks.size() == shared::CACHE_MOST_GUIDE_BLOCKS)
+        if (block.number != 0 || result_.blocks.size() == shared::CACHE_MAX_GUIDE_BLOCKS)
             return;
         const shared::CacheFacePlane& plane = sources_.layout.planes[block.face];
         shared::CacheGuideBlock out {};

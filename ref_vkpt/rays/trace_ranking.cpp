@@ -9,7 +9,7 @@ namespace vkpt {
 
 std::optional<TraceRanking> rank_traces(std::span<const std::vector<double>> times)
 {
-    constexpr double least_difference = 1.03, lower_quartile = 0.25, upper_quartile = 0.75;
+    constexpr double min_difference = 1.03, lower_quartile = 0.25, upper_quartile = 0.75;
     TraceRanking ranking;
     for (const std::vector<double>& of_one : times)
         ranking.medians.push_back(find_median(of_one));
@@ -20,7 +20,7 @@ std::optional<TraceRanking> rank_traces(std::span<const std::vector<double>> tim
     const double slow_best = find_quantile(times[ranking.fastest], upper_quartile);
     for (size_t i = 0; i < times.size(); i++)
         if (i != ranking.fastest)
-            ranking.is_clear &= ranking.medians[i] > least_difference * ranking.medians[ranking.fastest]
+            ranking.is_clear &= ranking.medians[i] > min_difference * ranking.medians[ranking.fastest]
                 && find_quantile(times[i], lower_quartile) > slow_best;
     return ranking;
 }

@@ -13,7 +13,7 @@ using trace::CallKind;
 namespace {
 
 constexpr int compression_level = 1; // between frames
-constexpr float least_step = 0.012f; // seconds between views
+constexpr float min_step = 0.012f; // seconds between views
 constexpr uint32_t calls_per_view = 3; // begin_frame, render_view, end_frame
 
 Call make_call(CallKind kind, std::string_view name = "")
@@ -91,7 +91,7 @@ void ReplayRing::add(const engine::RefDef& refdef, const Limits& limits)
         return;
     if (!chunks_.empty() && refdef.time < chunks_.back().end) // the clock started anew
         forget_views();
-    if (!chunks_.empty() && refdef.time < chunks_.back().end + least_step)
+    if (!chunks_.empty() && refdef.time < chunks_.back().end + min_step)
         return;
     if (chunks_.empty() || !chunks_.back().packed.empty())
         chunks_.push_back({ {}, refdef.time, refdef.time, 0 });

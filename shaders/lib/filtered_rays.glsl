@@ -57,10 +57,10 @@ struct FilterState {
 
 void pass_liquid(inout FilterState state, Triangle triangle, Ray ray, RawHit hit)
 {
-    const float least_depth = 0.1; // between the two faces of a surface is nothing
+    const float min_depth = 0.1; // between the two faces of a surface is nothing
     uint before = medium_before(triangle.medium, hit.front != 0u);
     float depth = hit.t - state.passed;
-    if (before != MEDIUM_NONE && depth > least_depth) {
+    if (before != MEDIUM_NONE && depth > min_depth) {
         state.transmittance *= medium_transmittance(before, depth);
         vec3 edge_a = triangle.positions[1] - triangle.positions[0],
              edge_b = triangle.positions[2] - triangle.positions[0];

@@ -87,7 +87,7 @@ CachedLight read_light_cache(uint cache_face, vec3 position)
         result.guide = layer == 0u ? value.guide : result.guide;
         if (scale > 0.0) {
             float weight = luminance(value.light) * scale;
-            result.known = result.known && value.count >= CACHE_LEAST_SAMPLES;
+            result.known = result.known && value.count >= CACHE_MIN_SAMPLES;
             result.light += value.light * scale;
             result.direction += value.direction * weight;
             result.power += value.power * weight;

@@ -72,7 +72,7 @@ LtcEntry mix_ltc(LtcEntry a, LtcEntry b, float t)
 LtcEntry find_ltc_entry(LtcBuffer table, float roughness, float cosine)
 {
     float last = float(LTC_SIZE - 1u);
-    float y = clamp((roughness - LTC_LEAST_ROUGHNESS) / (1.0f - LTC_LEAST_ROUGHNESS), 0.0f, 1.0f) * last;
+    float y = clamp((roughness - LTC_MIN_ROUGHNESS) / (1.0f - LTC_MIN_ROUGHNESS), 0.0f, 1.0f) * last;
     float x = sqrt(clamp(1.0f - cosine, 0.0f, 1.0f)) * last;
     uint row = min(floor_to_uint(y), LTC_SIZE - 2u), column = min(floor_to_uint(x), LTC_SIZE - 2u);
     float u = x - float(column), v = y - float(row);

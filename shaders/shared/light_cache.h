@@ -16,11 +16,11 @@ VKPT_CONST uint CACHE_SIZE_BITS = 12u; // of either number of a face's cells
 VKPT_CONST uint CACHE_COUNT_MASK = 0xffu;
 VKPT_CONST uint CACHE_POWER_SHIFT = 8u;
 VKPT_CONST uint CACHE_GUIDE_SHIFT = 16u;
-VKPT_CONST uint CACHE_MOST_GUIDE_BLOCKS = 0xffffu; // in a map
-VKPT_CONST uint CACHE_LEAST_SAMPLES = 8u; // with fewer a value is not used
-VKPT_CONST uint CACHE_MOST_SAMPLES = 128u; // from here on older samples are forgotten: doors open
+VKPT_CONST uint CACHE_MAX_GUIDE_BLOCKS = 0xffffu; // in a map
+VKPT_CONST uint CACHE_MIN_SAMPLES = 8u; // with fewer a value is not used
+VKPT_CONST uint CACHE_MAX_SAMPLES = 128u; // from here on older samples are forgotten: doors open
 VKPT_CONST uint CACHE_ROW = 256u; // cells in a row of an update's grid
-VKPT_CONST uint CACHE_MOST_UPDATED = 8192u; // cells that one dispatch updates: devices stop what takes too long
+VKPT_CONST uint CACHE_MAX_UPDATED = 8192u; // cells that one dispatch updates: devices stop what takes too long
 
 // What readers need of a face of the map. One for each, in their order.
 struct CacheFace {
@@ -90,7 +90,7 @@ struct CacheGuideList {
     uint count;
 };
 VKPT_ASSERT_SIZE(CacheGuideList, 8);
-VKPT_CONST uint CACHE_MOST_GUIDES = 96u; // in a list
+VKPT_CONST uint CACHE_MAX_GUIDES = 96u; // in a list
 
 // Addresses of the cache's tables, and what is updated.
 struct LightCacheView {

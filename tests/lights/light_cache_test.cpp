@@ -59,7 +59,7 @@ uint32_t layers_of(const shared::CacheFace& face) { return face.size >> (2 * CAC
 shared::CacheValue lit(float light)
 {
     const uint64_t bits = std::bit_cast<uint32_t>(light) >> 10, all = bits | bits << 21 | bits << 42;
-    return { { uint32_t(all), uint32_t(all >> 32) }, 0, shared::CACHE_LEAST_SAMPLES };
+    return { { uint32_t(all), uint32_t(all >> 32) }, 0, shared::CACHE_MIN_SAMPLES };
 }
 
 // The value that readers look up for a point, as in lib/light_cache.glsl.

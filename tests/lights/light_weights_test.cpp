@@ -165,7 +165,7 @@ TEST(LtcTable, BelongsToTheSurfaceModel)
              std::pair { 12u, 12u }, std::pair { 15u, 6u } }) {
         const double last = LTC_SIZE - 1, x = column / last;
         const ltc::Entry fresh
-            = ltc::fit_lobe(double(LTC_LEAST_ROUGHNESS) + (1 - double(LTC_LEAST_ROUGHNESS)) * row / last, 1 - x * x);
+            = ltc::fit_lobe(double(LTC_MIN_ROUGHNESS) + (1 - double(LTC_MIN_ROUGHNESS)) * row / last, 1 - x * x);
         const float* entry = &ltc_table[(row * LTC_SIZE + column) * LTC_VALUES];
         EXPECT_LT(fresh.error, 0.1) << row << ", " << column;
         const double values[] = { fresh.xx, fresh.xz, fresh.yy, fresh.zx, fresh.albedo, fresh.grazing };

@@ -205,7 +205,7 @@ std::vector<Entry> fit_table()
         for (uint column = 0; column < LTC_SIZE; column++) {
             const double x = column / last;
             table.push_back(fit_lobe(
-                LTC_LEAST_ROUGHNESS + (1 - double(LTC_LEAST_ROUGHNESS)) * row / last, std::max(1 - x * x, min_cosine)));
+                LTC_MIN_ROUGHNESS + (1 - double(LTC_MIN_ROUGHNESS)) * row / last, std::max(1 - x * x, min_cosine)));
         }
     return table;
 }
