@@ -16,6 +16,13 @@
 namespace vkpt {
 
 // What geometry and emitters have to know of a texinfo's texture.
+// The normal map that goes with a texture.
+struct TextureNormals {
+    uint32_t slot = 0, packed_size = 0x10001; // see Texture; slot 0: none
+    bool has_metalness = false; // in its alpha
+    bool texture_has_roughness = false; // in the texture's own alpha
+};
+
 struct FaceTexture {
     uint32_t slot = 0, packed_size = 0x10001; // see Texture
     glm::ivec2 size { 64 }; // texels of texinfo space
@@ -23,6 +30,7 @@ struct FaceTexture {
     bool missing = false; // a stand-in
     std::vector<BrightPart> parts; // where it shines; none: all over
     bool glows = false; // its parts shine on faces without a light value, too
+    TextureNormals normals;
 };
 
 // A face's outline where it is drawn, used for geometry and emitters alike: Bsp::face_polygon, but for liquids that

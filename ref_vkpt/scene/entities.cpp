@@ -218,9 +218,7 @@ shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Mode
     SurfaceGuess surface = guess_surface(model.name, defaults_);
     if (skin)
         apply_material(surface, skin->material, defaults_);
-    material.tint = glm::vec3(surface.base_factor);
-    material.roughness = surface.roughness;
-    material.metallic = surface.metallic;
+    set_surface(material, surface, skin ? normals_of(*skin) : TextureNormals(), defaults_);
     if (entity.flags & RF_FULLBRIGHT)
         material.flags |= shared::MATERIAL_FULLBRIGHT;
     if (entity.flags & RF_TRANSLUCENT) {

@@ -4,6 +4,9 @@
 #include "ref_vkpt/scene/material_library.hpp"
 #include "ref_vkpt/scene/world.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace vkpt {
 
 namespace {
@@ -33,6 +36,15 @@ constexpr Row rows[] = {
     { "weapons/v_", { 0.35f, 0.5f } },
 };
 
+// Shared::Material::normal_map_scale.
+uint32_t pack_normal_map_scale(float bump_scale, uint32_t size, uint32_t texture_size)
+{
+    const auto longer_side = [](uint32_t packed) { return float(std::max(packed & 0xffff, packed >> 16)); };
+    const float mips = std::clamp(std::log2(longer_side(size) / longer_side(texture_size)), -16.0f, 16.0f);
+    const float bump = std::clamp(bump_scale * shared::MATERIAL_BUMP_ONE, 0.0f, 65535.0f);
+    return uint32_t(std::lround(bump)) | uint32_t(int32_t(std::lround(mips * shared::MATERIAL_MIP_ONE))) << 16;
+}
+
 } // namespace
 
 SurfaceGuess guess_surface(std::string_view texture, const MaterialDefaults& defaults)
@@ -49,10 +61,33 @@ void apply_material(SurfaceGuess& surface, std::string_view name, const Material
     if (!settings)
         return;
     if (settings->roughness >= 0)
-        surface.roughness = settings->roughness;
+        surface.roughness = surface.least_roughness = settings->roughness;
     if (settings->metalness >= 0)
         surface.metallic = settings->metalness;
     surface.base_factor = settings->base_factor;
+    surface.bump_scale = settings->bump_scale;
+    surface.metalness_factor = settings->metalness >= 0 ? -1 : settings->metalness_factor;
+}
+
+void set_surface(shared::Material& material, const SurfaceGuess& surface, const TextureNormals& normals,
+    const MaterialDefaults& defaults)
+{
+    material.tint = glm::vec3(surface.base_factor);
+    material.roughness = surface.roughness;
+    material.metallic = surface.metallic;
+    if (normals.slot == 0 || (material.flags & shared::MATERIAL_WARP)) // liquids have waves instead
+        return;
+    material.normal_map = normals.slot;
+    material.normal_map_scale
+        = pack_normal_map_scale(surface.bump_scale * defaults.bump_scale, normals.packed_size, material.texture_size);
+    if (normals.texture_has_roughness && !(material.flags & shared::MATERIAL_ALPHA_TEST)) {
+        material.flags |= shared::MATERIAL_ROUGHNESS_IN_ALPHA;
+        material.roughness = surface.least_roughness;
+    }
+    if (normals.has_metalness && surface.metalness_factor >= 0) {
+        material.flags |= shared::MATERIAL_METALNESS_IN_ALPHA;
+        material.metallic = surface.metalness_factor;
+    }
 }
 
 } // namespace vkpt

@@ -134,7 +134,7 @@ shared::Emitter make_flashlight(const engine::RefDef& refdef)
 FaceTexture describe(const Texture& texture)
 {
     return { texture.slot, texture.packed_size, { texture.width, texture.height }, texture.average, texture.missing,
-        texture.parts, false };
+        texture.parts, false, normals_of(texture) };
 }
 
 } // namespace
@@ -143,6 +143,7 @@ Scene::Scene(TextureStore& textures)
     : textures_(textures)
 {
     models_.reserve(max_models);
+    textures_.use_materials(materials_);
 }
 
 void Scene::begin_registration(std::string_view map)
@@ -454,7 +455,8 @@ SceneSnapshot Scene::take_snapshot(
     snapshot.lightstyles[lightstyle_none] = 0;
     snapshot.lightstyles[lightstyle_sun] = cvars.pt_sun_scale;
     std::vector<engine::Entity> player_body;
-    const MaterialDefaults defaults { cvars.pt_roughness_default, cvars.pt_metallic_default, &materials_ };
+    const MaterialDefaults defaults { cvars.pt_roughness_default, cvars.pt_metallic_default, &materials_,
+        cvars.pt_bump_scale };
     if (!(refdef.flags & engine::RDF_NOWORLDMODEL) && world_) {
         snapshot.world = world_.get();
         if (map_lights_)

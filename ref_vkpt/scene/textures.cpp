@@ -5,6 +5,8 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/scene/bright_parts.hpp"
+#include "ref_vkpt/scene/material_library.hpp"
+#include "ref_vkpt/scene/normal_maps.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -34,9 +36,30 @@ formats::Image make_uniform(int size, formats::Rgba8 color)
 
 bool is_flat(TextureUse use) { return use == TextureUse::image; }
 
-char letter_of(TextureUse use) { return "WMSPY"[size_t(use)]; }
+bool may_have_normals(TextureUse use) { return use == TextureUse::wall || use == TextureUse::skin; }
+
+// Of the material of a texture that is asked for by this name.
+const MaterialSettings* find_settings(const MaterialLibrary* library, std::string_view name, TextureUse use)
+{
+    return library ? library->find(formats::material_name(TextureFiles::original_paths(name, use).front())) : nullptr;
+}
+
+// 2D is blended in display space; everything that is lit is read as linear light.
+VkFormat format_of(TextureUse use)
+{
+    return is_flat(use) || use == TextureUse::normals ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8G8B8A8_SRGB;
+}
+
+char letter_of(TextureUse use) { return "WMSPYN"[size_t(use)]; }
 
 } // namespace
+
+TextureNormals normals_of(const Texture& texture)
+{
+    if (!texture.normals)
+        return {};
+    return { texture.normals->slot, texture.normals->packed_size, texture.normals->has_alpha, texture.has_alpha };
+}
 
 TextureStore::TextureStore(const Gpu& gpu, Bindings& bindings, Uploader& uploader)
     : gpu_(gpu)
@@ -69,6 +92,8 @@ const Texture* TextureStore::find(std::string_view name, TextureUse use)
         texture = known->second;
     else
         names.emplace(name, texture = load(name, use));
+    if (texture && may_have_normals(use) && texture->registration != registration_)
+        texture->normals = find_normals(name, use); // this map's materials may say something else
     touch(texture);
     return texture;
 }
@@ -105,9 +130,29 @@ void TextureStore::touch(const Texture* texture)
         entries_[size_t(texture - entries_.get())].registration = registration_;
 }
 
+const Texture* TextureStore::find_normals(std::string_view name, TextureUse use)
+{
+    const MaterialSettings* settings = find_settings(library_, name, use);
+    if (!settings || settings->normals_file.empty())
+        return find(TextureFiles::normals_path(name, use), TextureUse::normals);
+    const Texture* normals = find(settings->normals_file, TextureUse::normals);
+    if (!normals && cvars::values().r_retexturing != 0)
+        engine::print("texture_normals {} of {} is missing or unusable", settings->normals_file, name);
+    return normals;
+}
+
 Texture* TextureStore::load(std::string_view name, TextureUse use)
 {
-    const std::optional<LoadedTexture> loaded = files_.load(name, use, cvars::values().r_retexturing != 0);
+    TextureWish wish;
+    wish.retexturing = cvars::values().r_retexturing != 0;
+    const Texture* normals = nullptr;
+    if (may_have_normals(use)) {
+        normals = find_normals(name, use);
+        wish.alpha = normals ? AlphaMeaning::roughness : AlphaMeaning::opacity;
+        if (const MaterialSettings* settings = find_settings(library_, name, use))
+            wish.file = settings->base_file;
+    }
+    const std::optional<LoadedTexture> loaded = files_.load(name, use, wish);
     if (!loaded) {
         const std::vector<std::string> paths = TextureFiles::original_paths(name, use);
         const std::string line = fmt::format("texture {} is missing or unusable", paths.front());
@@ -127,9 +172,10 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
     texture->material = formats::material_name(loaded->path);
     texture->file = loaded->file;
     texture->use = use;
+    texture->normals = normals;
     const int limit = int(gpu_.device.properties.limits.maxImageDimension2D);
     try {
-        if (loaded->image.width > limit || loaded->image.height > limit)
+        if (use != TextureUse::normals && (loaded->image.width > limit || loaded->image.height > limit))
             upload(*texture, shrink_texture(loaded->image, limit));
         else
             upload(*texture, loaded->image);
@@ -174,38 +220,57 @@ Texture* TextureStore::take_entry()
     return &texture;
 }
 
-void TextureStore::upload(Texture& texture, const formats::Image& pixels)
+void TextureStore::upload_levels(Texture& texture, const formats::Image& first,
+    const std::function<const formats::Image&(uint32_t level)>& next_level)
 {
     ImageSettings settings;
-    settings.width = uint32_t(pixels.width);
-    settings.height = uint32_t(pixels.height);
+    settings.width = uint32_t(first.width);
+    settings.height = uint32_t(first.height);
     settings.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    // 2D is blended in display space; everything that is lit is read as linear light.
-    settings.format = is_flat(texture.use) ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8G8B8A8_SRGB;
+    settings.format = format_of(texture.use);
     if (!is_flat(texture.use))
         settings.mip_levels = uint32_t(std::bit_width(std::max(settings.width, settings.height)));
     texture.image = Image(gpu_, settings, texture.name);
-    uploader_.fill_image(texture.image, 0, std::as_bytes(std::span(pixels.pixels)));
-    formats::Image mip = pixels;
-    for (uint32_t level = 1; level < settings.mip_levels; level++) {
-        mip = halve_texture(mip);
-        uploader_.fill_image(texture.image, level, std::as_bytes(std::span(mip.pixels)));
-    }
+    uploader_.fill_image(texture.image, 0, std::as_bytes(std::span(first.pixels)));
+    for (uint32_t level = 1; level < settings.mip_levels; level++)
+        uploader_.fill_image(texture.image, level, std::as_bytes(std::span(next_level(level).pixels)));
     upload_pending_ = true;
 
     texture.slot = bindings_.add_texture(texture.image);
     texture.packed_size = settings.width | settings.height << 16;
-    texture.width = pixels.width;
-    texture.height = pixels.height;
-    const TextureMeasure measure = measure_texture(pixels);
+    texture.width = first.width;
+    texture.height = first.height;
+}
+
+void TextureStore::measure(Texture& texture, const formats::Image& pixels) const
+{
+    const AlphaMeaning alpha = texture.normals ? AlphaMeaning::roughness : AlphaMeaning::opacity;
+    const TextureMeasure measure = measure_texture(pixels, alpha);
     texture.average = measure.average;
     if (texture.use == TextureUse::wall)
-        texture.parts = find_bright_parts(pixels);
+        texture.parts = find_bright_parts(pixels, alpha);
     if (texture.use == TextureUse::sky)
         texture.sun = find_painted_sun(pixels);
     texture.opaque_fraction = measure.opaque_fraction;
     texture.has_alpha = measure.has_alpha;
     texture.brightest = measure.brightest;
+}
+
+void TextureStore::upload(Texture& texture, const formats::Image& pixels)
+{
+    if (texture.use == TextureUse::normals) {
+        const int limit = int(gpu_.device.properties.limits.maxImageDimension2D);
+        const std::vector<formats::Image> levels = make_normal_levels(pixels);
+        size_t first = 0;
+        while (levels[first].width > limit || levels[first].height > limit)
+            first++;
+        upload_levels(
+            texture, levels[first], [&](uint32_t level) -> const formats::Image& { return levels[first + level]; });
+    } else {
+        formats::Image mip = pixels;
+        upload_levels(texture, pixels, [&](uint32_t) -> const formats::Image& { return mip = halve_texture(mip); });
+    }
+    measure(texture, pixels);
 }
 
 void TextureStore::begin_registration()
@@ -281,7 +346,8 @@ void TextureStore::print_list() const
                                                : "",
             texture.registration == registration_ ? " *" : "");
     }
-    engine::print("{} textures (W wall, M model, S sprite, P 2D, Y sky; * in use), {:.1f} million texels, {:.0f} MiB",
+    engine::print(
+        "{} textures (W wall, M model, S sprite, P 2D, Y sky, N normals; * in use), {:.1f} million texels, {:.0f} MiB",
         count, double(texels) / 1e6, double(gpu_.memory.bytes_in_use(MemoryKind::textures)) / double(1 << 20));
 }
 

@@ -219,11 +219,8 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
         apply_material(surface, material_names[i], defaults);
         shared::Material& material = materials[count + i];
         material = {};
-        material.tint = glm::vec3(surface.base_factor);
         material.opacity = texinfo.flags & SURF_TRANS33 ? 0.33f : texinfo.flags & SURF_TRANS66 ? 0.66f : 1.0f;
         material.emission = emission[i];
-        material.roughness = surface.roughness;
-        material.metallic = surface.metallic;
         material.texture = textures[i].slot;
         material.texture_size = textures[i].packed_size;
         material.flags = (texinfo.flags & SURF_SKY ? shared::MATERIAL_SKY : 0)
@@ -232,6 +229,7 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
             | (is_translucent(texinfo) && !(texinfo.flags & SURF_WARP) ? shared::MATERIAL_GLASS : 0)
             | (texinfo.flags & SURF_ALPHATEST ? shared::MATERIAL_ALPHA_TEST : 0);
         material.uv_scroll = scroll_of(texinfo, time);
+        set_surface(material, surface, textures[i].normals, defaults);
     }
     const int tick = animation_tick(time);
     for (uint32_t i = 0; i < count; i++)

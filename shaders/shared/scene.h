@@ -85,6 +85,9 @@ VKPT_CONST uint MATERIAL_PARTICLE
     = 32u; // a disc in the square of its uv, as bright on the screen in dark rooms as in bright ones
 VKPT_CONST uint MATERIAL_SQUARE = 64u; // a particle without the disc's soft edge
 VKPT_CONST uint MATERIAL_GLASS = 128u; // a thin pane: translucent, smooth, colours what is behind
+// With a normal map, what the two textures' alpha may hold.
+VKPT_CONST uint MATERIAL_ROUGHNESS_IN_ALPHA = 256u; // of `texture`; `roughness` is the least
+VKPT_CONST uint MATERIAL_METALNESS_IN_ALPHA = 512u; // of the normal map; times `metallic`
 
 struct Material {
     vec3 tint; // multiplies the texture
@@ -96,9 +99,14 @@ struct Material {
     uint flags; // MATERIAL_*
     vec2 uv_scroll; // added to uv, already multiplied by time
     uint texture_size; // width | height << 16 of its first level; it has all levels down to one texel
-    uint padding[2]; // to whole texels, see texels.h
+    uint normal_map; // bindless index; 0: none. How its texels are stored: ref_vkpt/scene/normal_maps.hpp
+    // How far the normal map tilts the normal, in 1 / MATERIAL_BUMP_ONE; above 16 bits, the mip of the normal map less
+    // that of `texture` where both have texels of one size, in 1 / MATERIAL_MIP_ONE, signed.
+    uint normal_map_scale;
 };
 VKPT_ASSERT_SIZE(Material, 64);
+VKPT_CONST float MATERIAL_BUMP_ONE = 4096.0f;
+VKPT_CONST float MATERIAL_MIP_ONE = 256.0f;
 
 VKPT_CONST uint EMITTER_TRIANGLE = 0u; // one-sided, front as in Triangle
 VKPT_CONST uint EMITTER_SPHERE = 1u; // p0 centre, p1.x radius; a spot has a cone, see CONE_SLACK
