@@ -145,7 +145,7 @@ const std::vector<AttributeRow>& material_attributes()
         { "specular_factor", number, "read, without effect" },
         { "base_factor", number, "times the picture's colour" },
         { "bump_scale", number, "how far the normal map tilts the surface: 0 not at all, 1 as it says" },
-        { "emissive_factor", number, "read, without effect" },
+        { "emissive_factor", number, "times the light of texture_emissive; of walls with the next map" },
         { "emissive_threshold", number, "of synth_emissive: texels as bright as this glow, 0 to 255" },
         { "synth_emissive", number, "1: bright texels glow, though no picture says which" },
         { "is_light", number, "read, without effect" },
@@ -155,7 +155,7 @@ const std::vector<AttributeRow>& material_attributes()
         { "kind", word, "CHROME: a mirror; others without effect" },
         { "texture_base", word, "file in place of the texture; counts with the next map" },
         { "texture_normals", word, "file of its normal map; counts with the next map" },
-        { "texture_emissive", word, "read, without effect" },
+        { "texture_emissive", word, "file of what of it glows; counts with the next map" },
         { "texture_mask", word, "read, without effect" },
         { "correct_albedo", number, "read, without effect" },
     };

@@ -35,7 +35,7 @@ void print_material(const Module& m, uint32_t texinfo)
     engine::print("{}: roughness {:.2f}{}, metalness {:.2f}{}{}", name, material.roughness,
         material.flags & shared::MATERIAL_ROUGHNESS_IN_ALPHA ? " at least, by its alpha" : "", material.metallic,
         material.flags & shared::MATERIAL_METALNESS_IN_ALPHA ? " times its normal map's alpha" : "",
-        material.normal_map != 0 ? ", with a normal map" : "");
+        (material.maps & 0xffff) != 0 ? ", with a normal map" : "");
     if (const MaterialSettings* settings = m.scene.materials().find(name))
         for (const auto& [attribute, value] : settings->attributes)
             engine::print("    {} {}", attribute, value);

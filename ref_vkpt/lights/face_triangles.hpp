@@ -16,11 +16,14 @@
 namespace vkpt {
 
 // What geometry and emitters have to know of a texinfo's texture.
-// The normal map that goes with a texture.
-struct TextureNormals {
-    uint32_t slot = 0, packed_size = 0x10001; // see Texture; slot 0: none
-    bool has_metalness = false; // in its alpha
-    bool texture_has_roughness = false; // in the texture's own alpha
+// The maps that go with a texture.
+struct TextureMaps {
+    struct Map {
+        uint32_t slot = 0, packed_size = 0x10001; // see Texture; slot 0: none
+    };
+    Map normals, emissive;
+    bool has_metalness = false; // in the normal map's alpha
+    bool texture_has_roughness = false; // in the texture's own alpha, as there is a normal map
 };
 
 struct FaceTexture {
@@ -30,7 +33,8 @@ struct FaceTexture {
     bool missing = false; // a stand-in
     std::vector<BrightPart> parts; // where it shines; none: all over
     bool glows = false; // its parts shine on faces without a light value, too
-    TextureNormals normals;
+    TextureMaps maps; // with an emissive one, `average` and `parts` are that one's, and so is the texture that shines
+    float emissive_factor = 1; // times what shines by it
 };
 
 // A face's outline where it is drawn, used for geometry and emitters alike: Bsp::face_polygon, but for liquids that

@@ -19,6 +19,7 @@ struct SurfaceGuess {
     float bump_scale = 1; // of its tilt
     float least_roughness = 0; // below what the texture's alpha says
     float metalness_factor = 1; // times what the map's alpha says; below 0: `metallic` counts instead
+    float emissive_factor = 1; // times what glows of skins
 };
 
 // `texture`: name as in a texinfo or a skin's path. Names that say nothing get the defaults.
@@ -27,8 +28,8 @@ SurfaceGuess guess_surface(std::string_view texture, const MaterialDefaults& def
 // What the library says of formats::material_name `name`, in place of what was guessed.
 void apply_material(SurfaceGuess& surface, std::string_view name, const MaterialDefaults& defaults);
 
-// Roughness and metalness of a material, and the normal map of its texture, whose number and size it has.
-void set_surface(shared::Material& material, const SurfaceGuess& surface, const TextureNormals& normals,
-    const MaterialDefaults& defaults);
+// Tint, roughness, metalness and maps of a material that has its texture.
+void set_surface(
+    shared::Material& material, const SurfaceGuess& surface, const TextureMaps& maps, const MaterialDefaults& defaults);
 
 } // namespace vkpt

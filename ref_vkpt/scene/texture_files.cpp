@@ -133,14 +133,16 @@ std::vector<std::string> TextureFiles::original_paths(std::string_view name, Tex
     case TextureUse::skin:
     case TextureUse::sprite:
     case TextureUse::normals:
+    case TextureUse::emissive:
         break;
     }
     return { path };
 }
 
-std::string TextureFiles::normals_path(std::string_view name, TextureUse use)
+std::string TextureFiles::map_path(std::string_view name, TextureUse use, TextureUse map)
 {
-    return fmt::format("{}_n.tga", without_ending(original_paths(name, use).front()));
+    return fmt::format(
+        "{}{}.tga", without_ending(original_paths(name, use).front()), map == TextureUse::normals ? "_n" : "_light");
 }
 
 std::optional<LoadedTexture> TextureFiles::load(std::string_view name, TextureUse use, const TextureWish& wish)
@@ -148,7 +150,7 @@ std::optional<LoadedTexture> TextureFiles::load(std::string_view name, TextureUs
     if (name.empty())
         return std::nullopt;
     PixelBudget& budget = use == TextureUse::image ? flat_budget_ : level_budget_;
-    if (use == TextureUse::normals)
+    if (use == TextureUse::normals || use == TextureUse::emissive)
         return wish.retexturing ? load_replacement(use_forward_slashes(name), {}, budget) : std::nullopt;
     for (const std::string& path : original_paths(name, use)) {
         if (!is_readable_ending(ending_of(path)))

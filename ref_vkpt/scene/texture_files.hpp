@@ -20,12 +20,12 @@ namespace vkpt {
 //   sprite   full path with ending
 //   image    "inven": pics/inven.pcx; "/players/male/a_i.pcx": the path behind the slash, as it stands
 //   sky      "unit1_rt": env/unit1_rt.tga
-//   normals  full path; any of the usual endings
-enum class TextureUse : uint8_t { wall, skin, sprite, image, sky, normals };
-inline constexpr size_t texture_use_count = 6;
+//   normals, emissive  full path; any of the usual endings
+enum class TextureUse : uint8_t { wall, skin, sprite, image, sky, normals, emissive };
+inline constexpr size_t texture_use_count = 7;
 
-// What a texture's alpha says: how much covers what is behind, or, where a normal map is, roughness.
-enum class AlphaMeaning : uint8_t { opacity, roughness };
+// What a texture's alpha says: how much covers what is behind, or something else, as roughness where a normal map is.
+enum class AlphaMeaning : uint8_t { opacity, other };
 
 struct TextureWish {
     bool retexturing = false; // replacements are preferred
@@ -82,8 +82,8 @@ public:
 
     // Where the original may lie, in the order of the search.
     static std::vector<std::string> original_paths(std::string_view name, TextureUse use);
-    // Of the normal map beside a texture: "textures/e1u1/floor_n.tga".
-    static std::string normals_path(std::string_view name, TextureUse use);
+    // Of the map of this use beside a texture: "textures/e1u1/floor_n.tga", "textures/e1u1/floor_light.tga".
+    static std::string map_path(std::string_view name, TextureUse use, TextureUse map);
 
 private:
     // `file_path`: of the replacement, whatever its ending; `path`: of the original, empty: there is none.

@@ -36,7 +36,7 @@ formats::Image make_uniform(int size, formats::Rgba8 color)
 
 bool is_flat(TextureUse use) { return use == TextureUse::image; }
 
-bool may_have_normals(TextureUse use) { return use == TextureUse::wall || use == TextureUse::skin; }
+bool may_have_maps(TextureUse use) { return use == TextureUse::wall || use == TextureUse::skin; }
 
 // Of the material of a texture that is asked for by this name.
 const MaterialSettings* find_settings(const MaterialLibrary* library, std::string_view name, TextureUse use)
@@ -50,15 +50,21 @@ VkFormat format_of(TextureUse use)
     return is_flat(use) || use == TextureUse::normals ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8G8B8A8_SRGB;
 }
 
-char letter_of(TextureUse use) { return "WMSPYN"[size_t(use)]; }
+char letter_of(TextureUse use) { return "WMSPYNE"[size_t(use)]; }
 
 } // namespace
 
-TextureNormals normals_of(const Texture& texture)
+TextureMaps maps_of(const Texture& texture)
 {
-    if (!texture.normals)
-        return {};
-    return { texture.normals->slot, texture.normals->packed_size, texture.normals->has_alpha, texture.has_alpha };
+    TextureMaps maps;
+    if (const Texture* normals = texture.normals) {
+        maps.normals = { normals->slot, normals->packed_size };
+        maps.has_metalness = normals->has_alpha;
+        maps.texture_has_roughness = texture.has_alpha;
+    }
+    if (const Texture* emissive = texture.emissive; emissive && emissive->brightest > 0)
+        maps.emissive = { emissive->slot, emissive->packed_size };
+    return maps;
 }
 
 TextureStore::TextureStore(const Gpu& gpu, Bindings& bindings, Uploader& uploader)
@@ -92,8 +98,11 @@ const Texture* TextureStore::find(std::string_view name, TextureUse use)
         texture = known->second;
     else
         names.emplace(name, texture = load(name, use));
-    if (texture && may_have_normals(use) && texture->registration != registration_)
-        texture->normals = find_normals(name, use); // this map's materials may say something else
+    if (texture && may_have_maps(use) && texture->registration != registration_) {
+        // This map's materials may say something else.
+        texture->normals = find_map(name, use, TextureUse::normals);
+        texture->emissive = find_map(name, use, TextureUse::emissive);
+    }
     touch(texture);
     return texture;
 }
@@ -130,25 +139,28 @@ void TextureStore::touch(const Texture* texture)
         entries_[size_t(texture - entries_.get())].registration = registration_;
 }
 
-const Texture* TextureStore::find_normals(std::string_view name, TextureUse use)
+const Texture* TextureStore::find_map(std::string_view name, TextureUse use, TextureUse map)
 {
+    const bool is_normals = map == TextureUse::normals;
     const MaterialSettings* settings = find_settings(library_, name, use);
-    if (!settings || settings->normals_file.empty())
-        return find(TextureFiles::normals_path(name, use), TextureUse::normals);
-    const Texture* normals = find(settings->normals_file, TextureUse::normals);
-    if (!normals && cvars::values().r_retexturing != 0)
-        engine::print("texture_normals {} of {} is missing or unusable", settings->normals_file, name);
-    return normals;
+    const std::string file = !settings ? "" : is_normals ? settings->normals_file : settings->emissive_file;
+    if (file.empty())
+        return find(TextureFiles::map_path(name, use, map), map);
+    const Texture* found = find(file, map);
+    if (!found && cvars::values().r_retexturing != 0)
+        engine::print("texture_{} {} of {} is missing or unusable", is_normals ? "normals" : "emissive", file, name);
+    return found;
 }
 
 Texture* TextureStore::load(std::string_view name, TextureUse use)
 {
     TextureWish wish;
     wish.retexturing = cvars::values().r_retexturing != 0;
-    const Texture* normals = nullptr;
-    if (may_have_normals(use)) {
-        normals = find_normals(name, use);
-        wish.alpha = normals ? AlphaMeaning::roughness : AlphaMeaning::opacity;
+    const Texture *normals = nullptr, *emissive = nullptr;
+    if (may_have_maps(use)) {
+        normals = find_map(name, use, TextureUse::normals);
+        emissive = find_map(name, use, TextureUse::emissive);
+        wish.alpha = normals ? AlphaMeaning::other : AlphaMeaning::opacity;
         if (const MaterialSettings* settings = find_settings(library_, name, use))
             wish.file = settings->base_file;
     }
@@ -173,6 +185,7 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
     texture->file = loaded->file;
     texture->use = use;
     texture->normals = normals;
+    texture->emissive = emissive;
     const int limit = int(gpu_.device.properties.limits.maxImageDimension2D);
     try {
         if (use != TextureUse::normals && (loaded->image.width > limit || loaded->image.height > limit))
@@ -244,10 +257,11 @@ void TextureStore::upload_levels(Texture& texture, const formats::Image& first,
 
 void TextureStore::measure(Texture& texture, const formats::Image& pixels) const
 {
-    const AlphaMeaning alpha = texture.normals ? AlphaMeaning::roughness : AlphaMeaning::opacity;
+    const bool has_opacity = !texture.normals && texture.use != TextureUse::emissive;
+    const AlphaMeaning alpha = has_opacity ? AlphaMeaning::opacity : AlphaMeaning::other;
     const TextureMeasure measure = measure_texture(pixels, alpha);
     texture.average = measure.average;
-    if (texture.use == TextureUse::wall)
+    if (texture.use == TextureUse::wall || texture.use == TextureUse::emissive)
         texture.parts = find_bright_parts(pixels, alpha);
     if (texture.use == TextureUse::sky)
         texture.sun = find_painted_sun(pixels);
@@ -346,8 +360,8 @@ void TextureStore::print_list() const
                                                : "",
             texture.registration == registration_ ? " *" : "");
     }
-    engine::print(
-        "{} textures (W wall, M model, S sprite, P 2D, Y sky, N normals; * in use), {:.1f} million texels, {:.0f} MiB",
+    engine::print("{} textures (W wall, M model, S sprite, P 2D, Y sky, N normals, E emission; * in use), {:.1f} "
+                  "million texels, {:.0f} MiB",
         count, double(texels) / 1e6, double(gpu_.memory.bytes_in_use(MemoryKind::textures)) / double(1 << 20));
 }
 

@@ -34,18 +34,20 @@ struct Texture {
     uint32_t packed_size = 0x10001; // of what is in the slot, see shared::Material::texture_size
     int width = 0, height = 0; // of the original texture
     glm::vec3 average { 1 }; // see TextureMeasure
-    std::vector<BrightPart> parts; // of walls
+    std::vector<BrightPart> parts; // of walls, and of what glows
     float opaque_fraction = 1;
     std::optional<PaintedSun> sun; // of skies
     uint8_t brightest = 0; // component of all texels
     bool has_alpha = false;
     bool missing = false; // grey in place of a wall that was not found
-    const Texture* normals = nullptr; // of walls and skins: its normal map
+    // Of walls and skins: its normal map, and the picture of what of it glows.
+    const Texture* normals = nullptr;
+    const Texture* emissive = nullptr;
     uint32_t registration = 0; // the last one that used it; 0: free
     Image image; // not set: shares the slot of another
 };
 
-TextureNormals normals_of(const Texture& texture);
+TextureMaps maps_of(const Texture& texture);
 
 class TextureStore {
 public:
@@ -58,7 +60,7 @@ public:
     // Names as in TextureUse. Loads what is not there yet and marks it used. A wall that is not found is a grey texture
     // of 64 x 64, named on the console once per map; anything else that is not found is nullptr.
     const Texture* find(std::string_view name, TextureUse use);
-    // What files say of materials: normal maps and replacements of walls and skins. Counts for what is found from here
+    // What files say of materials: maps and replacements of walls and skins. Counts for what is found from here
     // on, and from the next map on for what a map before had. Must outlive this.
     void use_materials(const MaterialLibrary& library) { library_ = &library; }
     // The six sides in the order of shared::Sky (rt, bk, lf, ft, up, dn); nullptr where a side is missing.
@@ -91,7 +93,7 @@ private:
     using Names = std::map<std::string, Texture*, std::less<>>; // nullptr: searched and not found
 
     Texture* load(std::string_view name, TextureUse use);
-    const Texture* find_normals(std::string_view name, TextureUse use);
+    const Texture* find_map(std::string_view name, TextureUse use, TextureUse map);
     Texture* make_missing_wall(std::string_view name);
     Texture* take_entry();
     void release(Texture& texture);

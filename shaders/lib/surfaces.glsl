@@ -7,7 +7,7 @@
 #include "bsdf.glsl"
 #include "footprint.glsl"
 #include "light_lists.glsl"
-#include "normal_maps.glsl"
+#include "material_maps.glsl"
 #include "packing.glsl"
 #include "sky.glsl"
 #include "trace.glsl"
@@ -98,13 +98,20 @@ void read_normal_map(
         s.roughness = quick_max(s.roughness, alpha);
     footprint.mip = normal_map_mip(material, footprint.mip);
     vec4 texel = way == TEXTURE_TEXEL
-        ? textureLod(VKPT_TEXTURE(material.normal_map, SAMPLER_REPEAT_NEAREST), uv, footprint.mip)
-        : sample_texture(material.normal_map, uv, footprint);
+        ? textureLod(VKPT_TEXTURE(normal_map(material), SAMPLER_REPEAT_NEAREST), uv, footprint.mip)
+        : sample_texture(normal_map(material), uv, footprint);
     apply_normal_map(unpack_normal_texel(texel, bump_scale(material)), tangent, material.flags, facing, s);
 }
 
-// `cone_width`: the ray's footprint there, in units. `way`: TEXTURE_*. Normal maps count where the shader has defined
-// VKPT_NORMAL_MAPS.
+// Over the footprint's longer axis: what glows need not be sharp.
+vec3 read_emissive_map(Material material, vec2 uv, Footprint footprint)
+{
+    float mip = emissive_map_mip(material, footprint.mip + log2(footprint.taps));
+    return textureLod(VKPT_TEXTURE(emissive_map(material), SAMPLER_REPEAT), uv, mip).rgb;
+}
+
+// `cone_width`: the ray's footprint there, in units. `way`: TEXTURE_*. Maps beside the texture count where the shader
+// has defined VKPT_NORMAL_MAPS.
 HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
 {
     Triangle triangle = fetch_Triangle(frame.scene.triangles, hit.triangle);
@@ -135,7 +142,7 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
         : find_footprint(triangle, size, cone_width, s.geometric_normal, ray.direction, frame.texture_taps);
 #ifdef VKPT_NORMAL_MAPS
     vec4 tangent = vec4(0.0); // now: the triangle then takes no registers while textures are read
-    if (material.normal_map != 0u)
+    if (normal_map(material) != 0u)
         tangent = find_tangent(triangle, s.normal * facing);
 #endif
     vec4 texel = way == TEXTURE_TEXEL ? fetch_texel(material, uv, footprint.mip)
@@ -145,11 +152,14 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
     s.roughness = material.roughness;
     s.metallic = material.metallic;
 #ifdef VKPT_NORMAL_MAPS
-    if (material.normal_map != 0u)
+    if (normal_map(material) != 0u)
         read_normal_map(material, tangent, uv, footprint, way, texel.a, facing, s);
 #endif
     result.surface = s;
-    result.emission = material.emission * texel.rgb * lightstyle_scale(triangle.lightstyle) * result.front;
+    vec3 glow = texel.rgb;
+    if (emissive_map(material) != 0u)
+        glow = read_emissive_map(material, uv, footprint);
+    result.emission = material.emission * glow * lightstyle_scale(triangle.lightstyle) * result.front;
     result.opacity = material.opacity;
     if ((material.flags & MATERIAL_PARTICLE) != 0u)
         result.opacity *= particle_cover(uv, material.flags);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How a normal map tilts the shading normal and, where it is seen from afar, makes the surface rougher (Toksvig 2005,
 // Mipmapping Normal Maps). Texels: ref_vkpt/scene/normal_maps.hpp.
-#ifndef VKPT_LIB_NORMAL_MAPS
-#define VKPT_LIB_NORMAL_MAPS
+#ifndef VKPT_LIB_MATERIAL_MAPS
+#define VKPT_LIB_MATERIAL_MAPS
 
 #include "../shared/scene.h"
 #include "bsdf.glsl"
@@ -13,12 +13,24 @@ struct NormalMapTexel {
     float metalness;
 };
 
-float bump_scale(Material material) { return float(material.normal_map_scale & 0xffffu) / MATERIAL_BUMP_ONE; }
+uint normal_map(Material material) { return material.maps & 0xffffu; }
+
+float bump_scale(Material material)
+{
+    return float(material.map_scales & ((1u << MATERIAL_BUMP_BITS) - 1u)) / MATERIAL_BUMP_ONE;
+}
 
 // The mip of the normal map for `mip` of the texture.
 float normal_map_mip(Material material, float mip)
 {
-    return mip + float(int(material.normal_map_scale) >> 16) / MATERIAL_MIP_ONE;
+    return mip + float(int(material.map_scales << MATERIAL_MIP_BITS) >> (32u - MATERIAL_MIP_BITS)) / MATERIAL_MIP_ONE;
+}
+
+uint emissive_map(Material material) { return material.maps >> 16u; }
+
+float emissive_map_mip(Material material, float mip)
+{
+    return mip + float(int(material.map_scales) >> (32u - MATERIAL_MIP_BITS)) / MATERIAL_MIP_ONE;
 }
 
 NormalMapTexel unpack_normal_texel(vec4 texel, float scale)
