@@ -32,7 +32,10 @@ void print_material(const Module& m, uint32_t texinfo)
     const World& world = *m.scene.world();
     const std::string& name = world.material_names[texinfo];
     const shared::Material& material = m.view().snapshot->materials[texinfo];
-    engine::print("{}: roughness {:.2f}, metalness {:.2f}", name, material.roughness, material.metallic);
+    engine::print("{}: roughness {:.2f}{}, metalness {:.2f}{}{}", name, material.roughness,
+        material.flags & shared::MATERIAL_ROUGHNESS_IN_ALPHA ? " at least, by its alpha" : "", material.metallic,
+        material.flags & shared::MATERIAL_METALNESS_IN_ALPHA ? " times its normal map's alpha" : "",
+        (material.maps & 0xffff) != 0 ? ", with a normal map" : "");
     if (const MaterialSettings* settings = m.scene.materials().find(name))
         for (const auto& [attribute, value] : settings->attributes)
             engine::print("    {} {}", attribute, value);

@@ -67,11 +67,15 @@ SceneMaterial make_material(const shared::Material& from, const Texture* texture
     SceneMaterial to {};
     to.texture = texture ? texture->file.c_str() : "";
     const glm::vec3 average = texture ? texture->average : glm::vec3(1);
+    // Emissive maps are not among the contents: the texture shines in their place, as much as they do.
+    const bool has_map = texture && texture->emissive && (from.maps >> 16) != 0;
+    const glm::vec3 glow = has_map ? texture->emissive->average : average;
+    const glm::vec3 share = has_map ? glow / glm::max(average, 1e-3f) : glm::vec3(1);
     copy_vector(to.tint, from.tint);
     copy_vector(to.base_colour, glm::clamp(average * from.tint, 0.0f, 1.0f));
     to.opacity = from.opacity;
-    copy_vector(to.emission_tint, from.emission * lightstyle);
-    copy_vector(to.emission, from.emission * average * lightstyle);
+    copy_vector(to.emission_tint, from.emission * share * lightstyle);
+    copy_vector(to.emission, from.emission * glow * lightstyle);
     to.uv_scroll[0] = from.uv_scroll.x;
     to.uv_scroll[1] = from.uv_scroll.y;
     to.roughness = from.roughness;

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Light that reaches the primary surface over pt_bounces further surfaces, added to what direct_light stored. With an
 // MIS sampler also what its rays find of the emitters that direct_light sampled; then it runs without bounces, too.
+#define VKPT_NORMAL_MAPS
 #include "lib/frame.glsl"
 #include "lib/bounce_blocks.glsl"
 #include "lib/guides.glsl"

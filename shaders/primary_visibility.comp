@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Camera rays through mirrors, glass and water to the first surface that is shaded, written to the G-buffer.
+#define VKPT_NORMAL_MAPS
 #include "lib/frame.glsl"
 #include "lib/fog.glsl"
 #include "lib/interleaved_layers.glsl"

@@ -132,6 +132,11 @@ void Host::check_wanted_cvars()
                 "vkpt: --set %s=%s: the module uses %.*s instead; `vkpt info --cvars` lists the ranges\n", name.c_str(),
                 text.c_str(), int(used.size()), used.data());
     }
+    const engine::Cvar* projection = cvars_.find("pt_projection");
+    if (projection && projection->text == std::string_view("equirectangular") && options_.width != 2 * options_.height)
+        std::fprintf(stderr,
+            "vkpt: an equirectangular image is twice as wide as high, so %dx%d is stretched; use --size %dx%d\n",
+            options_.width, options_.height, 2 * options_.height, options_.height);
 }
 
 void Host::draw_frame(const engine::RefDef& refdef)

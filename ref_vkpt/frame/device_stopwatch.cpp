@@ -3,17 +3,6 @@
 
 namespace vkpt {
 
-DeviceStopwatch::DeviceStopwatch(const Device& device)
-    : device_(device)
-{
-    VkQueryPoolCreateInfo info { VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO };
-    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = 2;
-    VKPT_CHECK(vkCreateQueryPool(device.handle, &info, nullptr, &pool_));
-}
-
-DeviceStopwatch::~DeviceStopwatch() { vkDestroyQueryPool(device_.handle, pool_, nullptr); }
-
 void DeviceStopwatch::begin(VkCommandBuffer commands) const
 {
     vkCmdResetQueryPool(commands, pool_, 0, 2);

@@ -2,15 +2,17 @@
 // The device's time for the commands between two points, by timestamps.
 #pragma once
 
-#include "ref_vkpt/vulkan/device.hpp"
+#include "ref_vkpt/vulkan/commands.hpp"
 
 namespace vkpt {
 
 class DeviceStopwatch {
 public:
     // The device's queue has timestamps.
-    explicit DeviceStopwatch(const Device& device);
-    ~DeviceStopwatch();
+    explicit DeviceStopwatch(const Device& device)
+        : device_(device)
+    {
+    }
     DeviceStopwatch(const DeviceStopwatch&) = delete;
     DeviceStopwatch& operator=(const DeviceStopwatch&) = delete;
 
@@ -22,7 +24,7 @@ public:
 
 private:
     const Device& device_;
-    VkQueryPool pool_ = VK_NULL_HANDLE;
+    QueryPool pool_ = make_timestamp_pool(device_, 2);
 };
 
 } // namespace vkpt

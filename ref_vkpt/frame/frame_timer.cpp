@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/frame_timer.hpp"
 
 #include "ref_vkpt/frame/bench_report.hpp"
+#include "ref_vkpt/vulkan/commands.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -18,18 +19,9 @@ constexpr uint32_t frames_a_glance = 16; // one of so many has its passes timed 
 FrameTimer::FrameTimer(const Device& device)
     : device_(device)
 {
-    VkQueryPoolCreateInfo info { VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO };
-    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = max_marks;
     for (Slot& slot : slots_)
         if (can_time())
-            VKPT_CHECK(vkCreateQueryPool(device.handle, &info, nullptr, &slot.pool));
-}
-
-FrameTimer::~FrameTimer()
-{
-    for (Slot& slot : slots_)
-        vkDestroyQueryPool(device_.handle, slot.pool, nullptr);
+            slot.pool = make_timestamp_pool(device, max_marks);
 }
 
 double FrameTimer::milliseconds_between(uint64_t begin, uint64_t end) const

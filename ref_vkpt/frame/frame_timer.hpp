@@ -6,6 +6,7 @@
 
 #include "ref_vkpt/extension.hpp"
 #include "ref_vkpt/pass_statistics.hpp"
+#include "ref_vkpt/vulkan/handle.hpp"
 #include "ref_vkpt/vulkan/swapchain.hpp"
 
 #include <array>
@@ -18,7 +19,6 @@ namespace vkpt {
 class FrameTimer {
 public:
     explicit FrameTimer(const Device& device);
-    ~FrameTimer();
     FrameTimer(const FrameTimer&) = delete;
     FrameTimer& operator=(const FrameTimer&) = delete;
 
@@ -53,7 +53,7 @@ public:
 
 private:
     struct Slot {
-        VkQueryPool pool = VK_NULL_HANDLE;
+        QueryPool pool;
         std::vector<const char*> names; // one a stretch
         bool has_view = false, times_passes = false;
     };

@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/graphics.hpp"
 
 #include "ref_vkpt/engine/errors.hpp"
+#include "ref_vkpt/vulkan/commands.hpp"
 #include "shaders/shared/present.h"
 
 #include <algorithm>
@@ -43,43 +44,28 @@ Graphics::Graphics(const GraphicsSettings& settings)
         create_slot(slot);
 }
 
-Graphics::~Graphics()
-{
-    vkDeviceWaitIdle(device.handle);
-    for (Slot& slot : slots_) {
-        vkDestroyFence(device.handle, slot.finished, nullptr);
-        vkDestroyFence(device.handle, slot.shown, nullptr);
-        vkDestroyCommandPool(device.handle, slot.pool, nullptr);
-    }
-}
+Graphics::~Graphics() { vkDeviceWaitIdle(device.handle); }
 
 void Graphics::create_slot(Slot& slot)
 {
-    VkCommandPoolCreateInfo pool { VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO };
-    pool.queueFamilyIndex = device.queue_family;
-    VKPT_CHECK(vkCreateCommandPool(device.handle, &pool, nullptr, &slot.pool));
-    VkCommandBufferAllocateInfo commands { VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO };
-    commands.commandPool = slot.pool;
-    commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    commands.commandBufferCount = 1;
-    VKPT_CHECK(vkAllocateCommandBuffers(device.handle, &commands, &slot.commands));
-    VKPT_CHECK(vkAllocateCommandBuffers(device.handle, &commands, &slot.show_commands));
+    slot.pool = make_command_pool(device);
+    slot.commands = make_command_buffer(device, slot.pool);
+    slot.show_commands = make_command_buffer(device, slot.pool);
     renew_fence(slot.finished);
     renew_fence(slot.shown);
 }
 
-void Graphics::renew_fence(VkFence& fence)
+void Graphics::renew_fence(Fence& fence)
 {
-    vkDestroyFence(device.handle, fence, nullptr);
-    fence = VK_NULL_HANDLE;
     VkFenceCreateInfo info { VK_STRUCTURE_TYPE_FENCE_CREATE_INFO };
     info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
-    VKPT_CHECK(vkCreateFence(device.handle, &info, nullptr, &fence));
+    VKPT_RENEW(fence, vkCreateFence, device.handle, info);
 }
 
-void Graphics::submit(const VkSubmitInfo& info, VkFence& fence)
+void Graphics::submit(const VkSubmitInfo& info, Fence& fence)
 {
-    VKPT_CHECK(vkResetFences(device.handle, 1, &fence));
+    const VkFence reset = fence;
+    VKPT_CHECK(vkResetFences(device.handle, 1, &reset));
     if (const VkResult result = vkQueueSubmit(device.queue, 1, &info, fence); result < 0) {
         renew_fence(fence); // which nothing signals now
         swapchain_outdated_ = true; // nor is its image given back
@@ -178,9 +164,7 @@ bool Graphics::begin_frame()
     VKPT_CHECK(vkWaitForFences(device.handle, 2, fences, VK_TRUE, UINT64_MAX));
     const bool is_new = follow_window();
     VKPT_CHECK(vkResetCommandPool(device.handle, slot.pool, 0));
-    VkCommandBufferBeginInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
-    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    VKPT_CHECK(vkBeginCommandBuffer(slot.commands, &info));
+    begin_commands(slot.commands);
     recording_ = true;
     timer.begin_frame(slot.commands, slot_);
     clear_output();
@@ -227,9 +211,7 @@ void Graphics::show(Slot& slot)
     swapchain_outdated_ |= taken == Acquired::outdated;
     if (taken != Acquired::image)
         return;
-    VkCommandBufferBeginInfo begin { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    VKPT_CHECK(vkBeginCommandBuffer(slot.show_commands, &begin));
+    begin_commands(slot.show_commands);
     swapchain_->record_copy(slot.show_commands, present_words_);
     VKPT_CHECK(vkEndCommandBuffer(slot.show_commands));
     const VkPipelineStageFlags copies = VK_PIPELINE_STAGE_TRANSFER_BIT;
@@ -250,15 +232,9 @@ void Graphics::run_once(const std::function<void(VkCommandBuffer)>& record)
     finish();
     Slot& slot = slots_[slot_];
     VKPT_CHECK(vkResetCommandPool(device.handle, slot.pool, 0));
-    VkCommandBufferBeginInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
-    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    VKPT_CHECK(vkBeginCommandBuffer(slot.commands, &info));
+    begin_commands(slot.commands);
     record(slot.commands);
-    VKPT_CHECK(vkEndCommandBuffer(slot.commands));
-    VkSubmitInfo submit { VK_STRUCTURE_TYPE_SUBMIT_INFO };
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &slot.commands;
-    VKPT_CHECK(vkQueueSubmit(device.queue, 1, &submit, VK_NULL_HANDLE));
+    submit_commands(device, slot.commands);
     finish();
 }
 

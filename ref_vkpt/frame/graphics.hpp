@@ -87,14 +87,14 @@ public:
 
 private:
     struct Slot {
-        VkCommandPool pool = VK_NULL_HANDLE;
+        CommandPool pool;
         VkCommandBuffer commands = VK_NULL_HANDLE;
         VkCommandBuffer show_commands = VK_NULL_HANDLE; // the copy into the window's image
-        VkFence finished = VK_NULL_HANDLE, shown = VK_NULL_HANDLE;
+        Fence finished, shown;
     };
     void create_slot(Slot& slot);
-    void renew_fence(VkFence& fence);
-    void submit(const VkSubmitInfo& info, VkFence& fence);
+    void renew_fence(Fence& fence);
+    void submit(const VkSubmitInfo& info, Fence& fence);
     bool can_show() const;
     void show(Slot& slot);
     bool follow_window();

@@ -6,6 +6,7 @@
 #include "ref_vkpt/engine/errors.hpp"
 #include "ref_vkpt/frame/scene_texels.hpp"
 #include "ref_vkpt/frame/view_buffers.hpp"
+#include "ref_vkpt/vulkan/commands.hpp"
 #include "shaders/shared/frame.h"
 
 #include <algorithm>
@@ -28,40 +29,22 @@ public:
         : device_(Device::make_twin(original))
         , uniforms_(gpu_, sizeof(shared::FrameUniforms), BufferHome::upload, MemoryKind::staging, "idle uniforms")
     {
-        VkCommandPoolCreateInfo pool { VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO };
-        pool.queueFamilyIndex = device_->queue_family;
-        VKPT_CHECK(vkCreateCommandPool(device_->handle, &pool, nullptr, &pool_));
-        VkCommandBufferAllocateInfo commands { VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO };
-        commands.commandPool = pool_;
-        commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-        commands.commandBufferCount = 1;
-        VKPT_CHECK(vkAllocateCommandBuffers(device_->handle, &commands, &commands_));
         bindings_.bind_uniforms(uniforms_, uniforms_.size());
     }
 
-    ~IdleDevice()
-    {
-        vkDeviceWaitIdle(device_->handle);
-        vkDestroyCommandPool(device_->handle, pool_, nullptr);
-    }
+    ~IdleDevice() { vkDeviceWaitIdle(device_->handle); }
 
     void dispatch_nothing(const std::string& shader)
     {
         VKPT_CHECK(vkResetCommandPool(device_->handle, pool_, 0));
-        VkCommandBufferBeginInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
-        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        VKPT_CHECK(vkBeginCommandBuffer(commands_, &info));
+        begin_commands(commands_);
         bindings_.bind(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, 0, { scene_texels_.set(0), screen_texels_.handle() });
         constexpr std::array<std::byte, push_constant_bytes> push {};
         vkCmdPushConstants(
             commands_, bindings_.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, push_constant_bytes, push.data());
         vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.compute(shader));
         vkCmdDispatch(commands_, 0, 1, 1);
-        VKPT_CHECK(vkEndCommandBuffer(commands_));
-        VkSubmitInfo submit { VK_STRUCTURE_TYPE_SUBMIT_INFO };
-        submit.commandBufferCount = 1;
-        submit.pCommandBuffers = &commands_;
-        VKPT_CHECK(vkQueueSubmit(device_->queue, 1, &submit, VK_NULL_HANDLE));
+        submit_commands(*device_, commands_);
         device_->wait_idle();
     }
 
@@ -74,8 +57,8 @@ private:
     TexelSet screen_texels_ = make_screen_texels(gpu_, bindings_);
     Pipelines pipelines_ { gpu_, bindings_, "" };
     Buffer uniforms_;
-    VkCommandPool pool_ = VK_NULL_HANDLE;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    CommandPool pool_ = make_command_pool(*device_);
+    VkCommandBuffer commands_ = make_command_buffer(*device_, pool_);
 };
 
 } // namespace

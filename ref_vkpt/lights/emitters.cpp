@@ -64,7 +64,8 @@ glm::vec3 average_radiance(const BspTexinfo& texinfo, const FaceTexture& texture
 {
     const glm::vec3 average = glm::max(texture.average, glm::vec3(0));
     if ((texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0)
-        return scales.face * float(texinfo.value) * strength_of(texture) * normalise_colour(average);
+        return scales.face * float(texinfo.value) * strength_of(texture) * normalise_colour(average)
+            * texture.emissive_factor;
     return scales.sky * average;
 }
 
@@ -72,12 +73,13 @@ glm::vec3 average_radiance(const BspTexinfo& texinfo, const FaceTexture& texture
 glm::vec3 emission_factor(const BspTexinfo& texinfo, const FaceTexture& texture, const EmissionScales& scales)
 {
     if (is_glowing(texinfo, texture))
-        return glm::vec3(scales.glow);
+        return glm::vec3(scales.glow * texture.emissive_factor);
     if (!has_light_value(texinfo))
         return glm::vec3(0);
     const float greatest = max_component(texture.average);
-    return greatest > 0 ? glm::vec3(scales.face * float(texinfo.value) * strength_of(texture) / greatest)
-                        : glm::vec3(0);
+    return greatest > 0
+        ? glm::vec3(scales.face * float(texinfo.value) * strength_of(texture) / greatest) * texture.emissive_factor
+        : glm::vec3(0);
 }
 
 // Where in the tree a face's front lies: leaves are numbered in tree order, so near numbers are near places.
@@ -155,7 +157,8 @@ void report_unused(const EmissionSource& source, std::vector<std::string>& messa
 
 bool is_glowing(const BspTexinfo& texinfo, const FaceTexture& texture)
 {
-    return texture.glows && !texture.parts.empty() && texinfo.next < 0 && classify(texinfo) == Emission::none
+    const bool shines_somewhere = !texture.parts.empty() || texture.maps.emissive.slot != 0;
+    return texture.glows && shines_somewhere && texinfo.next < 0 && classify(texinfo) == Emission::none
         && !(texinfo.flags & (formats::SURF_NODRAW | formats::SURF_WARP));
 }
 
@@ -221,15 +224,18 @@ std::vector<shared::Emitter> emitters_of_face(
     const BspTexinfo& texinfo = source.bsp.texinfos[of_map.texinfo];
     const FaceTexture& texture = source.textures[of_map.texinfo];
     const bool is_sky = classify(texinfo) == Emission::sky;
-    const glm::vec3 radiance
-        = is_sky ? average_radiance(texinfo, texture, source.scales) : face_radiance(source, of_map.texinfo);
     const bool glows = is_glowing(texinfo, texture);
-    if (!(max_component(radiance) > 0) && !is_sky && !glows)
+    const float glow = source.scales.glow * texture.emissive_factor;
+    const glm::vec3 radiance = is_sky ? average_radiance(texinfo, texture, source.scales)
+        : glows                       ? glow * texture.average
+                                      : face_radiance(source, of_map.texinfo);
+    if (!(max_component(radiance) > 0) && !is_sky)
         return {};
-    const float scale = glows ? source.scales.glow : scale_of_parts(triangles, texture.parts, radiance);
+    const float scale = glows ? glow : scale_of_parts(triangles, texture.parts, radiance);
+    const bool glows_in_parts = glows && !texture.parts.empty();
     std::vector<shared::Emitter> emitters;
     for (const FaceTriangle& triangle : triangles) {
-        if (triangle.part == FacePiece::dark || (glows && triangle.part == FaceTriangle::whole))
+        if (triangle.part == FacePiece::dark || (glows_in_parts && triangle.part == FaceTriangle::whole))
             continue;
         shared::Emitter emitter {};
         emitter.p0 = triangle.corners[0];

@@ -16,6 +16,16 @@
 namespace vkpt {
 
 // What geometry and emitters have to know of a texinfo's texture.
+// The maps that go with a texture.
+struct TextureMaps {
+    struct Map {
+        uint32_t slot = 0, packed_size = 0x10001; // see Texture; slot 0: none
+    };
+    Map normals, emissive;
+    bool has_metalness = false; // in the normal map's alpha
+    bool texture_has_roughness = false; // in the texture's own alpha, as there is a normal map
+};
+
 struct FaceTexture {
     uint32_t slot = 0, packed_size = 0x10001; // see Texture
     glm::ivec2 size { 64 }; // texels of texinfo space
@@ -23,6 +33,8 @@ struct FaceTexture {
     bool missing = false; // a stand-in
     std::vector<BrightPart> parts; // where it shines; none: all over
     bool glows = false; // its parts shine on faces without a light value, too
+    TextureMaps maps; // with an emissive one, `average` and `parts` are that one's, and so is the texture that shines
+    float emissive_factor = 1; // times what shines by it
 };
 
 // A face's outline where it is drawn, used for geometry and emitters alike: Bsp::face_polygon, but for liquids that

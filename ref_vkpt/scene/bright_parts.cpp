@@ -2,7 +2,6 @@
 #include "ref_vkpt/scene/bright_parts.hpp"
 
 #include "common/colour.hpp"
-#include "ref_vkpt/scene/texture_files.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -19,7 +18,7 @@ constexpr float min_share = 0.6f;
 
 // The texture in a few cells, each the sum of the light of its texels.
 struct Cells {
-    explicit Cells(const formats::Image& image)
+    Cells(const formats::Image& image, AlphaMeaning alpha)
         : width(std::min(image.width, max_side))
         , height(std::min(image.height, max_side))
         , light(size_t(width) * size_t(height))
@@ -31,7 +30,8 @@ struct Cells {
             glm::vec3* const row = &at(0, y * height / image.height);
             for (int x = 0; x < image.width; x++) {
                 const formats::Rgba8& texel = image.at(x, y);
-                row[column[size_t(x)]] += decode_colour(texel) * (float(texel.a) / 255);
+                const float opacity = alpha == AlphaMeaning::opacity ? float(texel.a) / 255 : 1;
+                row[column[size_t(x)]] += decode_colour(texel) * opacity;
             }
         }
         const float texels = float(image.width) * float(image.height) / float(width * height);
@@ -109,11 +109,11 @@ std::vector<CellBox> find_boxes(const Cells& cells)
 
 } // namespace
 
-std::vector<BrightPart> find_bright_parts(const formats::Image& image)
+std::vector<BrightPart> find_bright_parts(const formats::Image& image, AlphaMeaning alpha)
 {
     if (image.width < 4 || image.height < 4)
         return {};
-    Cells cells(image);
+    Cells cells(image, alpha);
     const std::vector<CellBox> boxes = find_boxes(cells);
     if (boxes.size() > max_count)
         return {};

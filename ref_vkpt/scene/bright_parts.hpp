@@ -4,6 +4,7 @@
 
 #include "formats/image.hpp"
 #include "ref_vkpt/lights/face_pieces.hpp"
+#include "ref_vkpt/scene/texture_files.hpp"
 
 #include <vector>
 
@@ -12,6 +13,6 @@ namespace vkpt {
 // Rectangles that do not overlap, around what is at least 0.3 times as bright as the brightest spot. None where they
 // would be more than four, cover more than half of the texture, or hold less than 0.6 of its light: it shines all over,
 // then.
-std::vector<BrightPart> find_bright_parts(const formats::Image& image);
+std::vector<BrightPart> find_bright_parts(const formats::Image& image, AlphaMeaning alpha = AlphaMeaning::opacity);
 
 } // namespace vkpt

@@ -218,9 +218,8 @@ shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Mode
     SurfaceGuess surface = guess_surface(model.name, defaults_);
     if (skin)
         apply_material(surface, skin->material, defaults_);
-    material.tint = glm::vec3(surface.base_factor);
-    material.roughness = surface.roughness;
-    material.metallic = surface.metallic;
+    const TextureMaps maps = skin ? maps_of(*skin) : TextureMaps();
+    set_surface(material, surface, maps, defaults_);
     if (entity.flags & RF_FULLBRIGHT)
         material.flags |= shared::MATERIAL_FULLBRIGHT;
     if (entity.flags & RF_TRANSLUCENT) {
@@ -230,6 +229,10 @@ shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Mode
     if ((refdef_.flags & RDF_IRGOGGLES) && (entity.flags & RF_IR_VISIBLE)) {
         material.tint = glm::vec3(1, 0, 0);
         material.flags |= shared::MATERIAL_FULLBRIGHT;
+    }
+    if (maps.emissive.slot != 0) {
+        material.emission = glm::vec3(EmissionScales().glow * surface.emissive_factor);
+        return material; // it glows where its map says so, and no more
     }
     // Items pulse: a little light of their own, rising and falling.
     if (entity.flags & RF_GLOW)

@@ -3,6 +3,9 @@
 // its texture's name.
 #pragma once
 
+#include "ref_vkpt/lights/face_triangles.hpp"
+#include "shaders/shared/scene.h"
+
 #include <string_view>
 
 namespace vkpt {
@@ -12,6 +15,11 @@ struct MaterialDefaults;
 struct SurfaceGuess {
     float roughness, metallic;
     float base_factor = 1; // times the texture's colour
+    // Where there is a normal map:
+    float bump_scale = 1; // of its tilt
+    float least_roughness = 0; // below what the texture's alpha says
+    float metalness_factor = 1; // times what the map's alpha says; below 0: `metallic` counts instead
+    float emissive_factor = 1; // times what glows of skins
 };
 
 // `texture`: name as in a texinfo or a skin's path. Names that say nothing get the defaults.
@@ -19,5 +27,9 @@ SurfaceGuess guess_surface(std::string_view texture, const MaterialDefaults& def
 
 // What the library says of formats::material_name `name`, in place of what was guessed.
 void apply_material(SurfaceGuess& surface, std::string_view name, const MaterialDefaults& defaults);
+
+// Tint, roughness, metalness and maps of a material that has its texture.
+void set_surface(
+    shared::Material& material, const SurfaceGuess& surface, const TextureMaps& maps, const MaterialDefaults& defaults);
 
 } // namespace vkpt

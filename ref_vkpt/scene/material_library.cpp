@@ -25,7 +25,7 @@ std::string word_of(const Attributes& attributes, std::string_view name)
 
 MaterialSettings make_settings(const Attributes& attributes)
 {
-    constexpr float brightest = 16, usual_threshold = 215;
+    constexpr float brightest = 16, usual_threshold = 215, steepest = 4, most_emissive = 1000;
     MaterialSettings settings;
     settings.roughness = std::min(number_of(attributes, "roughness_override", -1), 1.0f);
     settings.metalness = std::min(number_of(attributes, "metalness_override", -1), 1.0f);
@@ -38,6 +38,12 @@ MaterialSettings make_settings(const Attributes& attributes)
             ? int(std::clamp(number_of(attributes, "emissive_threshold", usual_threshold), 1.0f, 255.0f))
             : 0;
     settings.base_factor = std::clamp(number_of(attributes, "base_factor", 1), 0.0f, brightest);
+    settings.bump_scale = std::clamp(number_of(attributes, "bump_scale", 1), 0.0f, steepest);
+    settings.metalness_factor = std::clamp(number_of(attributes, "metalness_factor", 1), 0.0f, 1.0f);
+    settings.emissive_factor = std::clamp(number_of(attributes, "emissive_factor", 1), 0.0f, most_emissive);
+    settings.base_file = word_of(attributes, "texture_base");
+    settings.normals_file = word_of(attributes, "texture_normals");
+    settings.emissive_file = word_of(attributes, "texture_emissive");
     settings.attributes = attributes;
     return settings;
 }

@@ -15,6 +15,11 @@ struct MaterialSettings {
     float roughness = -1, metalness = -1;
     float base_factor = 1; // times the texture's colour
     int glow_threshold = -1; // 0: does not glow; else of 255
+    float bump_scale = 1; // of the normal map's tilt
+    float metalness_factor = 1; // times the alpha of the normal map
+    float emissive_factor = 1; // times what glows
+    // Files of the game; empty: not said.
+    std::string base_file, normals_file, emissive_file;
     std::map<std::string, std::string, std::less<>> attributes; // all, as they are written
 };
 

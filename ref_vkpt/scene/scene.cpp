@@ -131,10 +131,21 @@ shared::Emitter make_flashlight(const engine::RefDef& refdef)
     return emitter;
 }
 
-FaceTexture describe(const Texture& texture)
+FaceTexture describe(const Texture& texture, const MaterialSettings* material)
 {
-    return { texture.slot, texture.packed_size, { texture.width, texture.height }, texture.average, texture.missing,
-        texture.parts, false };
+    FaceTexture face;
+    face.slot = texture.slot;
+    face.packed_size = texture.packed_size;
+    face.size = { texture.width, texture.height };
+    face.missing = texture.missing;
+    face.maps = maps_of(texture);
+    const bool has_map = face.maps.emissive.slot != 0;
+    const Texture& shining = has_map ? *texture.emissive : texture;
+    face.average = shining.average;
+    face.parts = shining.parts;
+    face.glows = has_map || is_glowing(texture, material);
+    face.emissive_factor = has_map && material ? material->emissive_factor : 1;
+    return face;
 }
 
 } // namespace
@@ -143,6 +154,7 @@ Scene::Scene(TextureStore& textures)
     : textures_(textures)
 {
     models_.reserve(max_models);
+    textures_.use_materials(materials_);
 }
 
 void Scene::begin_registration(std::string_view map)
@@ -166,9 +178,7 @@ void Scene::begin_registration(std::string_view map)
     scales.point_light_radius = cvars::values().pt_point_light_radius;
     const FindFaceTexture find = [&](const std::string& name) {
         const Texture& texture = *textures_.find(name, TextureUse::wall);
-        FaceTexture described = describe(texture);
-        described.glows = is_glowing(texture, materials_.find(texture.material));
-        return described;
+        return describe(texture, materials_.find(texture.material));
     };
     world_ = load_world(file->bytes(), path, find, scales, load_more_entities(map));
     for (const std::string& message : world_->messages)
@@ -454,7 +464,8 @@ SceneSnapshot Scene::take_snapshot(
     snapshot.lightstyles[lightstyle_none] = 0;
     snapshot.lightstyles[lightstyle_sun] = cvars.pt_sun_scale;
     std::vector<engine::Entity> player_body;
-    const MaterialDefaults defaults { cvars.pt_roughness_default, cvars.pt_metallic_default, &materials_ };
+    const MaterialDefaults defaults { cvars.pt_roughness_default, cvars.pt_metallic_default, &materials_,
+        cvars.pt_bump_scale };
     if (!(refdef.flags & engine::RDF_NOWORLDMODEL) && world_) {
         snapshot.world = world_.get();
         if (map_lights_)

@@ -132,28 +132,40 @@ std::vector<std::string> TextureFiles::original_paths(std::string_view name, Tex
             "pics/Skies/" + path + ".m32", "pics/Skies/" + path + ".m8" };
     case TextureUse::skin:
     case TextureUse::sprite:
+    case TextureUse::normals:
+    case TextureUse::emissive:
         break;
     }
     return { path };
 }
 
-std::optional<LoadedTexture> TextureFiles::load(std::string_view name, TextureUse use, bool retexturing)
+std::string TextureFiles::map_path(std::string_view name, TextureUse use, TextureUse map)
+{
+    return fmt::format(
+        "{}{}.tga", without_ending(original_paths(name, use).front()), map == TextureUse::normals ? "_n" : "_light");
+}
+
+std::optional<LoadedTexture> TextureFiles::load(std::string_view name, TextureUse use, const TextureWish& wish)
 {
     if (name.empty())
         return std::nullopt;
     PixelBudget& budget = use == TextureUse::image ? flat_budget_ : level_budget_;
+    if (use == TextureUse::normals || use == TextureUse::emissive)
+        return wish.retexturing ? load_replacement(use_forward_slashes(name), {}, budget) : std::nullopt;
     for (const std::string& path : original_paths(name, use)) {
         if (!is_readable_ending(ending_of(path)))
             continue;
         std::optional<LoadedTexture> texture;
-        if (retexturing)
-            texture = load_replacement(path, budget);
+        if (wish.retexturing && !wish.file.empty())
+            texture = load_replacement(use_forward_slashes(wish.file), path, budget);
+        if (wish.retexturing && !texture)
+            texture = load_replacement(path, path, budget);
         if (!texture)
             texture = load_original(path, budget);
         if (!texture)
             continue;
         // The engine's own renderers ignore the alpha of these; hi-res packs keep other things in it.
-        if (use == TextureUse::skin || use == TextureUse::sky)
+        if ((use == TextureUse::skin && wish.alpha == AlphaMeaning::opacity) || use == TextureUse::sky)
             for (formats::Rgba8& pixel : texture->image.pixels)
                 pixel.a = 255;
         return texture;
@@ -161,12 +173,13 @@ std::optional<LoadedTexture> TextureFiles::load(std::string_view name, TextureUs
     return std::nullopt;
 }
 
-std::optional<LoadedTexture> TextureFiles::load_replacement(const std::string& path, PixelBudget& budget) const
+std::optional<LoadedTexture> TextureFiles::load_replacement(
+    const std::string& file_path, const std::string& path, PixelBudget& budget) const
 {
     for (const char* ending : { ".tga", ".png", ".jpg", ".jpeg" }) {
         LoadedTexture texture;
         texture.path = path;
-        texture.file = std::string(without_ending(path)) + ending;
+        texture.file = std::string(without_ending(file_path)) + ending;
         const std::optional<std::vector<std::byte>> file = load_file_(texture.file);
         if (!file)
             continue;
@@ -179,7 +192,7 @@ std::optional<LoadedTexture> TextureFiles::load_replacement(const std::string& p
         }
         Size original;
         try {
-            if (const auto original_file = load_file_(path))
+            if (const auto original_file = path.empty() ? std::nullopt : load_file_(path))
                 original = read_size(*original_file, path);
         } catch (const formats::FormatError&) {
             // The replacement stands in for the damaged original, too.
@@ -237,14 +250,14 @@ formats::Palette make_neutral_palette()
     return palette;
 }
 
-TextureMeasure measure_texture(const formats::Image& image)
+TextureMeasure measure_texture(const formats::Image& image, AlphaMeaning meaning)
 {
     TextureMeasure measure;
     glm::dvec3 sum(0);
     double weight = 0;
     size_t opaque = 0;
     for (const formats::Rgba8& pixel : image.pixels) {
-        const double alpha = pixel.a / 255.0;
+        const double alpha = meaning == AlphaMeaning::opacity ? pixel.a / 255.0 : 1;
         sum += glm::dvec3(decode_colour(pixel)) * alpha;
         weight += alpha;
         opaque += pixel.a >= 128;

@@ -20,8 +20,18 @@ namespace vkpt {
 //   sprite   full path with ending
 //   image    "inven": pics/inven.pcx; "/players/male/a_i.pcx": the path behind the slash, as it stands
 //   sky      "unit1_rt": env/unit1_rt.tga
-enum class TextureUse : uint8_t { wall, skin, sprite, image, sky };
-inline constexpr size_t texture_use_count = 5;
+//   normals, emissive  full path; any of the usual endings
+enum class TextureUse : uint8_t { wall, skin, sprite, image, sky, normals, emissive };
+inline constexpr size_t texture_use_count = 7;
+
+// What a texture's alpha says: how much covers what is behind, or something else, as roughness where a normal map is.
+enum class AlphaMeaning : uint8_t { opacity, other };
+
+struct TextureWish {
+    bool retexturing = false; // replacements are preferred
+    std::string file; // full path of the replacement, with any of the usual endings; empty: beside the original
+    AlphaMeaning alpha = AlphaMeaning::opacity;
+};
 
 struct LoadedTexture {
     std::string path; // the original, whether or not a replacement was loaded: "pics/conchars.pcx"
@@ -64,17 +74,21 @@ public:
     void load_palette();
     const formats::Palette& palette() const { return palette_; }
 
-    // Replacements (TGA, PNG, JPG beside the original, not smaller than it) are preferred where `retexturing`.
+    // Replacements: TGA, PNG, JPG beside the original, not smaller than it.
     // Nothing: no usable file.
-    std::optional<LoadedTexture> load(std::string_view name, TextureUse use, bool retexturing);
+    std::optional<LoadedTexture> load(std::string_view name, TextureUse use, const TextureWish& wish);
     // The next level's textures have a budget of their own. Those of 2D are kept from level to level, and so is theirs.
     void begin_level() { level_budget_ = {}; }
 
     // Where the original may lie, in the order of the search.
     static std::vector<std::string> original_paths(std::string_view name, TextureUse use);
+    // Of the map of this use beside a texture: "textures/e1u1/floor_n.tga", "textures/e1u1/floor_light.tga".
+    static std::string map_path(std::string_view name, TextureUse use, TextureUse map);
 
 private:
-    std::optional<LoadedTexture> load_replacement(const std::string& path, PixelBudget& budget) const;
+    // `file_path`: of the replacement, whatever its ending; `path`: of the original, empty: there is none.
+    std::optional<LoadedTexture> load_replacement(
+        const std::string& file_path, const std::string& path, PixelBudget& budget) const;
     std::optional<LoadedTexture> load_original(const std::string& path, PixelBudget& budget) const;
 
     LoadFile load_file_;
@@ -90,12 +104,12 @@ formats::Palette make_neutral_palette();
 glm::vec3 decode_colour(formats::Rgba8 pixel);
 
 struct TextureMeasure {
-    glm::vec3 average { 0 }; // linear RGB, weighted by alpha; black where nothing is opaque
+    glm::vec3 average { 0 }; // linear RGB, weighted by opacity; black where nothing is opaque
     float opaque_fraction = 1; // share of pixels that pass an alpha test at one half
     bool has_alpha = false; // some pixel is not fully opaque
     uint8_t brightest = 0; // component of all pixels
 };
-TextureMeasure measure_texture(const formats::Image& image);
+TextureMeasure measure_texture(const formats::Image& image, AlphaMeaning alpha = AlphaMeaning::opacity);
 
 // The next mip level: half as wide and high, rounded down, at least 1; averages linear light.
 formats::Image halve_texture(const formats::Image& from);

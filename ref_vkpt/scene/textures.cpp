@@ -5,6 +5,8 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/scene/bright_parts.hpp"
+#include "ref_vkpt/scene/material_library.hpp"
+#include "ref_vkpt/scene/normal_maps.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -34,9 +36,36 @@ formats::Image make_uniform(int size, formats::Rgba8 color)
 
 bool is_flat(TextureUse use) { return use == TextureUse::image; }
 
-char letter_of(TextureUse use) { return "WMSPY"[size_t(use)]; }
+bool may_have_maps(TextureUse use) { return use == TextureUse::wall || use == TextureUse::skin; }
+
+// Of the material of a texture that is asked for by this name.
+const MaterialSettings* find_settings(const MaterialLibrary* library, std::string_view name, TextureUse use)
+{
+    return library ? library->find(formats::material_name(TextureFiles::original_paths(name, use).front())) : nullptr;
+}
+
+// 2D is blended in display space; everything that is lit is read as linear light.
+VkFormat format_of(TextureUse use)
+{
+    return is_flat(use) || use == TextureUse::normals ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8G8B8A8_SRGB;
+}
+
+char letter_of(TextureUse use) { return "WMSPYNE"[size_t(use)]; }
 
 } // namespace
+
+TextureMaps maps_of(const Texture& texture)
+{
+    TextureMaps maps;
+    if (const Texture* normals = texture.normals) {
+        maps.normals = { normals->slot, normals->packed_size };
+        maps.has_metalness = normals->has_alpha;
+        maps.texture_has_roughness = texture.has_alpha;
+    }
+    if (const Texture* emissive = texture.emissive; emissive && emissive->brightest > 0)
+        maps.emissive = { emissive->slot, emissive->packed_size };
+    return maps;
+}
 
 TextureStore::TextureStore(const Gpu& gpu, Bindings& bindings, Uploader& uploader)
     : gpu_(gpu)
@@ -69,6 +98,11 @@ const Texture* TextureStore::find(std::string_view name, TextureUse use)
         texture = known->second;
     else
         names.emplace(name, texture = load(name, use));
+    if (texture && may_have_maps(use) && texture->registration != registration_) {
+        // This map's materials may say something else.
+        texture->normals = find_map(name, use, TextureUse::normals);
+        texture->emissive = find_map(name, use, TextureUse::emissive);
+    }
     touch(texture);
     return texture;
 }
@@ -105,9 +139,32 @@ void TextureStore::touch(const Texture* texture)
         entries_[size_t(texture - entries_.get())].registration = registration_;
 }
 
+const Texture* TextureStore::find_map(std::string_view name, TextureUse use, TextureUse map)
+{
+    const bool is_normals = map == TextureUse::normals;
+    const MaterialSettings* settings = find_settings(library_, name, use);
+    const std::string file = !settings ? "" : is_normals ? settings->normals_file : settings->emissive_file;
+    if (file.empty())
+        return find(TextureFiles::map_path(name, use, map), map);
+    const Texture* found = find(file, map);
+    if (!found && cvars::values().r_retexturing != 0)
+        engine::print("texture_{} {} of {} is missing or unusable", is_normals ? "normals" : "emissive", file, name);
+    return found;
+}
+
 Texture* TextureStore::load(std::string_view name, TextureUse use)
 {
-    const std::optional<LoadedTexture> loaded = files_.load(name, use, cvars::values().r_retexturing != 0);
+    TextureWish wish;
+    wish.retexturing = cvars::values().r_retexturing != 0;
+    const Texture *normals = nullptr, *emissive = nullptr;
+    if (may_have_maps(use)) {
+        normals = find_map(name, use, TextureUse::normals);
+        emissive = find_map(name, use, TextureUse::emissive);
+        wish.alpha = normals ? AlphaMeaning::other : AlphaMeaning::opacity;
+        if (const MaterialSettings* settings = find_settings(library_, name, use))
+            wish.file = settings->base_file;
+    }
+    const std::optional<LoadedTexture> loaded = files_.load(name, use, wish);
     if (!loaded) {
         const std::vector<std::string> paths = TextureFiles::original_paths(name, use);
         const std::string line = fmt::format("texture {} is missing or unusable", paths.front());
@@ -127,9 +184,11 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
     texture->material = formats::material_name(loaded->path);
     texture->file = loaded->file;
     texture->use = use;
+    texture->normals = normals;
+    texture->emissive = emissive;
     const int limit = int(gpu_.device.properties.limits.maxImageDimension2D);
     try {
-        if (loaded->image.width > limit || loaded->image.height > limit)
+        if (use != TextureUse::normals && (loaded->image.width > limit || loaded->image.height > limit))
             upload(*texture, shrink_texture(loaded->image, limit));
         else
             upload(*texture, loaded->image);
@@ -174,38 +233,58 @@ Texture* TextureStore::take_entry()
     return &texture;
 }
 
-void TextureStore::upload(Texture& texture, const formats::Image& pixels)
+void TextureStore::upload_levels(Texture& texture, const formats::Image& first,
+    const std::function<const formats::Image&(uint32_t level)>& next_level)
 {
     ImageSettings settings;
-    settings.width = uint32_t(pixels.width);
-    settings.height = uint32_t(pixels.height);
+    settings.width = uint32_t(first.width);
+    settings.height = uint32_t(first.height);
     settings.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    // 2D is blended in display space; everything that is lit is read as linear light.
-    settings.format = is_flat(texture.use) ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8G8B8A8_SRGB;
+    settings.format = format_of(texture.use);
     if (!is_flat(texture.use))
         settings.mip_levels = uint32_t(std::bit_width(std::max(settings.width, settings.height)));
     texture.image = Image(gpu_, settings, texture.name);
-    uploader_.fill_image(texture.image, 0, std::as_bytes(std::span(pixels.pixels)));
-    formats::Image mip = pixels;
-    for (uint32_t level = 1; level < settings.mip_levels; level++) {
-        mip = halve_texture(mip);
-        uploader_.fill_image(texture.image, level, std::as_bytes(std::span(mip.pixels)));
-    }
+    uploader_.fill_image(texture.image, 0, std::as_bytes(std::span(first.pixels)));
+    for (uint32_t level = 1; level < settings.mip_levels; level++)
+        uploader_.fill_image(texture.image, level, std::as_bytes(std::span(next_level(level).pixels)));
     upload_pending_ = true;
 
     texture.slot = bindings_.add_texture(texture.image);
     texture.packed_size = settings.width | settings.height << 16;
-    texture.width = pixels.width;
-    texture.height = pixels.height;
-    const TextureMeasure measure = measure_texture(pixels);
+    texture.width = first.width;
+    texture.height = first.height;
+}
+
+void TextureStore::measure(Texture& texture, const formats::Image& pixels) const
+{
+    const bool has_opacity = !texture.normals && texture.use != TextureUse::emissive;
+    const AlphaMeaning alpha = has_opacity ? AlphaMeaning::opacity : AlphaMeaning::other;
+    const TextureMeasure measure = measure_texture(pixels, alpha);
     texture.average = measure.average;
-    if (texture.use == TextureUse::wall)
-        texture.parts = find_bright_parts(pixels);
+    if (texture.use == TextureUse::wall || texture.use == TextureUse::emissive)
+        texture.parts = find_bright_parts(pixels, alpha);
     if (texture.use == TextureUse::sky)
         texture.sun = find_painted_sun(pixels);
     texture.opaque_fraction = measure.opaque_fraction;
     texture.has_alpha = measure.has_alpha;
     texture.brightest = measure.brightest;
+}
+
+void TextureStore::upload(Texture& texture, const formats::Image& pixels)
+{
+    if (texture.use == TextureUse::normals) {
+        const int limit = int(gpu_.device.properties.limits.maxImageDimension2D);
+        const std::vector<formats::Image> levels = make_normal_levels(pixels);
+        size_t first = 0;
+        while (levels[first].width > limit || levels[first].height > limit)
+            first++;
+        upload_levels(
+            texture, levels[first], [&](uint32_t level) -> const formats::Image& { return levels[first + level]; });
+    } else {
+        formats::Image mip = pixels;
+        upload_levels(texture, pixels, [&](uint32_t) -> const formats::Image& { return mip = halve_texture(mip); });
+    }
+    measure(texture, pixels);
 }
 
 void TextureStore::begin_registration()
@@ -281,7 +360,8 @@ void TextureStore::print_list() const
                                                : "",
             texture.registration == registration_ ? " *" : "");
     }
-    engine::print("{} textures (W wall, M model, S sprite, P 2D, Y sky; * in use), {:.1f} million texels, {:.0f} MiB",
+    engine::print("{} textures (W wall, M model, S sprite, P 2D, Y sky, N normals, E emission; * in use), {:.1f} "
+                  "million texels, {:.0f} MiB",
         count, double(texels) / 1e6, double(gpu_.memory.bytes_in_use(MemoryKind::textures)) / double(1 << 20));
 }
 

@@ -2,7 +2,7 @@
 // The textures on the device: found by name, uploaded once, each with a slot in the bindless table. Slot 0 is white.
 #pragma once
 
-#include "ref_vkpt/lights/face_pieces.hpp"
+#include "ref_vkpt/lights/face_triangles.hpp"
 #include "ref_vkpt/scene/sky_sun.hpp"
 #include "ref_vkpt/scene/texture_files.hpp"
 #include "ref_vkpt/vulkan/bindings.hpp"
@@ -20,6 +20,8 @@
 
 namespace vkpt {
 
+class MaterialLibrary;
+
 // The engine holds pointers to these and sorts entities by them: addresses are stable and ascend in the order of
 // loading.
 struct Texture {
@@ -32,15 +34,20 @@ struct Texture {
     uint32_t packed_size = 0x10001; // of what is in the slot, see shared::Material::texture_size
     int width = 0, height = 0; // of the original texture
     glm::vec3 average { 1 }; // see TextureMeasure
-    std::vector<BrightPart> parts; // of walls
+    std::vector<BrightPart> parts; // of walls, and of what glows
     float opaque_fraction = 1;
     std::optional<PaintedSun> sun; // of skies
     uint8_t brightest = 0; // component of all texels
     bool has_alpha = false;
     bool missing = false; // grey in place of a wall that was not found
+    // Of walls and skins: its normal map, and the picture of what of it glows.
+    const Texture* normals = nullptr;
+    const Texture* emissive = nullptr;
     uint32_t registration = 0; // the last one that used it; 0: free
     Image image; // not set: shares the slot of another
 };
+
+TextureMaps maps_of(const Texture& texture);
 
 class TextureStore {
 public:
@@ -53,6 +60,9 @@ public:
     // Names as in TextureUse. Loads what is not there yet and marks it used. A wall that is not found is a grey texture
     // of 64 x 64, named on the console once per map; anything else that is not found is nullptr.
     const Texture* find(std::string_view name, TextureUse use);
+    // What files say of materials: maps and replacements of walls and skins. Counts for what is found from here
+    // on, and from the next map on for what a map before had. Must outlive this.
+    void use_materials(const MaterialLibrary& library) { library_ = &library; }
     // The six sides in the order of shared::Sky (rt, bk, lf, ft, up, dn); nullptr where a side is missing.
     std::array<const Texture*, 6> find_sky(std::string_view name);
     // A side of a sky that was made here, under a name that tells its settings; nullptr where there is no room.
@@ -83,15 +93,20 @@ private:
     using Names = std::map<std::string, Texture*, std::less<>>; // nullptr: searched and not found
 
     Texture* load(std::string_view name, TextureUse use);
+    const Texture* find_map(std::string_view name, TextureUse use, TextureUse map);
     Texture* make_missing_wall(std::string_view name);
     Texture* take_entry();
     void release(Texture& texture);
     void upload(Texture& texture, const formats::Image& pixels);
+    void upload_levels(Texture& texture, const formats::Image& first,
+        const std::function<const formats::Image&(uint32_t level)>& next_level);
+    void measure(Texture& texture, const formats::Image& pixels) const;
 
     Gpu gpu_;
     Bindings& bindings_;
     Uploader& uploader_;
     TextureFiles files_;
+    const MaterialLibrary* library_ = nullptr;
     size_t capacity_;
     std::unique_ptr<Texture[]> entries_;
     std::set<size_t> free_entries_; // lowest first, so that two runs hand out the same order

@@ -74,9 +74,10 @@ void append_face(MapGeometry& geometry, const World& world, size_t face, size_t 
             triangle.uvs[i] = bsp.texture_coordinates(texinfo, triangle.positions[i]) / glm::vec2(texture.size);
             triangle.normals[i] = normal;
         }
-        const bool is_dark = glows && part.part < 0;
+        const bool is_beside = glows && !texture.parts.empty() && part.part < 0; // the bright parts
+        const bool is_dark = is_beside && texture.maps.emissive.slot == 0;
         triangle.material = texinfo_index;
-        triangle.emitter = is_dark ? shared::EMITTER_UNLISTED : part.emitter;
+        triangle.emitter = is_beside ? shared::EMITTER_UNLISTED : part.emitter;
         triangle.lightstyle = is_dark ? lightstyle_none : face_lightstyle(bsp.faces[face]);
         triangle.cluster = cluster;
         triangle.cache_face = model == 0 ? uint32_t(face) + 1 : 0;
@@ -219,11 +220,8 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
         apply_material(surface, material_names[i], defaults);
         shared::Material& material = materials[count + i];
         material = {};
-        material.tint = glm::vec3(surface.base_factor);
         material.opacity = texinfo.flags & SURF_TRANS33 ? 0.33f : texinfo.flags & SURF_TRANS66 ? 0.66f : 1.0f;
         material.emission = emission[i];
-        material.roughness = surface.roughness;
-        material.metallic = surface.metallic;
         material.texture = textures[i].slot;
         material.texture_size = textures[i].packed_size;
         material.flags = (texinfo.flags & SURF_SKY ? shared::MATERIAL_SKY : 0)
@@ -232,6 +230,7 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
             | (is_translucent(texinfo) && !(texinfo.flags & SURF_WARP) ? shared::MATERIAL_GLASS : 0)
             | (texinfo.flags & SURF_ALPHATEST ? shared::MATERIAL_ALPHA_TEST : 0);
         material.uv_scroll = scroll_of(texinfo, time);
+        set_surface(material, surface, textures[i].maps, defaults);
     }
     const int tick = animation_tick(time);
     for (uint32_t i = 0; i < count; i++)

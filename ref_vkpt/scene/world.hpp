@@ -46,6 +46,7 @@ class MaterialLibrary;
 struct MaterialDefaults {
     float roughness = 0.7f, metallic = 0;
     const MaterialLibrary* library = nullptr; // goes before guesses
+    float bump_scale = 1; // of all normal maps
 };
 
 struct World {

@@ -12,25 +12,15 @@ public:
     // Not built yet. `bytes`: from vkGetAccelerationStructureBuildSizesKHR.
     AccelerationStructure(
         const Gpu& gpu, VkAccelerationStructureTypeKHR type, VkDeviceSize bytes, std::string_view name);
-    AccelerationStructure(AccelerationStructure&& other) noexcept { swap(other); }
-    AccelerationStructure& operator=(AccelerationStructure&& other) noexcept
-    {
-        swap(other);
-        return *this;
-    }
-    ~AccelerationStructure();
 
     VkAccelerationStructureKHR handle() const { return handle_; }
     VkDeviceAddress address() const { return address_; }
     explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
 private:
-    void swap(AccelerationStructure& other) noexcept;
-
-    VkDevice device_ = VK_NULL_HANDLE;
-    VkAccelerationStructureKHR handle_ = VK_NULL_HANDLE;
     VkDeviceAddress address_ = 0;
     Buffer memory_;
+    Handle<VkAccelerationStructureKHR, vkDestroyAccelerationStructureKHR> handle_;
 };
 
 } // namespace vkpt

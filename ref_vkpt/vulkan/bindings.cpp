@@ -21,21 +21,21 @@ constexpr uint32_t wanted_textures = 8192;
 enum FrameBinding : uint32_t { binding_uniforms, binding_samplers };
 constexpr uint32_t binding_textures = 0;
 
-VkDescriptorSetLayout make_layout(VkDevice device, VkDescriptorSetLayoutCreateFlags flags, const void* next,
+DescriptorSetLayout make_layout(VkDevice device, VkDescriptorSetLayoutCreateFlags flags, const void* next,
     std::span<const VkDescriptorSetLayoutBinding> bindings)
 {
     VkDescriptorSetLayoutCreateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, next };
     info.flags = flags;
     info.bindingCount = uint32_t(bindings.size());
     info.pBindings = bindings.data();
-    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    VKPT_CHECK(vkCreateDescriptorSetLayout(device, &info, nullptr, &layout));
+    DescriptorSetLayout layout;
+    VKPT_RENEW(layout, vkCreateDescriptorSetLayout, device, info);
     return layout;
 }
 
 } // namespace
 
-VkDescriptorPool make_descriptor_pool(
+DescriptorPool make_descriptor_pool(
     VkDevice device, VkDescriptorPoolCreateFlags flags, uint32_t sets, std::span<const VkDescriptorPoolSize> sizes)
 {
     VkDescriptorPoolCreateInfo info { VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO };
@@ -43,8 +43,8 @@ VkDescriptorPool make_descriptor_pool(
     info.maxSets = sets;
     info.poolSizeCount = uint32_t(sizes.size());
     info.pPoolSizes = sizes.data();
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    VKPT_CHECK(vkCreateDescriptorPool(device, &info, nullptr, &pool));
+    DescriptorPool pool;
+    VKPT_RENEW(pool, vkCreateDescriptorPool, device, info);
     return pool;
 }
 
@@ -68,20 +68,6 @@ Bindings::Bindings(const Gpu& gpu)
     create_sets();
 }
 
-Bindings::~Bindings()
-{
-    const VkDevice device = gpu_.device.handle;
-    vkDestroyDescriptorPool(device, frame_pool_, nullptr);
-    vkDestroyDescriptorPool(device, texture_pool_, nullptr);
-    vkDestroyPipelineLayout(device, pipeline_layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device, frame_layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device, texture_layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device, scene_layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device, screen_layout_, nullptr);
-    for (VkSampler sampler : samplers_)
-        vkDestroySampler(device, sampler, nullptr);
-}
-
 void Bindings::create_samplers()
 {
     struct Row {
@@ -100,16 +86,17 @@ void Bindings::create_samplers()
             = row.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
         info.addressModeU = info.addressModeV = info.addressModeW = row.address;
         info.maxLod = VK_LOD_CLAMP_NONE;
-        VKPT_CHECK(vkCreateSampler(gpu_.device.handle, &info, nullptr, &samplers_.emplace_back()));
+        VKPT_RENEW(samplers_.emplace_back(), vkCreateSampler, gpu_.device.handle, info);
     }
 }
 
 void Bindings::create_layouts()
 {
     const VkDevice device = gpu_.device.handle;
+    const std::vector<VkSampler> samplers(samplers_.begin(), samplers_.end());
     const VkDescriptorSetLayoutBinding frame[] = {
         { binding_uniforms, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1, VK_SHADER_STAGE_ALL, nullptr },
-        { binding_samplers, VK_DESCRIPTOR_TYPE_SAMPLER, shared::SAMPLER_COUNT, VK_SHADER_STAGE_ALL, samplers_.data() },
+        { binding_samplers, VK_DESCRIPTOR_TYPE_SAMPLER, shared::SAMPLER_COUNT, VK_SHADER_STAGE_ALL, samplers.data() },
     };
     frame_layout_ = make_layout(device, 0, nullptr, frame);
 
@@ -142,7 +129,7 @@ void Bindings::create_layouts()
     layout.pSetLayouts = sets;
     layout.pushConstantRangeCount = 1;
     layout.pPushConstantRanges = &push;
-    VKPT_CHECK(vkCreatePipelineLayout(device, &layout, nullptr, &pipeline_layout_));
+    VKPT_RENEW(pipeline_layout_, vkCreatePipelineLayout, device, layout);
 }
 
 void Bindings::create_sets()

@@ -4,9 +4,8 @@
 //   set 0, binding 1  samplers, see SAMPLER_*
 //   set 1, binding 0  sampled images, bindless; slot 0 is always a valid white texture. A set of its own because it is
 //                     updated while bound, which Vulkan forbids beside dynamic offsets.
-//   set 2             buffers of texels: the scene's tables, TEXELS_*. Each view has a set of its own
-//   (frame/scene_texels.hpp). set 3             buffers of texels: those of screen_buffers.def, of each view
-//   (frame/screen.hpp)
+//   set 2             buffers of texels: the scene's tables, TEXELS_*; each view has its own (frame/scene_texels.hpp)
+//   set 3             buffers of texels: those of screen_buffers.def, of each view (frame/view_buffers.hpp)
 // Push constants: 64 bytes, the pass's own.
 #pragma once
 
@@ -20,7 +19,7 @@
 namespace vkpt {
 
 // For as many sets as asked for, which live as long as the pool.
-VkDescriptorPool make_descriptor_pool(
+DescriptorPool make_descriptor_pool(
     VkDevice device, VkDescriptorPoolCreateFlags flags, uint32_t sets, std::span<const VkDescriptorPoolSize> sizes);
 VkDescriptorSet make_descriptor_set(VkDevice device, VkDescriptorPool pool, VkDescriptorSetLayout layout);
 
@@ -29,7 +28,6 @@ inline constexpr uint32_t push_constant_bytes = 64;
 class Bindings {
 public:
     explicit Bindings(const Gpu& gpu);
-    ~Bindings();
     Bindings(const Bindings&) = delete;
     Bindings& operator=(const Bindings&) = delete;
 
@@ -62,11 +60,10 @@ private:
 
     Gpu gpu_;
     uint32_t max_textures_;
-    std::vector<VkSampler> samplers_;
-    VkDescriptorSetLayout frame_layout_ = VK_NULL_HANDLE, texture_layout_ = VK_NULL_HANDLE;
-    VkDescriptorSetLayout scene_layout_ = VK_NULL_HANDLE, screen_layout_ = VK_NULL_HANDLE;
-    VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
-    VkDescriptorPool frame_pool_ = VK_NULL_HANDLE, texture_pool_ = VK_NULL_HANDLE;
+    std::vector<Handle<VkSampler, vkDestroySampler>> samplers_;
+    DescriptorSetLayout frame_layout_, texture_layout_, scene_layout_, screen_layout_;
+    Handle<VkPipelineLayout, vkDestroyPipelineLayout> pipeline_layout_;
+    DescriptorPool frame_pool_, texture_pool_;
     VkDescriptorSet frame_set_ = VK_NULL_HANDLE, texture_set_ = VK_NULL_HANDLE;
     std::vector<uint32_t> free_slots_;
     uint32_t next_slot_ = 0;

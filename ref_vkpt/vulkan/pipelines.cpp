@@ -72,16 +72,8 @@ bool declares_constant(std::span<const uint32_t> code, uint32_t constant)
 
 std::string shader_of_key(std::string_view key) { return std::string(key.substr(0, key.find('#'))); }
 
-bool is_ready(VkPipeline pipeline) { return pipeline != VK_NULL_HANDLE; }
-bool is_ready(const RayPipeline& pipeline) { return pipeline.handle != VK_NULL_HANDLE; }
-void take_finished(std::map<std::string, VkPipeline, std::less<>>& made, const std::string& key, VkPipeline pipeline)
-{
-    made[key] = pipeline;
-}
-void take_finished(std::map<std::string, RayPipeline, std::less<>>& made, const std::string& key, VkPipeline pipeline)
-{
-    made[key].handle = pipeline; // its table is filled where it is first used
-}
+Pipeline& handle_of(Pipeline& pipeline) { return pipeline; }
+Pipeline& handle_of(RayPipeline& pipeline) { return pipeline.handle; }
 
 VkPipelineCreateFlags pipeline_flags(const Device& device)
 {
@@ -112,24 +104,10 @@ Pipelines::Pipelines(const Gpu& gpu, const Bindings& bindings, std::string cache
     VkPipelineCacheCreateInfo info { VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO };
     info.initialDataSize = stored.size();
     info.pInitialData = stored.data();
-    VKPT_CHECK(vkCreatePipelineCache(gpu.device.handle, &info, nullptr, &cache_));
+    VKPT_RENEW(cache_, vkCreatePipelineCache, gpu.device.handle, info);
 }
 
-Pipelines::~Pipelines()
-{
-    save_cache();
-    for (auto& [key, pipeline] : under_way_)
-        try {
-            vkDestroyPipeline(gpu_.device.handle, pipeline.get(), nullptr);
-        } catch (const std::exception&) {
-            // Nobody wants it any more.
-        }
-    for (auto& [name, pipeline] : compute_)
-        vkDestroyPipeline(gpu_.device.handle, pipeline, nullptr);
-    for (auto& [name, pipeline] : ray_)
-        vkDestroyPipeline(gpu_.device.handle, pipeline.handle, nullptr);
-    vkDestroyPipelineCache(gpu_.device.handle, cache_, nullptr);
-}
+Pipelines::~Pipelines() { save_cache(); }
 
 std::vector<uint32_t> Pipelines::code_of(std::string_view shader)
 {
@@ -140,7 +118,7 @@ std::vector<uint32_t> Pipelines::code_of(std::string_view shader)
     return { built.begin(), built.end() };
 }
 
-VkShaderModule Pipelines::make_module(std::string_view shader)
+ShaderModule Pipelines::make_module(std::string_view shader)
 {
     const std::vector<uint32_t> code = code_of(shader);
     if (code.empty())
@@ -148,8 +126,8 @@ VkShaderModule Pipelines::make_module(std::string_view shader)
     VkShaderModuleCreateInfo info { VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO };
     info.codeSize = code.size() * sizeof(uint32_t);
     info.pCode = code.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    VKPT_CHECK(vkCreateShaderModule(gpu_.device.handle, &info, nullptr, &module));
+    ShaderModule module;
+    VKPT_RENEW(module, vkCreateShaderModule, gpu_.device.handle, info);
     return module;
 }
 
@@ -191,7 +169,7 @@ const Made* Pipelines::find_older(std::unique_lock<std::mutex>& lock, std::map<s
 {
     std::string& latest = latest_.try_emplace(std::string(shader), key).first->second;
     const auto older = made.find(latest);
-    const bool is_there = made.contains(key), goes_on = older != made.end() && is_ready(older->second) && !at_once_;
+    const bool is_there = made.contains(key), goes_on = older != made.end() && handle_of(older->second) && !at_once_;
     const auto under_way = under_way_.find(key);
     if (is_there || (!goes_on && under_way == under_way_.end())) {
         latest = key;
@@ -203,20 +181,27 @@ const Made* Pipelines::find_older(std::unique_lock<std::mutex>& lock, std::map<s
     }
     if (goes_on && under_way->second.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return &older->second;
-    std::future<VkPipeline> finished = std::move(under_way->second);
+    std::future<Pipeline> finished = std::move(under_way->second);
     under_way_.erase(under_way);
     lock.unlock(); // which making it needs
-    const VkPipeline pipeline = finished.get();
+    Pipeline pipeline = finished.get();
     lock.lock();
-    take_finished(made, key, pipeline);
+    handle_of(made[key]) = std::move(pipeline); // a ray pipeline's table is filled where it is first used
     latest = key;
     return nullptr;
 }
 
-VkPipeline Pipelines::make_compute_pipeline(std::string_view shader, const FixedChoices& choices)
+Pipeline Pipelines::keep(VkPipeline made, std::string_view shader)
+{
+    made_++;
+    gpu_.device.name_object(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(made), shader);
+    return { gpu_.device.handle, made };
+}
+
+Pipeline Pipelines::make_compute_pipeline(std::string_view shader, const FixedChoices& choices)
 {
     const Specialization specialization(gpu_.device, choices);
-    const VkShaderModule module = make_module(shader);
+    const ShaderModule module = make_module(shader);
     VkComputePipelineCreateInfo info { VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO };
     info.layout = bindings_.pipeline_layout();
     info.flags = pipeline_flags(gpu_.device);
@@ -226,12 +211,8 @@ VkPipeline Pipelines::make_compute_pipeline(std::string_view shader, const Fixed
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = specialization.info();
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult result = vkCreateComputePipelines(gpu_.device.handle, cache_, 1, &info, nullptr, &pipeline);
-    vkDestroyShaderModule(gpu_.device.handle, module, nullptr);
-    check_vulkan(result, "vkCreateComputePipelines");
-    made_++;
-    gpu_.device.name_object(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shader);
-    return pipeline;
+    VKPT_CHECK(vkCreateComputePipelines(gpu_.device.handle, cache_, 1, &info, nullptr, &pipeline));
+    return keep(pipeline, shader);
 }
 
 VkPipeline Pipelines::compute(std::string_view shader)
@@ -240,17 +221,17 @@ VkPipeline Pipelines::compute(std::string_view shader)
     const FixedChoices choices = choices_;
     const std::string key = key_of(shader, choices);
     const auto make = [this, name = std::string(shader), choices] { return make_compute_pipeline(name, choices); };
-    if (const VkPipeline* older = find_older(lock, compute_, shader, key, make))
+    if (const Pipeline* older = find_older(lock, compute_, shader, key, make))
         return *older;
     one_is_made_.wait(lock, [&] {
         const auto found = compute_.find(key);
-        return found == compute_.end() || found->second != VK_NULL_HANDLE;
+        return found == compute_.end() || found->second;
     });
     if (const auto found = compute_.find(key); found != compute_.end())
         return found->second;
-    const auto entry = compute_.emplace(key, VK_NULL_HANDLE).first;
+    const auto entry = compute_.try_emplace(key).first;
     lock.unlock();
-    VkPipeline pipeline = VK_NULL_HANDLE;
+    Pipeline pipeline;
     try {
         pipeline = make();
     } catch (...) {
@@ -260,22 +241,23 @@ VkPipeline Pipelines::compute(std::string_view shader)
         throw;
     }
     lock.lock();
-    entry->second = pipeline;
+    entry->second = std::move(pipeline);
     one_is_made_.notify_all();
-    return pipeline;
+    return entry->second;
 }
 
-VkPipeline Pipelines::make_ray_pipeline(std::string_view shader, const FixedChoices& choices)
+Pipeline Pipelines::make_ray_pipeline(std::string_view shader, const FixedChoices& choices)
 {
     const Specialization specialization(gpu_.device, choices);
     const std::string_view names[stage_count] = { shader, shared_stages[0], shared_stages[1], shared_stages[2] };
     constexpr VkShaderStageFlagBits kinds[stage_count] = { VK_SHADER_STAGE_RAYGEN_BIT_KHR, VK_SHADER_STAGE_MISS_BIT_KHR,
         VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, VK_SHADER_STAGE_ANY_HIT_BIT_KHR };
+    ShaderModule modules[stage_count];
     VkPipelineShaderStageCreateInfo stages[stage_count] {};
     for (uint32_t i = 0; i < stage_count; i++) {
         stages[i].sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
         stages[i].stage = kinds[i];
-        stages[i].module = make_module(names[i]);
+        stages[i].module = modules[i] = make_module(names[i]);
         stages[i].pName = "main";
         stages[i].pSpecializationInfo = specialization.info();
     }
@@ -292,14 +274,9 @@ VkPipeline Pipelines::make_ray_pipeline(std::string_view shader, const FixedChoi
     info.maxPipelineRayRecursionDepth = 1; // only ray generation shaders trace
     info.layout = bindings_.pipeline_layout();
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult result
-        = vkCreateRayTracingPipelinesKHR(gpu_.device.handle, VK_NULL_HANDLE, cache_, 1, &info, nullptr, &pipeline);
-    for (const VkPipelineShaderStageCreateInfo& stage : stages)
-        vkDestroyShaderModule(gpu_.device.handle, stage.module, nullptr);
-    check_vulkan(result, "vkCreateRayTracingPipelinesKHR");
-    made_++;
-    gpu_.device.name_object(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(pipeline), shader);
-    return pipeline;
+    VKPT_CHECK(
+        vkCreateRayTracingPipelinesKHR(gpu_.device.handle, VK_NULL_HANDLE, cache_, 1, &info, nullptr, &pipeline));
+    return keep(pipeline, shader);
 }
 
 void Pipelines::fill_table(RayPipeline& pipeline) const
@@ -374,11 +351,11 @@ bool Pipelines::replace(
     if (before == code)
         return false;
     std::unique_lock lock(mutex_);
-    one_is_made_.wait(lock, [&] { return !compute_.contains(shader) || compute_[shader] != VK_NULL_HANDLE; });
+    one_is_made_.wait(lock, [&] { return !compute_.contains(shader) || compute_[shader]; });
     const bool is_computed = compute_.contains(shader), is_shared = std::ranges::count(shared_stages, shader) > 0;
     replaced_[shader] = code;
     lock.unlock();
-    VkPipeline computed = VK_NULL_HANDLE;
+    Pipeline computed;
     std::map<std::string, RayPipeline> traced;
     try {
         if (is_computed)
@@ -389,22 +366,16 @@ bool Pipelines::replace(
                 fill_table(traced[name]);
             }
     } catch (...) {
-        for (const auto& [name, pipeline] : traced)
-            vkDestroyPipeline(gpu_.device.handle, pipeline.handle, nullptr);
-        vkDestroyPipeline(gpu_.device.handle, computed, nullptr);
         lock.lock();
         replaced_[shader] = before;
         throw;
     }
     finish();
+    for (auto& [name, pipeline] : traced)
+        ray_[name] = std::move(pipeline);
     if (is_computed) {
         lock.lock();
-        std::swap(compute_[shader], computed);
-    }
-    vkDestroyPipeline(gpu_.device.handle, computed, nullptr);
-    for (auto& [name, pipeline] : traced) {
-        std::swap(ray_[name], pipeline);
-        vkDestroyPipeline(gpu_.device.handle, pipeline.handle, nullptr);
+        compute_[shader] = std::move(computed);
     }
     return true;
 }

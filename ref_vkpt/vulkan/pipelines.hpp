@@ -22,7 +22,7 @@ namespace vkpt {
 
 // A ray generation shader with the shared trace shaders, and its shader binding table of one record a kind.
 struct RayPipeline {
-    VkPipeline handle = VK_NULL_HANDLE;
+    Pipeline handle;
     Buffer table;
     VkStridedDeviceAddressRegionKHR generation {}, miss {}, hit {}, callable {};
 };
@@ -63,32 +63,34 @@ public:
 private:
     void save_cache() const;
     std::vector<uint32_t> code_of(std::string_view shader);
-    VkShaderModule make_module(std::string_view shader);
+    ShaderModule make_module(std::string_view shader);
     bool knows_choices(std::string_view shader);
     std::string key_of(std::string_view shader, const FixedChoices& choices);
     template <class Made, class Make>
     const Made* find_older(std::unique_lock<std::mutex>& lock, std::map<std::string, Made, std::less<>>& made,
         std::string_view shader, const std::string& key, const Make& make);
-    VkPipeline make_compute_pipeline(std::string_view shader, const FixedChoices& choices);
-    VkPipeline make_ray_pipeline(std::string_view shader, const FixedChoices& choices);
+    Pipeline keep(VkPipeline made, std::string_view shader);
+    Pipeline make_compute_pipeline(std::string_view shader, const FixedChoices& choices);
+    Pipeline make_ray_pipeline(std::string_view shader, const FixedChoices& choices);
     void fill_table(RayPipeline& pipeline) const;
 
     Gpu gpu_;
     const Bindings& bindings_;
     std::string cache_file_;
-    VkPipelineCache cache_ = VK_NULL_HANDLE;
+    Handle<VkPipelineCache, vkDestroyPipelineCache> cache_;
     std::atomic<uint64_t> made_ = 0;
     std::mutex mutex_; // of all below
     FixedChoices choices_;
     bool at_once_ = true;
     std::map<std::string, bool, std::less<>> knows_choices_; // by shader
     std::map<std::string, std::string, std::less<>> latest_; // the key that a shader was last used by
-    std::map<std::string, std::future<VkPipeline>, std::less<>> under_way_; // by key
     // By key: the shader's name, and behind a # the settings that it is compiled for.
     std::map<std::string, std::vector<uint32_t>, std::less<>> replaced_; // shaders with other code than the build's
     std::condition_variable one_is_made_;
-    std::map<std::string, VkPipeline, std::less<>> compute_; // VK_NULL_HANDLE: a thread is making it
+    std::map<std::string, Pipeline, std::less<>> compute_; // empty: a thread is making it
     std::map<std::string, RayPipeline, std::less<>> ray_;
+    // The last one here, as destroying it waits for threads that use all of this.
+    std::map<std::string, std::future<Pipeline>, std::less<>> under_way_;
 };
 
 } // namespace vkpt

@@ -2,7 +2,6 @@
 #include "ref_vkpt/vulkan/resources.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace vkpt {
 
@@ -36,9 +35,9 @@ VkFormat texel_format(uint32_t words)
 } // namespace
 
 Buffer::Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind kind, std::string_view name)
-    : device_(gpu.device.handle)
-    , size_(std::max<VkDeviceSize>(bytes, min_buffer_bytes))
+    : size_(std::max<VkDeviceSize>(bytes, min_buffer_bytes))
 {
+    const VkDevice device = gpu.device.handle;
     VkBufferCreateInfo info { VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO };
     info.size = size_;
     info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
@@ -49,64 +48,31 @@ Buffer::Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind k
             | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
     if (gpu.device.has_ray_pipeline)
         info.usage |= VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR;
-    VKPT_CHECK(vkCreateBuffer(device_, &info, nullptr, &handle_));
-    try {
-        VkMemoryRequirements requirements;
-        vkGetBufferMemoryRequirements(device_, handle_, &requirements);
-        allocation_ = gpu.memory.allocate(requirements, memory_wish(gpu.device, home), true, kind);
-        VKPT_CHECK(vkBindBufferMemory(device_, handle_, allocation_.memory(), allocation_.offset()));
-    } catch (...) {
-        vkDestroyBuffer(device_, handle_, nullptr);
-        throw;
-    }
+    VKPT_RENEW(handle_, vkCreateBuffer, device, info);
+    VkMemoryRequirements requirements;
+    vkGetBufferMemoryRequirements(device, handle_, &requirements);
+    allocation_ = gpu.memory.allocate(requirements, memory_wish(gpu.device, home), true, kind);
+    VKPT_CHECK(vkBindBufferMemory(device, handle_, allocation_.memory(), allocation_.offset()));
     VkBufferDeviceAddressInfo address { VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO };
     address.buffer = handle_;
-    address_ = vkGetBufferDeviceAddress(device_, &address);
-    gpu.device.name_object(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(handle_), name);
-}
-
-Buffer::~Buffer()
-{
-    if (handle_)
-        vkDestroyBuffer(device_, handle_, nullptr);
-}
-
-void Buffer::swap(Buffer& other) noexcept
-{
-    std::swap(device_, other.device_);
-    std::swap(handle_, other.handle_);
-    std::swap(size_, other.size_);
-    std::swap(address_, other.address_);
-    std::swap(allocation_, other.allocation_);
+    address_ = vkGetBufferDeviceAddress(device, &address);
+    gpu.device.name_object(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(handle()), name);
 }
 
 TexelView::TexelView(const Gpu& gpu, const Buffer& buffer, uint32_t words)
-    : device_(gpu.device.handle)
 {
     const VkDeviceSize texel_bytes = words * sizeof(uint32_t);
     VkBufferViewCreateInfo info { VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO };
     info.buffer = buffer.handle();
     info.format = texel_format(words);
     info.range = buffer.size() / texel_bytes * texel_bytes;
-    VKPT_CHECK(vkCreateBufferView(device_, &info, nullptr, &handle_));
-}
-
-TexelView::~TexelView()
-{
-    if (handle_)
-        vkDestroyBufferView(device_, handle_, nullptr);
-}
-
-void TexelView::swap(TexelView& other) noexcept
-{
-    std::swap(device_, other.device_);
-    std::swap(handle_, other.handle_);
+    VKPT_RENEW(handle_, vkCreateBufferView, gpu.device.handle, info);
 }
 
 Image::Image(const Gpu& gpu, const ImageSettings& settings, std::string_view name)
-    : device_(gpu.device.handle)
-    , settings_(settings)
+    : settings_(settings)
 {
+    const VkDevice device = gpu.device.handle;
     const VkFormat view_format = settings.view_format == VK_FORMAT_UNDEFINED ? settings.format : settings.view_format;
     VkImageCreateInfo info { VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO };
     if (view_format != settings.format)
@@ -120,41 +86,18 @@ Image::Image(const Gpu& gpu, const ImageSettings& settings, std::string_view nam
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = settings.usage;
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VKPT_CHECK(vkCreateImage(device_, &info, nullptr, &handle_));
-    try {
-        VkMemoryRequirements requirements;
-        vkGetImageMemoryRequirements(device_, handle_, &requirements);
-        allocation_
-            = gpu.memory.allocate(requirements, memory_wish(gpu.device, BufferHome::device), false, settings.kind);
-        VKPT_CHECK(vkBindImageMemory(device_, handle_, allocation_.memory(), allocation_.offset()));
-        VkImageViewCreateInfo view { VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO };
-        view.image = handle_;
-        view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-        view.format = view_format;
-        view.subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, settings.mip_levels, 0, 1 };
-        VKPT_CHECK(vkCreateImageView(device_, &view, nullptr, &view_));
-    } catch (...) {
-        vkDestroyImage(device_, handle_, nullptr);
-        throw;
-    }
-    gpu.device.name_object(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(handle_), name);
-}
-
-Image::~Image()
-{
-    if (!handle_)
-        return;
-    vkDestroyImageView(device_, view_, nullptr);
-    vkDestroyImage(device_, handle_, nullptr);
-}
-
-void Image::swap(Image& other) noexcept
-{
-    std::swap(device_, other.device_);
-    std::swap(handle_, other.handle_);
-    std::swap(view_, other.view_);
-    std::swap(settings_, other.settings_);
-    std::swap(allocation_, other.allocation_);
+    VKPT_RENEW(handle_, vkCreateImage, device, info);
+    VkMemoryRequirements requirements;
+    vkGetImageMemoryRequirements(device, handle_, &requirements);
+    allocation_ = gpu.memory.allocate(requirements, memory_wish(gpu.device, BufferHome::device), false, settings.kind);
+    VKPT_CHECK(vkBindImageMemory(device, handle_, allocation_.memory(), allocation_.offset()));
+    VkImageViewCreateInfo view { VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO };
+    view.image = handle_;
+    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view.format = view_format;
+    view.subresourceRange = { VK_IMAGE_ASPECT_COLOR_BIT, 0, settings.mip_levels, 0, 1 };
+    VKPT_RENEW(view_, vkCreateImageView, device, view);
+    gpu.device.name_object(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<uint64_t>(handle()), name);
 }
 
 void record_barrier(VkCommandBuffer commands, const ImageBarrier& b)

@@ -2,6 +2,7 @@
 // Buffers and images that own their handle and memory. Destroying one demands that the device no longer uses it.
 #pragma once
 
+#include "ref_vkpt/vulkan/handle.hpp"
 #include "ref_vkpt/vulkan/memory.hpp"
 
 #include <cstdint>
@@ -29,13 +30,6 @@ public:
     Buffer() = default;
     // At least 16 bytes are made, so that an empty list has an address and a texel, too.
     Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind kind, std::string_view name);
-    Buffer(Buffer&& other) noexcept { swap(other); }
-    Buffer& operator=(Buffer&& other) noexcept
-    {
-        swap(other);
-        return *this;
-    }
-    ~Buffer();
 
     VkBuffer handle() const { return handle_; }
     VkDeviceSize size() const { return size_; }
@@ -44,13 +38,10 @@ public:
     explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
 private:
-    void swap(Buffer& other) noexcept;
-
-    VkDevice device_ = VK_NULL_HANDLE;
-    VkBuffer handle_ = VK_NULL_HANDLE;
     VkDeviceSize size_ = 0;
     VkDeviceAddress address_ = 0;
     Allocation allocation_;
+    Handle<VkBuffer, vkDestroyBuffer> handle_;
 };
 
 // A buffer as texels of 1, 2 or 4 words of 32 bits, which shaders read as numbers without sign. The buffer must outlive
@@ -59,21 +50,11 @@ class TexelView {
 public:
     TexelView() = default;
     TexelView(const Gpu& gpu, const Buffer& buffer, uint32_t words);
-    TexelView(TexelView&& other) noexcept { swap(other); }
-    TexelView& operator=(TexelView&& other) noexcept
-    {
-        swap(other);
-        return *this;
-    }
-    ~TexelView();
 
     VkBufferView handle() const { return handle_; }
 
 private:
-    void swap(TexelView& other) noexcept;
-
-    VkDevice device_ = VK_NULL_HANDLE;
-    VkBufferView handle_ = VK_NULL_HANDLE;
+    Handle<VkBufferView, vkDestroyBufferView> handle_;
 };
 
 struct ImageSettings {
@@ -89,13 +70,6 @@ class Image {
 public:
     Image() = default;
     Image(const Gpu& gpu, const ImageSettings& settings, std::string_view name);
-    Image(Image&& other) noexcept { swap(other); }
-    Image& operator=(Image&& other) noexcept
-    {
-        swap(other);
-        return *this;
-    }
-    ~Image();
 
     VkImage handle() const { return handle_; }
     VkImageView view() const { return view_; }
@@ -106,13 +80,10 @@ public:
     explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
 private:
-    void swap(Image& other) noexcept;
-
-    VkDevice device_ = VK_NULL_HANDLE;
-    VkImage handle_ = VK_NULL_HANDLE;
-    VkImageView view_ = VK_NULL_HANDLE;
     ImageSettings settings_;
     Allocation allocation_;
+    Handle<VkImage, vkDestroyImage> handle_;
+    Handle<VkImageView, vkDestroyImageView> view_;
 };
 
 // Whole-image layout change with the given scopes.

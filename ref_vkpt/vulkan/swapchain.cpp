@@ -12,12 +12,10 @@ namespace {
 // Compositors may keep all images of a window that nobody sees; the game goes on without.
 constexpr uint64_t acquire_nanoseconds = 1'000'000'000;
 
-VkSemaphore make_semaphore(VkDevice device)
+void renew(Semaphore& semaphore, VkDevice device)
 {
-    VkSemaphoreCreateInfo info { VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO };
-    VkSemaphore semaphore = VK_NULL_HANDLE;
-    VKPT_CHECK(vkCreateSemaphore(device, &info, nullptr, &semaphore));
-    return semaphore;
+    const VkSemaphoreCreateInfo info { VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO };
+    VKPT_RENEW(semaphore, vkCreateSemaphore, device, info);
 }
 
 } // namespace
@@ -30,8 +28,6 @@ Swapchain::Swapchain(const Gpu& gpu, const Window& window)
         throw FatalError(
             std::string(gpu.device.properties.deviceName) + " cannot present to a window (no VK_KHR_swapchain)");
     create_surface();
-    for (VkSemaphore& semaphore : acquired_)
-        semaphore = make_semaphore(gpu.device.handle);
 }
 
 void Swapchain::create_surface()
@@ -51,10 +47,8 @@ void Swapchain::renew_surface()
 {
     engine::print("ref_vkpt: the window's surface was lost; creating another one");
     destroy_images();
-    if (swapchain_)
-        vkDestroySwapchainKHR(gpu_.device.handle, swapchain_, nullptr);
+    swapchain_ = {};
     vkDestroySurfaceKHR(gpu_.device.instance, surface_, nullptr);
-    swapchain_ = VK_NULL_HANDLE;
     surface_ = VK_NULL_HANDLE;
     create_surface();
     surface_lost_ = false;
@@ -72,18 +66,12 @@ bool Swapchain::check(VkResult result, const char* call)
 
 Swapchain::~Swapchain()
 {
-    destroy_images();
-    if (swapchain_)
-        vkDestroySwapchainKHR(gpu_.device.handle, swapchain_, nullptr);
-    for (VkSemaphore semaphore : acquired_)
-        vkDestroySemaphore(gpu_.device.handle, semaphore, nullptr);
+    swapchain_ = {};
     vkDestroySurfaceKHR(gpu_.device.instance, surface_, nullptr);
 }
 
 void Swapchain::destroy_images()
 {
-    for (VkSemaphore semaphore : finished_)
-        vkDestroySemaphore(gpu_.device.handle, semaphore, nullptr);
     finished_.clear();
     images_.clear();
 }
@@ -138,19 +126,15 @@ bool Swapchain::make_images()
 {
     destroy_images();
     // A failed submission leaves one signalled, which then cannot be waited for again.
-    for (VkSemaphore& semaphore : acquired_) {
-        vkDestroySemaphore(gpu_.device.handle, semaphore, nullptr);
-        semaphore = VK_NULL_HANDLE;
-        semaphore = make_semaphore(gpu_.device.handle);
-    }
+    for (Semaphore& semaphore : acquired_)
+        renew(semaphore, gpu_.device.handle);
     VkSurfaceCapabilitiesKHR surface;
     if (!check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu_.device.physical, surface_, &surface),
             "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"))
         return false;
     extent_ = extent_for(surface);
     transform_ = surface.currentTransform;
-    const VkSwapchainKHR old = swapchain_;
-    swapchain_ = VK_NULL_HANDLE;
+    const auto old = std::move(swapchain_);
     if (extent_.width > 0 && extent_.height > 0) {
         format_ = choose_window_format(offered_formats());
         VkSwapchainCreateInfoKHR info { VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR };
@@ -168,21 +152,15 @@ bool Swapchain::make_images()
         info.presentMode = choose_present_mode(offered_modes(), vsync_);
         info.clipped = VK_TRUE;
         info.oldSwapchain = old;
-        const VkResult result = vkCreateSwapchainKHR(gpu_.device.handle, &info, nullptr, &swapchain_);
-        if (old)
-            vkDestroySwapchainKHR(gpu_.device.handle, old, nullptr);
-        if (!check(result, "vkCreateSwapchainKHR")) {
-            swapchain_ = VK_NULL_HANDLE;
+        if (!check(swapchain_.renew(vkCreateSwapchainKHR, gpu_.device.handle, info), "vkCreateSwapchainKHR"))
             return false;
-        }
         uint32_t count = 0;
         VKPT_CHECK(vkGetSwapchainImagesKHR(gpu_.device.handle, swapchain_, &count, nullptr));
         images_.resize(count);
         VKPT_CHECK(vkGetSwapchainImagesKHR(gpu_.device.handle, swapchain_, &count, images_.data()));
-        for (uint32_t i = 0; i < count; i++)
-            finished_.push_back(make_semaphore(gpu_.device.handle));
-    } else if (old) {
-        vkDestroySwapchainKHR(gpu_.device.handle, old, nullptr);
+        finished_.resize(count);
+        for (Semaphore& semaphore : finished_)
+            renew(semaphore, gpu_.device.handle);
     }
     return is_usable();
 }
@@ -215,11 +193,13 @@ void Swapchain::record_copy(VkCommandBuffer commands, const Buffer& words)
 
 bool Swapchain::present()
 {
+    const VkSemaphore ready = finished();
+    const VkSwapchainKHR swapchain = swapchain_;
     VkPresentInfoKHR info { VK_STRUCTURE_TYPE_PRESENT_INFO_KHR };
     info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &finished_[image_];
+    info.pWaitSemaphores = &ready;
     info.swapchainCount = 1;
-    info.pSwapchains = &swapchain_;
+    info.pSwapchains = &swapchain;
     info.pImageIndices = &image_;
     const VkResult result = vkQueuePresentKHR(gpu_.device.queue, &info);
     if (result == VK_SUBOPTIMAL_KHR)

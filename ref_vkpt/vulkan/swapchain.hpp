@@ -56,15 +56,15 @@ private:
     Gpu gpu_;
     const Window& window_;
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
-    VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+    Handle<VkSwapchainKHR, vkDestroySwapchainKHR> swapchain_;
     VkExtent2D extent_ {};
     VkSurfaceTransformFlagBitsKHR transform_ = VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR;
     bool surface_lost_ = false;
     WindowFormat format_;
     VSync vsync_ = VSync::on;
     std::vector<VkImage> images_;
-    std::vector<VkSemaphore> finished_; // one per image: it may be presented
-    std::array<VkSemaphore, frames_in_flight> acquired_ {};
+    std::vector<Semaphore> finished_; // one per image: it may be presented
+    std::array<Semaphore, frames_in_flight> acquired_;
     uint32_t image_ = 0;
 };
 

@@ -4,27 +4,19 @@
 #include "ref_vkpt/vulkan/bindings.hpp"
 
 #include <span>
-#include <utility>
 
 namespace vkpt {
 
 TexelSet::TexelSet(const Gpu& gpu, VkDescriptorSetLayout layout, TexelShape shape, uint32_t count)
-    : device_(gpu.device.handle)
-    , shape_(shape)
+    : shape_(shape)
     , empty_(gpu, 0, BufferHome::device, MemoryKind::geometry, "empty table")
     , views_(count)
 {
     const VkDescriptorPoolSize size { VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, count };
-    pool_ = make_descriptor_pool(device_, 0, 1, std::span(&size, 1));
-    set_ = make_descriptor_set(device_, pool_, layout);
+    pool_ = make_descriptor_pool(gpu.device.handle, 0, 1, std::span(&size, 1));
+    set_ = make_descriptor_set(gpu.device.handle, pool_, layout);
     for (uint32_t number = 0; number < count; number++)
         bind(gpu, number, nullptr, 4);
-}
-
-TexelSet::~TexelSet()
-{
-    if (pool_)
-        vkDestroyDescriptorPool(device_, pool_, nullptr);
 }
 
 void TexelSet::bind(const Gpu& gpu, uint32_t number, const Buffer* buffer, uint32_t words)
@@ -38,17 +30,7 @@ void TexelSet::bind(const Gpu& gpu, uint32_t number, const Buffer* buffer, uint3
     write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     write.pTexelBufferView = &view;
-    vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
-}
-
-void TexelSet::swap(TexelSet& other) noexcept
-{
-    std::swap(device_, other.device_);
-    std::swap(shape_, other.shape_);
-    std::swap(pool_, other.pool_);
-    std::swap(set_, other.set_);
-    std::swap(empty_, other.empty_);
-    std::swap(views_, other.views_);
+    vkUpdateDescriptorSets(gpu.device.handle, 1, &write, 0, nullptr);
 }
 
 } // namespace vkpt

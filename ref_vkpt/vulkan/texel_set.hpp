@@ -17,13 +17,6 @@ public:
     TexelSet() = default;
     // At first each buffer is an empty one.
     TexelSet(const Gpu& gpu, VkDescriptorSetLayout layout, TexelShape shape, uint32_t count);
-    TexelSet(TexelSet&& other) noexcept { swap(other); }
-    TexelSet& operator=(TexelSet&& other) noexcept
-    {
-        swap(other);
-        return *this;
-    }
-    ~TexelSet();
 
     // The device must not use the set, and the buffer must outlive what is bound. `words`: 32-bit words of a texel, 1,
     // 2 or 4. nullptr: an empty buffer.
@@ -33,14 +26,11 @@ public:
     explicit operator bool() const { return set_ != VK_NULL_HANDLE; }
 
 private:
-    void swap(TexelSet& other) noexcept;
-
-    VkDevice device_ = VK_NULL_HANDLE;
     TexelShape shape_ = TexelShape::bindings;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
     Buffer empty_;
     std::vector<TexelView> views_;
+    DescriptorPool pool_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
 } // namespace vkpt

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/vulkan/uploader.hpp"
 
+#include "ref_vkpt/vulkan/commands.hpp"
+
 #include <algorithm>
 #include <cstring>
 
@@ -15,32 +17,23 @@ constexpr VkDeviceSize staging_limit = 64u << 20;
 
 Uploader::Uploader(const Gpu& gpu)
     : gpu_(gpu)
+    , pool_(make_command_pool(gpu.device))
+    , commands_(make_command_buffer(gpu.device, pool_))
 {
     // A level that is dropped for want of memory takes along what the copies recorded so far fill.
     gpu.memory.set_relief([this] { flush(); });
-    VkCommandPoolCreateInfo pool { VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO };
-    pool.queueFamilyIndex = gpu.device.queue_family;
-    VKPT_CHECK(vkCreateCommandPool(gpu.device.handle, &pool, nullptr, &pool_));
-    VkCommandBufferAllocateInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO };
-    info.commandPool = pool_;
-    info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    info.commandBufferCount = 1;
-    VKPT_CHECK(vkAllocateCommandBuffers(gpu.device.handle, &info, &commands_));
 }
 
 Uploader::~Uploader()
 {
     gpu_.memory.set_relief(nullptr);
     vkDeviceWaitIdle(gpu_.device.handle);
-    vkDestroyCommandPool(gpu_.device.handle, pool_, nullptr);
 }
 
 VkCommandBuffer Uploader::begin()
 {
     if (!recording_) {
-        VkCommandBufferBeginInfo info { VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO };
-        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        VKPT_CHECK(vkBeginCommandBuffer(commands_, &info));
+        begin_commands(commands_);
         recording_ = true;
     }
     return commands_;
@@ -103,11 +96,7 @@ void Uploader::flush()
     } const ending { *this };
     record_memory_barrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT);
-    VKPT_CHECK(vkEndCommandBuffer(commands_));
-    VkSubmitInfo submit { VK_STRUCTURE_TYPE_SUBMIT_INFO };
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands_;
-    VKPT_CHECK(vkQueueSubmit(gpu_.device.queue, 1, &submit, VK_NULL_HANDLE));
+    submit_commands(gpu_.device, commands_);
     VKPT_CHECK(vkQueueWaitIdle(gpu_.device.queue));
 }
 

@@ -38,7 +38,7 @@ private:
     Buffer& stage(std::span<const std::byte> bytes);
 
     Gpu gpu_;
-    VkCommandPool pool_ = VK_NULL_HANDLE;
+    CommandPool pool_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     bool recording_ = false;
     VkDeviceSize staged_bytes_ = 0;

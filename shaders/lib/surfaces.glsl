@@ -7,6 +7,7 @@
 #include "bsdf.glsl"
 #include "footprint.glsl"
 #include "light_lists.glsl"
+#include "material_maps.glsl"
 #include "packing.glsl"
 #include "sky.glsl"
 #include "trace.glsl"
@@ -60,15 +61,15 @@ uvec2 texture_size(Material material) { return split_halves(material.texture_siz
 
 // The mean over the footprint; of texels that are larger than it the nearest one, where the player wants to see them
 // (gl_texturemode).
-vec4 sample_texture(Material material, vec2 uv, Footprint footprint)
+vec4 sample_texture(uint slot, vec2 uv, Footprint footprint)
 {
     if ((frame.flags & FRAME_NEAREST_TEXELS) != 0u && footprint.mip <= 0.0)
-        return textureLod(VKPT_TEXTURE(material.texture, SAMPLER_REPEAT_NEAREST), uv, 0.0);
+        return textureLod(VKPT_TEXTURE(slot, SAMPLER_REPEAT_NEAREST), uv, 0.0);
     vec2 step = footprint.axis / footprint.taps;
     uv -= step * (0.5 * (footprint.taps - 1.0));
     vec4 sum = vec4(0.0);
     ROLLED_FOR (float tap = 0.0; tap < footprint.taps; tap++)
-        sum += textureLod(VKPT_TEXTURE(material.texture, SAMPLER_REPEAT), uv + step * tap, footprint.mip);
+        sum += textureLod(VKPT_TEXTURE(slot, SAMPLER_REPEAT), uv + step * tap, footprint.mip);
     return sum / footprint.taps;
 }
 
@@ -89,7 +90,28 @@ float particle_cover(vec2 uv, uint flags)
     return (flags & MATERIAL_SQUARE) != 0u ? 1.0 : quick_clamp(1.2 * (1.0 - dot(place, place)), 0.0, 1.0);
 }
 
-// `cone_width`: the ray's footprint there, in units. `way`: TEXTURE_*.
+// `footprint`: of the texture, whose alpha is `alpha`; the rest as in fetch_surface and apply_normal_map.
+void read_normal_map(
+    Material material, vec4 tangent, vec2 uv, Footprint footprint, int way, float alpha, float facing, inout Surface s)
+{
+    if ((material.flags & MATERIAL_ROUGHNESS_IN_ALPHA) != 0u)
+        s.roughness = quick_max(s.roughness, alpha);
+    footprint.mip = normal_map_mip(material, footprint.mip);
+    vec4 texel = way == TEXTURE_TEXEL
+        ? textureLod(VKPT_TEXTURE(normal_map(material), SAMPLER_REPEAT_NEAREST), uv, footprint.mip)
+        : sample_texture(normal_map(material), uv, footprint);
+    apply_normal_map(unpack_normal_texel(texel, bump_scale(material)), tangent, material.flags, facing, s);
+}
+
+// Over the footprint's longer axis: what glows need not be sharp.
+vec3 read_emissive_map(Material material, vec2 uv, Footprint footprint)
+{
+    float mip = emissive_map_mip(material, footprint.mip + log2(footprint.taps));
+    return textureLod(VKPT_TEXTURE(emissive_map(material), SAMPLER_REPEAT), uv, mip).rgb;
+}
+
+// `cone_width`: the ray's footprint there, in units. `way`: TEXTURE_*. Maps beside the texture count where the shader
+// has defined VKPT_NORMAL_MAPS.
 HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
 {
     Triangle triangle = fetch_Triangle(frame.scene.triangles, hit.triangle);
@@ -115,16 +137,29 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
     if ((material.flags & MATERIAL_WARP) != 0u)
         uv = warp_uv(uv);
     vec2 size = vec2(ivec2(texture_size(material)));
-    vec4 texel = way == TEXTURE_TEXEL
-        ? fetch_texel(material, uv, choose_mip(triangle, size, cone_width, dot(s.geometric_normal, s.view)))
-        : sample_texture(material, uv,
-            find_footprint(triangle, size, cone_width, s.geometric_normal, ray.direction, frame.texture_taps));
+    Footprint footprint = way == TEXTURE_TEXEL
+        ? Footprint(vec2(0.0), 1.0, choose_mip(triangle, size, cone_width, dot(s.geometric_normal, s.view)))
+        : find_footprint(triangle, size, cone_width, s.geometric_normal, ray.direction, frame.texture_taps);
+#ifdef VKPT_NORMAL_MAPS
+    vec4 tangent = vec4(0.0); // now: the triangle then takes no registers while textures are read
+    if (normal_map(material) != 0u)
+        tangent = find_tangent(triangle, s.normal * facing);
+#endif
+    vec4 texel = way == TEXTURE_TEXEL ? fetch_texel(material, uv, footprint.mip)
+                                      : sample_texture(material.texture, uv, footprint);
 
     s.albedo = quick_clamp(texel.rgb * material.tint, 0.0, 1.0);
     s.roughness = material.roughness;
     s.metallic = material.metallic;
+#ifdef VKPT_NORMAL_MAPS
+    if (normal_map(material) != 0u)
+        read_normal_map(material, tangent, uv, footprint, way, texel.a, facing, s);
+#endif
     result.surface = s;
-    result.emission = material.emission * texel.rgb * lightstyle_scale(triangle.lightstyle) * result.front;
+    vec3 glow = texel.rgb;
+    if (emissive_map(material) != 0u)
+        glow = read_emissive_map(material, uv, footprint);
+    result.emission = material.emission * glow * lightstyle_scale(triangle.lightstyle) * result.front;
     result.opacity = material.opacity;
     if ((material.flags & MATERIAL_PARTICLE) != 0u)
         result.opacity *= particle_cover(uv, material.flags);

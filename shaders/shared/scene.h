@@ -85,20 +85,31 @@ VKPT_CONST uint MATERIAL_PARTICLE
     = 32u; // a disc in the square of its uv, as bright on the screen in dark rooms as in bright ones
 VKPT_CONST uint MATERIAL_SQUARE = 64u; // a particle without the disc's soft edge
 VKPT_CONST uint MATERIAL_GLASS = 128u; // a thin pane: translucent, smooth, colours what is behind
+// With a normal map, what the two textures' alpha may hold.
+VKPT_CONST uint MATERIAL_ROUGHNESS_IN_ALPHA = 256u; // of `texture`; `roughness` is the least
+VKPT_CONST uint MATERIAL_METALNESS_IN_ALPHA = 512u; // of the normal map; times `metallic`
 
 struct Material {
     vec3 tint; // multiplies the texture
     float opacity; // 1 opaque
-    vec3 emission; // radiance = emission * texture colour
+    vec3 emission; // radiance = emission * colour of the emissive map, or of the texture where there is none
     float roughness; // GGX alpha = roughness^2
     float metallic;
     uint texture; // bindless index
     uint flags; // MATERIAL_*
     vec2 uv_scroll; // added to uv, already multiplied by time
     uint texture_size; // width | height << 16 of its first level; it has all levels down to one texel
-    uint padding[2]; // to whole texels, see texels.h
+    // Bindless indices of the normal map (how its texels are stored: ref_vkpt/scene/normal_maps.hpp) and, above 16
+    // bits, of the emissive map; 0: none.
+    uint maps;
+    // From the lowest bits: how far the normal map tilts the normal, in 1 / MATERIAL_BUMP_ONE; the mip of the normal
+    // map less that of `texture` for one footprint, in 1 / MATERIAL_MIP_ONE, signed; the same of the emissive map.
+    uint map_scales;
 };
 VKPT_ASSERT_SIZE(Material, 64);
+VKPT_CONST uint MATERIAL_BUMP_BITS = 12u, MATERIAL_MIP_BITS = 10u;
+VKPT_CONST float MATERIAL_BUMP_ONE = 256.0f;
+VKPT_CONST float MATERIAL_MIP_ONE = 32.0f;
 
 VKPT_CONST uint EMITTER_TRIANGLE = 0u; // one-sided, front as in Triangle
 VKPT_CONST uint EMITTER_SPHERE = 1u; // p0 centre, p1.x radius; a spot has a cone, see CONE_SLACK

@@ -516,6 +516,20 @@ TEST_F(Cli, RealModuleRendersTheSampleMap)
     EXPECT_FALSE(folder.read("a.png").empty());
 }
 
+// Nothing is cut off where the shape does not fit: who asked for a panorama learns why it looks wrong.
+TEST_F(Cli, AStretchedPanoramaIsTold)
+{
+    const auto stretched = [&](const std::string& size, const std::string& projection) {
+        const ProgramResult result = run({ "render", "maps/sample.bsp", "--size", size, "--spp", "1", "--module",
+            REAL_MODULE, "--set", "pt_projection=" + projection, "-o", "a.png" });
+        EXPECT_EQ(result.status, 0) << result.errors;
+        return result.errors.find("use --size 12x6") != std::string::npos;
+    };
+    EXPECT_TRUE(stretched("8x6", "equirectangular"));
+    EXPECT_FALSE(stretched("12x6", "equirectangular"));
+    EXPECT_FALSE(stretched("8x6", "fisheye"));
+}
+
 TEST_F(Cli, ExportAgreesWithTheModule)
 {
     const ProgramResult result = run({ "export", "maps/sample.bsp", "--module", REAL_MODULE, "--size", "16x8", "--set",

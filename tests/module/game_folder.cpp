@@ -30,7 +30,7 @@ formats::Md2Model make_cube(float half, const std::string& skin)
         const glm::vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
         frame.positions.push_back(sign * half);
         frame.normals.push_back(glm::normalize(sign));
-        model.texture_coordinates.push_back({ 0.5f, 0.5f });
+        model.texture_coordinates.push_back(glm::vec2(0.5f) + glm::vec2(sign.x, -sign.y) * 0.5f); // v against y
     }
     model.frames.push_back(frame);
     // Each side's corners in order around it; turned where they would face inwards.

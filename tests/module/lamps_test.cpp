@@ -134,6 +134,101 @@ TEST_F(Lamps, GlowWhereTheirPictureIsBright)
     EXPECT_NEAR(measure(session).on_floor / on_floor, 1, 0.02);
 }
 
+class Emission : public Lamps {
+protected:
+    // A square of this colour of `from` to `to` texels in a black picture of 32 x 32.
+    void add_light(const std::string& file, formats::Rgba8 colour, int from = 0, int to = 32) const
+    {
+        formats::Image picture { 32, 32, std::vector<formats::Rgba8>(32 * 32, { 0, 0, 0, 255 }) };
+        for (int y = from; y < to; y++)
+            for (int x = from; x < to; x++)
+                picture.pixels[size_t(y) * 32 + size_t(x)] = colour;
+        folder_.add(file, formats::write_tga(picture));
+    }
+    void add_text(const std::string& name, const std::string& text) const
+    {
+        const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+        folder_.add(name, { bytes, bytes + text.size() });
+    }
+    // Of a wall "board", which is grey, over the floor.
+    Light measure_board(uint32_t flags = 0, int value = 0)
+    {
+        folder_.add_wall("board", 128);
+        MapBuilder map;
+        map.add(rectangle({ 0, 0, 0 }, { 200, 0, 0 }, { 0, 200, 0 }), map.add_material("floor"));
+        map.add(rectangle({ 0, 0, 100 }, { 0, 16, 0 }, { 16, 0, 0 }), map.add_material("board", flags, value));
+        folder_.add_map("board", map.finish());
+        Session session(folder_, matte);
+        session.load_map("board");
+        return measure(session);
+    }
+};
+
+// A picture of what glows makes a wall shine that the map gives no light value: as a whole where it is bright all over.
+TEST_F(Emission, OfAWallIsWhatItsPictureShows)
+{
+    EXPECT_EQ(measure_board().seen, 0);
+    add_light("textures/board_light.tga", { 255, 255, 255, 255 });
+    const Light light = measure_board();
+    EXPECT_NEAR(light.seen, double(EmissionScales().glow), 0.02);
+    EXPECT_NEAR(light.on_floor / light.seen, form_factor, 0.0003);
+    add_text("maps/board.mat", "board:\n    emissive_factor 0.5\n");
+    const Light half = measure_board();
+    EXPECT_NEAR(half.seen / light.seen, 0.5, 0.01);
+    EXPECT_NEAR(half.on_floor / light.on_floor, 0.5, 0.01);
+}
+
+// Its bright parts are lamps of their own.
+TEST_F(Emission, ComesFromThePicturesBrightParts)
+{
+    add_text("maps/board.mat", "board:\n    texture_emissive glow/spot\n");
+    add_light("glow/spot.tga", { 255, 255, 255, 255 }, 8, 16);
+    const Light light = measure_board();
+    EXPECT_NEAR(light.on_floor / (double(EmissionScales().glow) / 16 * form_factor), 1, 0.05);
+}
+
+// The light value says how much a lamp sends, its picture from where.
+TEST_F(Emission, OfALampIsItsLightValue)
+{
+    const Light plain = measure_board(formats::SURF_LIGHT, 500);
+    add_light("textures/board_light.tga", { 128, 128, 128, 255 });
+    const Light mapped = measure_board(formats::SURF_LIGHT, 500);
+    EXPECT_NEAR(mapped.seen / plain.seen, 1, 0.02);
+    EXPECT_NEAR(mapped.on_floor / plain.on_floor, 1, 0.02);
+    add_light("textures/board_light.tga", { 0, 0, 0, 255 }); // shows nothing: as if it were not there
+    EXPECT_NEAR(measure_board(formats::SURF_LIGHT, 500).on_floor / plain.on_floor, 1, 0.02);
+}
+
+// A model's skin glows, and bounce rays find it.
+TEST_F(Emission, OfSkinsIsSeenAndBounces)
+{
+    const std::string cube = folder_.add_cube("cube", 8, 0);
+    folder_.add_map("lamps", map_.finish());
+    double on_floor[2] {};
+    for (const bool mapped : { false, true }) {
+        if (mapped) {
+            Session::end_idle();
+            add_light("models/cube_light.tga", { 0, 255, 0, 255 });
+            add_text("materials/baseq2.mat", "models/cube:\n    emissive_factor 4\n");
+        }
+        Session session(folder_, { { "pt_bounces", "1" }, { "pt_roughness_default", "1" } });
+        session.load_map("lamps");
+        engine::Entity entity = make_entity(session.module().register_model(cube.c_str()), { 0, 0, 12 });
+        session.view.entities = &entity;
+        session.view.entity_count = 1;
+        session.look({ 0, 1, 60 }, { 0, 0, 0 }, 10); // on the cube
+        session.draw();
+        const glm::vec3 seen = session.capture().mean();
+        EXPECT_NEAR(seen.y, mapped ? 4 * EmissionScales().glow : 0, 0.1f);
+        EXPECT_NEAR(seen.x, 0, 1e-3f);
+        session.look({ 30, 1, 60 }, { 30, 0, 0 }, 10); // beside it
+        session.draw();
+        on_floor[mapped] = double(session.accumulate(64).mean().y);
+    }
+    EXPECT_EQ(on_floor[0], 0);
+    EXPECT_GT(on_floor[1], 0.02);
+}
+
 // A button's picture is chosen by its entity's frame.
 TEST_F(Lamps, OnButtonsShineByFrame)
 {

@@ -10,8 +10,8 @@
 namespace vkpt {
 namespace {
 
-constexpr bool with_replacements = true;
-constexpr bool originals_only = false;
+const TextureWish with_replacements { true, {}, AlphaMeaning::opacity };
+const TextureWish originals_only;
 
 formats::Palette make_test_palette()
 {

@@ -122,6 +122,8 @@ Material fetch_Material(uint64_t table, uint index)
     result.flags = c.z;
     result.uv_scroll = uintBitsToFloat(uvec2(c.w, d.x));
     result.texture_size = d.y;
+    result.maps = d.z;
+    result.map_scales = d.w;
     return result;
 }
 

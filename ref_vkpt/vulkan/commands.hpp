@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Command buffers, and the pools that they and timestamps come from.
+#pragma once
+
+#include "ref_vkpt/vulkan/device.hpp"
+#include "ref_vkpt/vulkan/handle.hpp"
+
+namespace vkpt {
+
+CommandPool make_command_pool(const Device& device);
+QueryPool make_timestamp_pool(const Device& device, uint32_t count);
+// Lives as long as the pool.
+VkCommandBuffer make_command_buffer(const Device& device, VkCommandPool pool);
+// Starts recording what is submitted once.
+void begin_commands(VkCommandBuffer commands);
+// Ends recording and submits, which makes no fence signalled.
+void submit_commands(const Device& device, VkCommandBuffer commands);
+
+} // namespace vkpt
