@@ -51,7 +51,10 @@ protected:
         if (GetParam().light_count > 100)
             return 4000;
         // Of a light's entries some shine beside much stronger lights: rarely picked, they count the more.
-        return sampler().has(shared::SAMPLER_DRAWS_ENTRIES) && GetParam().subset_length == 1 ? 1000000 : 16000;
+        if (sampler().has(shared::SAMPLER_DRAWS_ENTRIES) && GetParam().subset_length == 1)
+            return 1000000;
+        // So do lights that are believed to be hidden, beside those that are not.
+        return GetParam().zero_share > 0 ? 400000 : 16000;
     }
 
     bool is_long() const { return GetParam().light_count > 100; }
