@@ -96,14 +96,14 @@ inside() {
         bash "$folder/$1" "$2" "$home" "$3" "$cache" ${compiler[@]+"${compiler[@]}"} </dev/null
 }
 
-# check NAME STATUS PATTERN SYSTEM USER COMMAND: the command ends with STATUS and says PATTERN.
+# check NAME STATUS PATTERN SYSTEM USER COMMAND: the command ends with STATUS and says PATTERN, if that is not empty.
 check() {
     local name=$1 status=$2 pattern=$3 got=0 start=$SECONDS
     inside "$4" "$5" "$6" >"$log_dir/$name" 2>&1 || got=$?
     checks=$((checks + 1))
     if [[ $got -ne $status ]]; then
         warn "$name: ended with $got, not $status; see $log_dir/$name"
-    elif ! grep -qE -- "$pattern" "$log_dir/$name"; then
+    elif [[ -n $pattern ]] && ! grep -qE -- "$pattern" "$log_dir/$name"; then
         warn "$name: did not say '$pattern'; see $log_dir/$name"
     else
         note "$name: as it should be ($((SECONDS - start)) s)"

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Light that reaches the primary surface straight from an emitter.
+#define VKPT_LIGHTS_FIRST_SURFACES
 #include "lib/frame.glsl"
 #include "lib/lighting.glsl"
 #include "lib/reprojection.glsl"

@@ -8,6 +8,22 @@
 #include <memory>
 #include <utility>
 
+// What handles call: there is nothing to destroy.
+namespace {
+template <class Handle> void VKAPI_PTR forget(VkDevice, Handle, const VkAllocationCallbacks*) { }
+}
+#define FORGET(type) PFN_vkDestroy##type vkDestroy##type = forget<Vk##type>;
+FORGET(Buffer)
+FORGET(CommandPool)
+FORGET(DescriptorPool)
+FORGET(DescriptorSetLayout)
+FORGET(Fence)
+FORGET(Image)
+FORGET(ImageView)
+FORGET(PipelineLayout)
+FORGET(Sampler)
+#undef FORGET
+
 namespace vkpt {
 
 ScopedVariable::~ScopedVariable() = default; // there is none
@@ -62,24 +78,12 @@ Buffer::Buffer(const Gpu& gpu, VkDeviceSize size, BufferHome, MemoryKind kind, s
     requirements.size = size;
     allocation_ = gpu.memory.allocate(requirements, {}, true, kind);
 }
-Buffer::~Buffer() = default;
-void Buffer::swap(Buffer& other) noexcept
-{
-    std::swap(size_, other.size_);
-    std::swap(allocation_, other.allocation_);
-}
 
 Image::Image(const Gpu&, const ImageSettings& settings, std::string_view)
     : settings_(settings)
 {
     static uint64_t count = 0;
-    handle_ = VkImage(++count);
-}
-Image::~Image() = default;
-void Image::swap(Image& other) noexcept
-{
-    std::swap(handle_, other.handle_);
-    std::swap(settings_, other.settings_);
+    handle_ = { VK_NULL_HANDLE, VkImage(++count) };
 }
 
 // ---- what is told to the device
@@ -89,7 +93,6 @@ Bindings::Bindings(const Gpu& gpu)
     , max_textures_(gpu.device.max_textures)
 {
 }
-Bindings::~Bindings() = default;
 uint32_t Bindings::add_texture(const Image&)
 {
     if (free_slots_.empty())

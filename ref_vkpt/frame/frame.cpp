@@ -239,15 +239,19 @@ void prepare_menu(shared::FrameUniforms& uniforms)
 }
 
 // What the world's next frame asks about this one.
-void keep_lists(View& view, shared::FrameUniforms& uniforms, const SceneSnapshot& scene, uint32_t publications)
+void keep_lists(View& view, shared::FrameUniforms& uniforms, const SceneSnapshot& scene, uint32_t publications,
+    uint32_t light_visibility)
 {
     const uint32_t flags = uniforms.flags & (shared::FRAME_LIGHT_CACHE | shared::FRAME_GUIDES);
     const View::LightCacheUse light_cache { flags, flags ? publications : 0 };
-    // With the cache rays go elsewhere than without, and with new values they bring something else.
-    uniforms.scene.oldest_repeatable = light_cache != view.light_cache ? uniforms.frame_index
-        : view.lists_changed                                           ? view.history_frame_index
-                                                                       : 0;
+    // With the cache rays go elsewhere than without, and with new values they bring something else. New weights choose
+    // other lights.
+    const bool differs = light_cache != view.light_cache || light_visibility != view.light_visibility;
+    uniforms.scene.oldest_repeatable = differs ? uniforms.frame_index
+        : view.lists_changed                   ? view.history_frame_index
+                                               : 0;
     view.light_cache = light_cache;
+    view.light_visibility = light_visibility;
     view.lists_changed = scene.light_lists->has_changed();
     view.history_frame_index = uniforms.frame_index;
 }
@@ -278,7 +282,9 @@ void Frame::record_view(
     if (has_world) {
         view.rendered_size = size;
         light_cache.begin_frame(graphics_.commands(), uniforms, *gpu_world, average);
-        keep_lists(view, uniforms, scene, light_cache.publications());
+        light_visibility.begin_frame(
+            uniforms, *gpu_world, shaders_.light_sampler, uint32_t(scene.light_lists->static_emitter_count()));
+        keep_lists(view, uniforms, scene, light_cache.publications(), light_visibility.state());
     }
     uniforms.time = scene.time;
     uniforms.dark_light_count = uint32_t(scene.dark_lights.size());

@@ -2,6 +2,7 @@
 // The frame: from a scene and a camera to the image, by the straight list of passes in shaders/passes.def.
 #pragma once
 
+#include "ref_vkpt/frame/light_visibility.hpp"
 #include "ref_vkpt/frame/pass_recorder.hpp"
 #include "ref_vkpt/frame/render_scale.hpp"
 #include "ref_vkpt/frame/scene_upload.hpp"
@@ -60,6 +61,7 @@ public:
     FrameUploads& uploads() { return scene_upload_.uploads(); }
 
     LightCacheKeeper light_cache;
+    LightVisibilityKeeper light_visibility;
 
 private:
     shared::FrameUniforms make_uniforms(View& view, const Viewpoint& from, glm::uvec2 size);

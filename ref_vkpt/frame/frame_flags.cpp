@@ -29,6 +29,7 @@ uint32_t possible_flags()
     const uint32_t filters = filter_flags();
     return filters | (filters & FRAME_REPROJECTED ? FRAME_HISTORY | FRAME_LAYERED : 0)
         | (filters & FRAME_DENOISED && uses_light_cache() ? FRAME_LIGHT_CACHE : 0)
+        | (filters & FRAME_DENOISED && cvars::values().pt_light_visibility != 0 ? FRAME_PUBLISH_VISIBILITY : 0)
         | (cvars::shader_values().pt_bloom > 0 ? FRAME_BLOOM : 0)
         | (cvars::shader_values().pt_wipe > 0 ? FRAME_WIPE : 0);
 }

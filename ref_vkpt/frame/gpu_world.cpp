@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/gpu_world.hpp"
 
+#include "ref_vkpt/frame/light_visibility.hpp"
 #include "ref_vkpt/scene/lightmaps.hpp"
 
 namespace vkpt {
@@ -27,6 +28,7 @@ GpuWorld upload_world(const World& world, const SamplerTables& tables, Uploader&
     upload_sampler_tables(gpu, tables, uploader);
     gpu.bsp_tree = uploader.make_buffer(world.light_lists.tree(), MemoryKind::geometry, "BSP tree");
     gpu.light_cache = upload_light_cache(world.light_cache, uploader);
+    gpu.light_visibility = make_light_visibility(uploader);
     gpu.version = ++versions;
     return gpu;
 }

@@ -24,6 +24,7 @@ struct GpuWorld {
     Buffer bsp_tree;
     Buffer lightmap_faces, luxels; // not before pt_wipe asks for them
     GpuLightCache light_cache;
+    Buffer light_visibility;
     uint64_t version = 0; // another for every map; 0: not uploaded yet
 
     shared::SamplerTableAddresses sampler_tables() const;

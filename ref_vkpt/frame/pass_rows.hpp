@@ -15,7 +15,19 @@ namespace vkpt {
 
 // See passes.def.
 enum class PassKind { plain, traced, lit, choosing };
-enum class PassExtent { pixels, bounce_blocks, cache_cells, half, strata, resolved, output, one, levels, other };
+enum class PassExtent {
+    pixels,
+    bounce_blocks,
+    cache_cells,
+    half,
+    strata,
+    resolved,
+    visibility_table,
+    output,
+    one,
+    levels,
+    other
+};
 
 // What passes hand on: the screen buffers, and some more.
 enum PassResource : uint32_t {
@@ -25,6 +37,7 @@ enum PassResource : uint32_t {
     resource_image,
     resource_exposure,
     resource_light_cache,
+    resource_light_visibility,
     resource_trace_stack, // of every pass that traces
     resource_count
 };
@@ -32,7 +45,7 @@ inline constexpr std::string_view pass_resource_names[] = {
 #define VKPT_SCREEN_BUFFER(type, name) #name,
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
-    "image", "exposure", "light_cache", "trace_stack"
+    "image", "exposure", "light_cache", "light_visibility", "trace_stack"
 };
 static_assert(std::size(pass_resource_names) == resource_count);
 
@@ -87,8 +100,8 @@ inline constexpr PassKind PLAIN = PassKind::plain, TRACED = PassKind::traced, LI
                           CHOOSING = PassKind::choosing;
 inline constexpr PassExtent PIXELS = PassExtent::pixels, BOUNCE_BLOCKS = PassExtent::bounce_blocks,
                             CACHE_CELLS = PassExtent::cache_cells, HALF = PassExtent::half, STRATA = PassExtent::strata,
-                            RESOLVED = PassExtent::resolved, OUTPUT = PassExtent::output, ONE = PassExtent::one,
-                            LEVELS = PassExtent::levels;
+                            RESOLVED = PassExtent::resolved, VISIBILITY_TABLE = PassExtent::visibility_table,
+                            OUTPUT = PassExtent::output, ONE = PassExtent::one, LEVELS = PassExtent::levels;
 constexpr PassResources add_trace_stack(PassResources resources, PassKind kind)
 {
     return resources | (kind == TRACED || kind == LIT ? PassResources(1) << resource_trace_stack : PassResources(0));

@@ -46,6 +46,8 @@ PassWork work_over(PassExtent extent, const shared::FrameUniforms& uniforms)
         return stratum_work(uniforms);
     case PassExtent::resolved:
         return pixel_work(uniforms.resolved_size);
+    case PassExtent::visibility_table:
+        return pixel_work(glm::uvec2(shared::VISIBILITY_GRID));
     case PassExtent::output:
         return pixel_work(uniforms.output_size);
     case PassExtent::one:

@@ -42,6 +42,7 @@ struct View {
         bool operator==(const LightCacheUse&) const = default;
     };
     LightCacheUse light_cache;
+    uint32_t light_visibility = 0; // LightVisibilityKeeper::state
     uint32_t history_frame_index = 0, offset_index = 0, noise_index = 0;
     uint32_t accumulated_frames = 0; // 0: the next one starts anew
     std::chrono::steady_clock::time_point time;

@@ -172,7 +172,7 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
             engine::print("{}: shown grey", line);
         else if (use == TextureUse::sky)
             engine::print("{}: that side of the sky stays plain", line);
-        else
+        else if (use != TextureUse::normals && use != TextureUse::emissive) // most textures have no such maps
             engine::print_developer(line);
         return use == TextureUse::wall ? make_missing_wall(name) : nullptr;
     }

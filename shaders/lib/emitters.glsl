@@ -18,6 +18,7 @@ struct LightOptions {
     int weight; // LIGHT_WEIGHT_*
     int point; // LIGHT_POINT_*
     LtcBuffer ltc; // LTC_* of shared/ltc.h
+    uvec4 hidden; // a row of the table of shared/light_visibility.h; 0: every light is believed to be in sight
 };
 
 struct EmitterSample {

@@ -27,7 +27,7 @@ LightOptions light_options()
 {
     int weight = fixed_light_weight == NOT_FIXED ? frame.cvars.pt_light_weight : fixed_light_weight;
     int point = fixed_light_point == NOT_FIXED ? frame.cvars.pt_light_point : fixed_light_point;
-    return LightOptions(uint(frame.cvars.pt_light_subset), weight, point, LtcBuffer(frame.ltc));
+    return LightOptions(uint(frame.cvars.pt_light_subset), weight, point, LtcBuffer(frame.ltc), uvec4(0u));
 }
 
 #endif

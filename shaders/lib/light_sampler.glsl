@@ -4,6 +4,7 @@
 #define VKPT_LIB_LIGHT_SAMPLER
 
 #include "../shared/light_sampler.h"
+#include "../shared/light_visibility.h"
 #include "bsdf.glsl"
 #include "emitters.glsl"
 #include "light_lists.glsl"
@@ -102,9 +103,27 @@ LightShape load_light_shape(LightListView list, uint emitter)
 #endif
 }
 
+// What of a light's weight is left by what shadow rays have told of it.
+float believed_visibility(LightPredictor predictor, uint emitter)
+{
+    uint slot = emitter % VISIBILITY_SLOTS;
+    uvec4 row = predictor.hidden;
+    uint even = slot < 32u ? row.x : row.z, odd = slot < 32u ? row.y : row.w;
+    uint thirds = (((slot & 16u) == 0u ? even : odd) >> ((slot & 15u) * 2u)) & 3u;
+    return 1.0f - float(int(thirds)) * ((1.0f - VISIBILITY_LEAST) / 3.0f);
+}
+
+// For lights that the table does not know: those that are not the map's.
+LightPredictor without_visibility(LightPredictor predictor)
+{
+    LightPredictor result = predictor;
+    result.hidden = uvec4(0u);
+    return result;
+}
+
 float weigh_emitter(LightListView list, LightPredictor predictor, uint emitter)
 {
-    return light_contribution(predictor, load_light_shape(list, emitter));
+    return light_contribution(predictor, load_light_shape(list, emitter)) * believed_visibility(predictor, emitter);
 }
 
 float weigh_entry(LightListView list, LightPredictor predictor, LightEntry entry)

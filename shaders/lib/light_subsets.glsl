@@ -145,7 +145,7 @@ LightSample sample_subsets_of_parts(LightListView list, Surface s, LightRandom r
     Reservoir others = make_reservoir(0.0f);
     if (light_count(moving) > 0u) {
         uint state = start_fast_random(random.more);
-        others = sweep_subset(moving, predictor, choices.of_dynamic, next_fast_random(state));
+        others = sweep_subset(moving, without_visibility(predictor), choices.of_dynamic, next_fast_random(state));
         // One of the static subset's lights stands for so many, one of these for so many others.
         others.total *= float(choices.of_dynamic.stride) / float(choices.of_static.stride);
     }
@@ -167,12 +167,16 @@ float subsets_of_parts_probability(
     float total = 0.0f;
     SubsetChoice choice = choices.of_static;
     LightListView lights = static_lights(list);
+    LightPredictor of_part = predictor;
     ROLLED_FOR (uint part = 0u; part < 2u; part++) {
-        total += float(choice.stride) * weigh_lights(lights, predictor, choice.offset, choice.stride);
+        total += float(choice.stride) * weigh_lights(lights, of_part, choice.offset, choice.stride);
         choice = choices.of_dynamic;
         lights = dynamic_lights(list);
+        of_part = without_visibility(predictor);
     }
-    float weight = weigh_emitter(list, predictor, light_at(list, uint(place)));
+    if (uint(place) < static_count)
+        of_part = predictor;
+    float weight = weigh_emitter(list, of_part, light_at(list, uint(place)));
     return weight > 0.0f ? weight / total : 0.0f;
 }
 

@@ -24,6 +24,7 @@ const float prediction_horizon = 0.05f; // sine of the lowest elevation at which
 struct LightPredictor {
     Surface s;
     int weight; // LIGHT_WEIGHT_*
+    uvec4 hidden; // as LightOptions has it
     // Chapter's weight only: what predict_reflectance needs of the surface and its viewer.
     float view_height; // cosine
     float view_root; // smith_root
@@ -123,6 +124,7 @@ LightPredictor make_predictor(Surface s, LightOptions options)
     p.s = s;
     p.s.view = view_above_horizon(s);
     p.weight = options.weight;
+    p.hidden = options.hidden;
     if (p.weight == LIGHT_WEIGHT_LTC) {
         prepare_ltc(p, options.ltc);
     } else {

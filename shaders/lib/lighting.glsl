@@ -9,6 +9,12 @@
 
 #include "filtered_rays.glsl"
 #include "light_choice.glsl"
+// First surfaces' lights are also weighed by what earlier shadow rays tell of them. At the ends of bounce rays that
+// would gain next to nothing.
+#if defined(VKPT_LIGHTS_FIRST_SURFACES) && defined(VKPT_SAMPLER_WEIGHS_VISIBILITY)
+#define VKPT_USES_VISIBILITY
+#include "light_visibility.glsl"
+#endif
 
 #ifdef VKPT_LIGHT_PASSES_OWN_BODY
 const uint mask_shadow = MASK_OPAQUE | MASK_ALPHA_TEST | MASK_SKY;
@@ -63,6 +69,10 @@ ReflectedLight sample_list(
     ReflectedLight result = ReflectedLight(vec3(0.0), vec3(0.0));
     chosen = ChosenLight(0u, vec3(0.0));
     LightOptions options = light_options();
+#ifdef VKPT_USES_VISIBILITY
+    uint visibility_row = find_visibility_row(s);
+    options.hidden = load_hidden_lights(visibility_row);
+#endif
     LightSample light = sample_light(list, s, random, options);
     if (light.emitter < 0)
         return result;
@@ -85,7 +95,11 @@ ReflectedLight sample_list(
     vec3 to_light = point.point - origin;
     float distance = length(to_light);
     Ray shadow = Ray(origin, to_light / distance, 0.0, distance - quick_max(0.02, distance * 1e-4));
-    radiance *= arriving_share(shadow, emitter.type == EMITTER_SUN);
+    vec3 arriving = arriving_share(shadow, emitter.type == EMITTER_SUN);
+#ifdef VKPT_USES_VISIBILITY
+    count_shadow_ray(visibility_row, uint(light.emitter), random.more, arriving);
+#endif
+    radiance *= arriving;
     if (radiance == vec3(0.0))
         return result;
     float density = point.pdf * light.probability;

@@ -8,7 +8,9 @@
 
 #include "../lib/light_subsets.glsl"
 
-const uint light_sampler_traits = SAMPLER_USES_SUBSET | SAMPLER_DRAWS_ENTRIES | SAMPLER_NEEDS_MULTISETS;
+// clang-format off
+const uint light_sampler_traits = SAMPLER_USES_SUBSET | SAMPLER_DRAWS_ENTRIES | SAMPLER_NEEDS_MULTISETS | SAMPLER_WEIGHS_VISIBILITY;
+// clang-format on
 
 LightSample sample_light(LightListView list, Surface s, LightRandom random, LightOptions options)
 {

@@ -7,6 +7,7 @@
 #include "scene.h"
 #include "cvars.h"
 #include "light_cache.h"
+#include "light_visibility.h"
 #include "trace.h"
 
 VKPT_SHARED_BEGIN
@@ -47,6 +48,7 @@ VKPT_CONST uint FRAME_GUIDES = 1048576u; // and are aimed at what stands out in 
 VKPT_CONST uint FRAME_FOG = 2097152u; // there is fog
 VKPT_CONST uint FRAME_GOD_RAYS = 4194304u; // and it scatters a sun's light
 VKPT_CONST uint FRAME_WIPE = 8388608u; // a part of the image shows baked lightmaps
+VKPT_CONST uint FRAME_PUBLISH_VISIBILITY = 16777216u; // the next views use what shadow rays have told since
 VKPT_CONST uint FRAME_COUNT_RAYS = 4096u; // every ray is counted in `ray_counts`
 VKPT_CONST uint FRAME_SPATIAL = 16384u; // the denoiser also filters over neighbours
 VKPT_CONST uint FRAME_FULLBRIGHT = 32768u; // r_fullbright: surfaces show their images
@@ -191,6 +193,7 @@ struct SceneView {
     uint light_list_count; // clusters + 1
     uint light_tree_lights; // see LightTables
     LightCacheView cache;
+    LightVisibilityView visibility;
     Sky sky;
     uint64_t lightmap_faces; // LightmapFace, one for each face of the map; where FRAME_WIPE
     uint64_t luxels;

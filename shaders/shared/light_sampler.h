@@ -41,6 +41,9 @@ VKPT_CONST uint SAMPLER_DRAWS_POINTS = 16u;
 // What it reports depends on the list's length whatever the lights: where A-SVGF repeats an older sample, it is asked
 // about the lights that its list held, and once more about those that have come. Without MIS only.
 VKPT_CONST uint SAMPLER_NEWCOMERS_APART = 32u;
+// The weights that it chooses by are those of weigh_emitter, so that options.hidden counts. Without MIS only: a later
+// pass does not know it.
+VKPT_CONST uint SAMPLER_WEIGHS_VISIBILITY = 256u;
 // The tables beside the lists that it reads: the device has them only for samplers that say so.
 #define VKPT_SAMPLER_NEED(trait, bit, make) VKPT_CONST uint trait = bit;
 #include "sampler_tables.def"

@@ -44,7 +44,7 @@ Surface make_surface(vec3 position, vec3 normal)
     return Surface { position, normal, normal, normal, vec3(0.5f), 0.5f, 0 };
 }
 
-constexpr LightOptions by_solid_angle { 8, LIGHT_WEIGHT_BRDF_CENTRE, LIGHT_POINT_SOLID_ANGLE, {} };
+constexpr LightOptions by_solid_angle { 8, LIGHT_WEIGHT_BRDF_CENTRE, LIGHT_POINT_SOLID_ANGLE, {}, {} };
 
 EmitterSample sample_point(const Emitter& e, vec3 receiver, vec2 xi)
 {

@@ -7,6 +7,7 @@
 #include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
 #include "shaders/shared/light_sampler.h"
+#include "shaders/shared/light_visibility.h"
 #include "shaders/shared/ltc.h"
 #include "shaders/shared/noise.h"
 #include "shaders/shared/octahedral.h"

@@ -218,6 +218,26 @@ TEST(LightEstimates, WeightsAndPointsOnlyChangeTheNoise)
     }
 }
 
+// What shadow rays seem to have told may be wrong: it is learnt from others' rays, and doors open.
+TEST(LightEstimates, WhateverIsBelievedOfVisibilityOnlyChangesTheNoise)
+{
+    const ListCase list = make_hard_list(40, 37);
+    std::mt19937 rng(5);
+    for (const Sampler& sampler : all_samplers()) {
+        if (sampler.has(shared::SAMPLER_BIASED))
+            continue;
+        const ListCase seen = sampler.has(shared::SAMPLER_MIS) ? list : without_unlisted(list);
+        const double truth = sampler.integrate(seen, 64);
+        for (int table = 0; table < 4; table++) {
+            SamplerOptions options { 8 };
+            options.hidden = table == 0 ? glm::uvec4(~0u) : glm::uvec4(rng(), rng(), rng(), rng());
+            const Moments found = estimate_evenly(sampler, seen, options, 4000);
+            EXPECT_NEAR(found.mean(), truth, 4.5 * found.deviation_of_mean() + 2e-3 * truth)
+                << sampler.name << ", table " << table;
+        }
+    }
+}
+
 // Section 47.4.2: at most S times the second moment of choosing from the whole list.
 TEST(LightEstimates, SubsetsCostAtMostTheirStride)
 {

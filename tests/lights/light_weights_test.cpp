@@ -14,8 +14,8 @@ namespace {
 
 using namespace glsl;
 
-constexpr LightOptions by_chapter { 8, LIGHT_WEIGHT_BRDF_CENTRE, LIGHT_POINT_SOLID_ANGLE, {} };
-const LightOptions by_ltc { 8, LIGHT_WEIGHT_LTC, LIGHT_POINT_SOLID_ANGLE, { ltc_table.data() } };
+constexpr LightOptions by_chapter { 8, LIGHT_WEIGHT_BRDF_CENTRE, LIGHT_POINT_SOLID_ANGLE, {}, {} };
+const LightOptions by_ltc { 8, LIGHT_WEIGHT_LTC, LIGHT_POINT_SOLID_ANGLE, { ltc_table.data() }, {} };
 
 struct Case {
     Emitter emitter;

@@ -12,8 +12,8 @@ namespace {
 
 using namespace glsl;
 
-constexpr LightOptions projected { 8, LIGHT_WEIGHT_BRDF_CENTRE, LIGHT_POINT_PROJECTED, {} };
-constexpr LightOptions by_area { 8, LIGHT_WEIGHT_BRDF_CENTRE, LIGHT_POINT_AREA, {} };
+constexpr LightOptions projected { 8, LIGHT_WEIGHT_BRDF_CENTRE, LIGHT_POINT_PROJECTED, {}, {} };
+constexpr LightOptions by_area { 8, LIGHT_WEIGHT_BRDF_CENTRE, LIGHT_POINT_AREA, {}, {} };
 
 struct Case {
     Emitter emitter;

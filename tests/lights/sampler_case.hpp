@@ -6,6 +6,7 @@
 #include "shaders/shared/cvars.h"
 #include "shaders/shared/functions.h"
 #include "shaders/shared/light_sampler.h"
+#include "shaders/shared/light_visibility.h"
 #include "shaders/shared/ltc.h"
 #include "shaders/shared/noise.h"
 #include "shaders/shared/scene.h"
@@ -54,6 +55,7 @@ struct SamplerOptions {
     uint32_t subset_length = 8;
     int weight = shared::LIGHT_WEIGHT_BRDF_CENTRE;
     int point = shared::LIGHT_POINT_SOLID_ANGLE;
+    glm::uvec4 hidden { 0 }; // what is believed of the lights' visibility, shared/light_visibility.h
 };
 
 // The random numbers of one choice.

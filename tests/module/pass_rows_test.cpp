@@ -73,7 +73,7 @@ std::string name_all(PassResources resources)
 }
 
 // What has no load_ and store_ of its own: reached by an address.
-constexpr PassResources by_address = find_resources("bloom image exposure light_cache trace_stack");
+constexpr PassResources by_address = find_resources("bloom image exposure light_cache light_visibility trace_stack");
 
 TEST(PassRows, SayWhatTheShadersLoadAndStore)
 {

@@ -157,9 +157,10 @@ protected:
 };
 using OurMapMadeMatteLong = OurMapMadeMatte;
 
-TEST_F(OurMapMadeMatteLong, DirectLight) { expect_agreement_with(0, 1024); }
-TEST_F(OurMapMadeMatteLong, OneBounce) { expect_agreement_with(1, 1024); }
-TEST_F(OurMapMadeMatteLong, FourBounces) { expect_agreement_with(4, 512); }
+// With 1,024 samples the path tracer's own mean varies by 0.07 % (one standard deviation over 12 seeds, no bounce).
+TEST_F(OurMapMadeMatteLong, DirectLight) { expect_agreement_with(0, 4096); }
+TEST_F(OurMapMadeMatteLong, OneBounce) { expect_agreement_with(1, 4096); }
+TEST_F(OurMapMadeMatteLong, FourBounces) { expect_agreement_with(4, 2048); }
 
 } // namespace
 } // namespace vkpt::tests
