@@ -42,12 +42,22 @@ SubsetChoice choose_subset(LightListView list, float xi, uint subset_length)
 // a light, but to memory they can scatter: where the pass has some of its own for each lane (VKPT_LANE_MEMORY,
 // max_subset_length entries of 64 bytes of which a float is used), the sums are there.
 #ifdef VKPT_LANE_MEMORY
+#include "device/lanes.glsl"
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LaneFloat { float v; };
-#define VKPT_SUMS uint64_t sums = VKPT_LANE_MEMORY
-#define VKPT_SUM(i) LaneFloat(sums + uint64_t((i)*64u)).v
+#define VKPT_SUMS                                                                                                      \
+    uint64_t kept_sums = VKPT_LANE_MEMORY;                                                                             \
+    float sums[max_subset_length]
+#define VKPT_KEPT_SUM(i) LaneFloat(kept_sums + uint64_t((i)*64u)).v
+#define VKPT_SUM(i) (has_gpu_lanes ? sums[i] : VKPT_KEPT_SUM(i))
+#define VKPT_KEEP_SUM(i, sum)                                                                                          \
+    if (has_gpu_lanes)                                                                                                 \
+        sums[i] = sum;                                                                                                 \
+    else                                                                                                               \
+        VKPT_KEPT_SUM(i) = sum
 #else
 #define VKPT_SUMS float sums[max_subset_length]
 #define VKPT_SUM(i) sums[i]
+#define VKPT_KEEP_SUM(i, sum) sums[i] = sum
 #endif
 
 // The list to draw candidates from: a multiset, where the list is longer than a subset, which else would hold all of
@@ -70,7 +80,7 @@ LightSample sample_subset_in_two_sweeps(
     for (uint position = choice.offset; position < count && length_used < max_subset_length;
          position += choice.stride) {
         subset_total += weigh_light(list, predictor, position);
-        VKPT_SUM(length_used) = subset_total;
+        VKPT_KEEP_SUM(length_used, subset_total);
         length_used += 1u;
     }
     float total = subset_total + others.total;
