@@ -203,7 +203,7 @@ bool bvh_test_triangle(BvhTriangle triangle, BvhShear shear, int t_min, int t_ma
     {                                                                                                                  \
         uvec2 entry = uvec2(uint(key[k]), child_words + uint(key[k] & bvh_key_child_mask) * 4u);                       \
         if (has_gpu_lanes)                                                                                             \
-            own_stack[top] = entry;                                                                                    \
+            lane_array[top] = entry;                                                                                   \
         else                                                                                                           \
             BvhWords64(stack + uint64_t(top)).words[0] = pack64(entry);                                                \
         top += bvh_stack_stride();                                                                                     \
@@ -220,7 +220,6 @@ RawHit software_trace(
     BvhShear shear = bvh_shear(origin, direction);
     int t_max = min(floatBitsToInt(hit_max), bvh_key_none & ~bvh_key_child_mask);
     uint current = bvh.root, next_root = bvh.other_root, top = 0u;
-    uvec2 own_stack[TRACE_STACK_ENTRIES];
     for (;;) {
         if (int(current) >= 0) {
             uint child_words = current * BVH_NODE_BYTES + BVH_CHILD_WORDS_OFFSET;
@@ -269,7 +268,7 @@ RawHit software_trace(
                 next_root = BVH_NO_CHILD;
             } else {
                 top -= bvh_stack_stride();
-                uvec2 entry = has_gpu_lanes ? own_stack[top] : unpack32(BvhWords64(stack + uint64_t(top)).words[0]);
+                uvec2 entry = has_gpu_lanes ? lane_array[top] : unpack32(BvhWords64(stack + uint64_t(top)).words[0]);
                 if (int(entry.x) < t_max)
                     current = BvhWords32(bvh.nodes + uint64_t(entry.y)).words[0];
             }
