@@ -12,6 +12,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer ExposureBuff
 
 const uint bin_count = 128u;
 const float lowest_log2 = -12.0, highest_log2 = 12.0;
+const uint max_samples = 32768u;
 const float middle_grey = 0.18;
 // Shares of the pixels that do not count.
 const float dark_share = 0.4, bright_share = 0.05;
@@ -27,9 +28,12 @@ void count_luminances()
     if (lane < bin_count)
         bins[lane] = 0u;
     barrier();
-    uvec2 size = frame.resolved_size, samples = (size + 3u) / 4u;
+    // One pixel of 4 x 4, and of as many more as leave no more than max_samples: one workgroup counts them.
+    uvec2 size = frame.resolved_size;
+    uint spacing = max(4u, uint(ceil(sqrt(float(size.x * size.y) / float(max_samples)))));
+    uvec2 samples = divide_whole(size + spacing - 1u, uvec2(spacing));
     for (uint i = lane; i < samples.x * samples.y; i += gl_WorkGroupSize.x) {
-        uvec2 pixel = min(place_of_tile(i, samples.x) * 4u + 2u, size - 1u);
+        uvec2 pixel = min(place_of_tile(i, samples.x) * spacing + spacing / 2u, size - 1u);
         float value = luminance(load_accumulated(pixel.y * size.x + pixel.x));
         float place = (log2(max(value, 1e-6)) - lowest_log2) / (highest_log2 - lowest_log2);
         atomicAdd(bins[floor_to_uint(clamp(place, 0.0, 0.999) * float(bin_count))], 1u);

@@ -137,7 +137,9 @@ Json validate_frames(const ReportOptions& options, const std::string& backend)
 
 formats::Image draw_checked_view(const ReportOptions& options, const CheckedView& view, const std::string& backend)
 {
-    Stage stage(options, std::string(view.scene), { checked_width, checked_height }, { { "pt_trace", backend } });
+    // Exposure follows at once: else it would still depend on the first frame, which is mostly noise.
+    Stage stage(options, std::string(view.scene), { checked_width, checked_height },
+        { { "pt_trace", backend }, { "pt_exposure_speed", "100" } });
     stage.source->register_with(stage.host);
     for (int frame = 0; frame < checked_frames; frame++)
         stage.draw(frame);

@@ -54,7 +54,7 @@ Pyramid make_pyramid(const shared::FrameUniforms& uniforms)
 PassStep make_level_step(const Level& source, const Level& target, float own_share)
 {
     return make_step(shared::BloomPush { source.address, target.address, source.size, target.size, own_share },
-        pixel_work(target.size));
+        PassWork { target.size });
 }
 
 } // namespace

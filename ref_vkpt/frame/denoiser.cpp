@@ -17,7 +17,7 @@ constexpr uint32_t gradient_levels = 3;
 PassStep make_spread_step(const shared::FrameUniforms& uniforms, const shared::ScreenBuffer& source,
     const shared::ScreenBuffer& target, glm::ivec2 way)
 {
-    return make_step(shared::AtrousPush { source, target, way }, pixel_work(uniforms.size));
+    return make_step(shared::AtrousPush { source, target, way }, PassWork { uniforms.size });
 }
 
 } // namespace
@@ -34,7 +34,7 @@ glm::uvec2 choose_bounce_block(const Device& device)
 
 PassWork stratum_work(const shared::FrameUniforms& uniforms)
 {
-    return pixel_work(count_blocks(uniforms.size, uniforms.bounce_block * shared::STRATUM_BLOCKS));
+    return { count_blocks(uniforms.size, uniforms.bounce_block * shared::STRATUM_BLOCKS) };
 }
 
 std::vector<PassStep> gradient_filter_steps(const shared::FrameUniforms& uniforms)
@@ -51,7 +51,7 @@ std::vector<PassStep> gradient_filter_steps(const shared::FrameUniforms& uniform
 std::vector<PassStep> filter_steps(const shared::FrameUniforms& uniforms)
 {
     const shared::FilterPush push { uniforms.screen.filter_a, uniforms.screen.filtered, 1, 0 };
-    return { make_step(push, pixel_work(uniforms.size)) };
+    return { make_step(push, PassWork { uniforms.size }) };
 }
 
 std::vector<PassStep> spread_first_steps(const shared::FrameUniforms& uniforms)

@@ -107,7 +107,7 @@ glm::uvec2 Frame::scaled_size(glm::uvec2 size) const
 
 void Frame::reserve(View& view, glm::uvec2 size)
 {
-    const bool with_stacks = trace_backend() == TraceBackend::software;
+    const bool with_stacks = trace_backend() == TraceBackend::software && !graphics_.device.traits.gpu_lanes;
     if (!view.buffers.must_grow(size, with_stacks))
         return;
     graphics_.finish();

@@ -150,7 +150,8 @@ void Graphics::record_present_words()
     bindings.bind(commands(), VK_PIPELINE_BIND_POINT_COMPUTE, 0);
     vkCmdBindPipeline(commands(), VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.compute("present.comp"));
     vkCmdPushConstants(commands(), bindings.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, sizeof(push), &push);
-    vkCmdDispatch(commands(), pixel_groups({ extent.width, extent.height }), 1, 1);
+    const glm::uvec2 groups = pixel_groups(device, { extent.width, extent.height });
+    vkCmdDispatch(commands(), groups.x, groups.y, 1);
     record_memory_barrier(
         commands(), compute, VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
 }

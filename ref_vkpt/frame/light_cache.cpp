@@ -63,8 +63,7 @@ void publish(VkCommandBuffer commands, const GpuLightCache& cache)
 
 PassWork cache_update_work(const shared::FrameUniforms& uniforms)
 {
-    return pixel_work(
-        { shared::CACHE_ROW, (uniforms.scene.cache.updated + shared::CACHE_ROW - 1) / shared::CACHE_ROW });
+    return { { shared::CACHE_ROW, (uniforms.scene.cache.updated + shared::CACHE_ROW - 1) / shared::CACHE_ROW } };
 }
 
 shared::LightCacheView GpuLightCache::addresses() const

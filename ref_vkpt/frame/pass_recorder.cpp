@@ -31,10 +31,12 @@ void PassRecorder::dispatch(const Pass& pass, const PassWork& work)
         const RayPipeline& pipeline = graphics_.pipelines.ray(shader);
         vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.handle);
         vkCmdTraceRaysKHR(commands_, &pipeline.generation, &pipeline.miss, &pipeline.hit, &pipeline.callable,
-            work.launch.x, work.launch.y, 1);
+            work.size.x, work.size.y, 1);
     } else {
         vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, graphics_.pipelines.compute(shader));
-        vkCmdDispatch(commands_, work.groups, 1, 1);
+        const glm::uvec2 groups
+            = work.groups > 0 ? glm::uvec2(work.groups, 1) : pixel_groups(graphics_.device, work.size);
+        vkCmdDispatch(commands_, groups.x, groups.y, 1);
     }
 }
 

@@ -15,12 +15,12 @@
 
 namespace vkpt {
 
-// How much a pass has to do: workgroups, or launch indices where it is a ray generation shader.
+// How much a pass has to do: pixels, or whatever is arranged like them. They are as many launch indices where it is a
+// ray generation shader.
 struct PassWork {
-    uint32_t groups = 0;
-    glm::uvec2 launch { 0 };
+    glm::uvec2 size { 0 };
+    uint32_t groups = 0; // workgroups; 0: as many as it takes
 };
-inline PassWork pixel_work(glm::uvec2 size) { return { pixel_groups(size), size }; }
 
 // One run of a pass: what it is told, and how much it has to do.
 struct PassStep {

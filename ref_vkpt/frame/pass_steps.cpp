@@ -37,23 +37,23 @@ PassWork work_over(PassExtent extent, const shared::FrameUniforms& uniforms)
 {
     switch (extent) {
     case PassExtent::bounce_blocks:
-        return pixel_work(count_blocks(uniforms.size, uniforms.bounce_block));
+        return { count_blocks(uniforms.size, uniforms.bounce_block) };
     case PassExtent::cache_cells:
         return cache_update_work(uniforms);
     case PassExtent::half:
-        return pixel_work(count_blocks(uniforms.size, glm::uvec2(2)));
+        return { count_blocks(uniforms.size, glm::uvec2(2)) };
     case PassExtent::strata:
         return stratum_work(uniforms);
     case PassExtent::resolved:
-        return pixel_work(uniforms.resolved_size);
+        return { uniforms.resolved_size };
     case PassExtent::visibility_table:
-        return pixel_work(glm::uvec2(shared::VISIBILITY_GRID));
+        return { glm::uvec2(shared::VISIBILITY_GRID) };
     case PassExtent::output:
-        return pixel_work(uniforms.output_size);
+        return { uniforms.output_size };
     case PassExtent::one:
-        return { 1, { shared::PIXEL_GROUP_SIZE, 1 } };
+        return { { shared::PIXEL_GROUP_SIZE, 1 }, 1 };
     default:
-        return pixel_work(uniforms.size);
+        return { uniforms.size };
     }
 }
 

@@ -105,7 +105,7 @@ void SceneQueries::trace_chunk(
             if (stopwatch)
                 stopwatch->begin(commands);
             for (uint32_t round = 0; round < rounds; round++)
-                frame.recorder().record(find_pass(PassId::probe_rays), { pixel_work(from.size), 0, {} });
+                frame.recorder().record(find_pass(PassId::probe_rays), { PassWork { from.size }, 0, {} });
             if (stopwatch)
                 stopwatch->end(commands);
             record_memory_barrier(commands, graphics.device.shader_stages(), VK_ACCESS_SHADER_WRITE_BIT,
@@ -145,7 +145,7 @@ bool SceneQueries::inspect_pixel(glm::uvec2 pixel, InspectedSurface& surface, st
             rendered.y * view.size.x + rendered.x, uint32_t(lights.size()), probability_draws, counted_choices };
         const uint32_t groups = (uint32_t(lights.size()) + shared::PIXEL_GROUP_SIZE - 1) / shared::PIXEL_GROUP_SIZE;
         frame.recorder().record(
-            find_pass(PassId::inspect_pixel), make_step(push, { std::clamp(groups, 1u, max_groups), { 0, 0 } }));
+            find_pass(PassId::inspect_pixel), make_step(push, { {}, std::clamp(groups, 1u, max_groups) }));
         record_memory_barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     });

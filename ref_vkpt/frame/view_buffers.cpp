@@ -15,14 +15,22 @@ size_t pixel_count(glm::uvec2 size) { return size_t(size.x) * size.y; }
 template <class Element>
 constexpr size_t element_bytes = std::is_same_v<Element, glm::vec3> ? sizeof(glm::vec4) : sizeof(Element);
 
+glm::uvec2 count_tiles(glm::uvec2 size) { return count_blocks(size, glm::uvec2(8)); }
+
+// Of PIXEL_TILES_PER_GROUP tiles.
+uint32_t tile_groups(glm::uvec2 size)
+{
+    const glm::uvec2 tiles = count_tiles(size);
+    return (tiles.x * tiles.y + shared::PIXEL_TILES_PER_GROUP - 1) / shared::PIXEL_TILES_PER_GROUP;
+}
+
 } // namespace
 
 glm::uvec2 count_blocks(glm::uvec2 size, glm::uvec2 block) { return (size + block - 1u) / block; }
 
-uint32_t pixel_groups(glm::uvec2 size)
+glm::uvec2 pixel_groups(const Device& device, glm::uvec2 size)
 {
-    const glm::uvec2 tiles = count_blocks(size, glm::uvec2(8));
-    return (tiles.x * tiles.y + shared::PIXEL_TILES_PER_GROUP - 1) / shared::PIXEL_TILES_PER_GROUP;
+    return device.traits.gpu_lanes ? count_tiles(size) : glm::uvec2(tile_groups(size), 1);
 }
 
 TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings)
@@ -32,7 +40,7 @@ TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings)
 
 bool ViewBuffers::must_grow(glm::uvec2 size, bool with_stacks) const
 {
-    return pixel_count(size) > pixels_ || (with_stacks && pixel_groups(size) > groups_);
+    return pixel_count(size) > pixels_ || (with_stacks && tile_groups(size) > groups_);
 }
 
 void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size, bool with_stacks)
@@ -40,7 +48,7 @@ void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::
     if (!must_grow(size, with_stacks))
         return;
     const size_t pixels = std::max(pixels_, pixel_count(size));
-    const uint32_t groups = std::max(groups_, pixel_groups(size));
+    const uint32_t groups = std::max(groups_, tile_groups(size));
     pixels_ = groups_ = 0; // until all of it is there
     if (!texels_)
         texels_ = make_screen_texels(gpu, bindings);
@@ -64,7 +72,7 @@ void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
     // Updates of the light cache may be more lanes than a small image's pixels.
-    const uint32_t cache_groups = pixel_groups({ CACHE_ROW, CACHE_MAX_UPDATED / CACHE_ROW });
+    const uint32_t cache_groups = tile_groups({ CACHE_ROW, CACHE_MAX_UPDATED / CACHE_ROW });
     const size_t lanes = size_t(std::max(groups, cache_groups)) * PIXEL_GROUP_SIZE;
     trace_stack_ = Buffer();
     if (with_stacks)

@@ -21,8 +21,9 @@ class ViewBuffers {
     };
 
 public:
-    // Room for a view of this many pixels, with stacks for the software backend's traversal if they are needed;
-    // contents are lost if they have to grow. The device must be idle then.
+    // Room for a view of this many pixels, with stacks for the software backend's traversal if they are needed, which
+    // they are not where lanes have their own (DeviceTraits::gpu_lanes); contents are lost if they have to grow. The
+    // device must be idle then.
     void reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size, bool with_stacks);
     bool must_grow(glm::uvec2 size, bool with_stacks) const;
     // A new frame of the view begins: what was stored as NAME is from now on read as previous_NAME.
@@ -50,6 +51,6 @@ TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings);
 glm::uvec2 count_blocks(glm::uvec2 size, glm::uvec2 block);
 
 // Workgroups of a pass over a view of this size; see VKPT_RUN_OVER_PIXELS.
-uint32_t pixel_groups(glm::uvec2 size);
+glm::uvec2 pixel_groups(const Device& device, glm::uvec2 size);
 
 } // namespace vkpt

@@ -27,6 +27,9 @@ struct DeviceTraits {
     // Pipelines are compiled for the values of cvars that change rarely. The CPU driver takes seconds to compile, and
     // reading the values costs it little.
     bool specializes_pipelines = true;
+    // Shaders keep a lane's arrays private, load 16 bytes at once, and take a tile of pixels a workgroup:
+    // shaders/lib/device/lanes.glsl.
+    bool gpu_lanes = true;
     // Mesa keeps what it has compiled in a folder of ours; what is in there is not compiled ahead.
     bool keeps_compiled_shaders = false;
 };

@@ -163,6 +163,7 @@ DeviceTraits find_traits(const VkPhysicalDeviceProperties& properties)
         .has_distant_clock = false,
         .can_be_lost = false,
         .specializes_pipelines = false,
+        .gpu_lanes = false,
         .keeps_compiled_shaders = true };
 }
 

@@ -34,12 +34,12 @@ enum RayStage : uint32_t { stage_generation, stage_miss, stage_closest_hit, stag
 constexpr std::string_view shared_stages[] = { "trace.rmiss", "trace.rchit", "trace.rahit" };
 enum RayGroup : uint32_t { group_generation, group_miss, group_hit, group_count };
 
-// Of lib/device/texels.glsl: whether tables are read as texels, which is its default; and the fixed choices.
+// Of lib/device: whether tables are read as texels, and whether lanes are those of GPUs; and the fixed choices.
 class Specialization {
 public:
     Specialization(const Device& device, const FixedChoices& choices)
         : values_ { device.reads_texels() ? VK_TRUE : VK_FALSE, choices.light_weight, choices.light_point,
-            choices.bounces }
+            choices.bounces, device.traits.gpu_lanes ? VK_TRUE : VK_FALSE }
     {
     }
     Specialization(const Specialization&) = delete;
@@ -49,12 +49,14 @@ private:
     struct Values {
         VkBool32 as_texels;
         int32_t light_weight, light_point, bounces;
+        VkBool32 gpu_lanes;
     } const values_;
     static constexpr VkSpecializationMapEntry entries_[] = {
         { shared::TEXELS_CONSTANT, offsetof(Values, as_texels), sizeof(VkBool32) },
         { shared::LIGHT_WEIGHT_CONSTANT, offsetof(Values, light_weight), sizeof(int32_t) },
         { shared::LIGHT_POINT_CONSTANT, offsetof(Values, light_point), sizeof(int32_t) },
         { shared::BOUNCES_CONSTANT, offsetof(Values, bounces), sizeof(int32_t) },
+        { shared::GPU_LANES_CONSTANT, offsetof(Values, gpu_lanes), sizeof(VkBool32) },
     };
     const VkSpecializationInfo info_ { uint32_t(std::size(entries_)), entries_, sizeof values_, &values_ };
 };

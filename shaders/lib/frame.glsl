@@ -16,6 +16,7 @@
 
 #define VKPT_SCENE_TEXELS
 #include "../shared/frame.h"
+#include "device/lanes.glsl"
 #include "device/texels.glsl"
 #include "device/whole_numbers.glsl"
 
@@ -156,17 +157,17 @@ uvec2 place_of_tile(uint tile, uint across)
     return uvec2(tile - row * across, row);
 }
 
-// Workgroups walk several tiles because starting one costs the CPU driver as much as a cheap pixel pass. The pixel is
-// kept from tile to tile: that driver divides lane by lane for the lane's number, and would do so in every tile.
+// The pixel is kept from tile to tile: the CPU driver divides lane by lane for the lane's number, and would do so in
+// every tile.
 #define VKPT_RUN_OVER(size_, run)                                                                                      \
     layout(local_size_x = PIXEL_GROUP_SIZE) in;                                                                        \
     void main()                                                                                                        \
     {                                                                                                                  \
         uvec2 size = size_;                                                                                            \
-        uint tiles_across = (size.x + 7u) / 8u;                                                                        \
-        uvec2 pixel = place_of_tile(gl_WorkGroupID.x * PIXEL_TILES_PER_GROUP, tiles_across) * 8u                       \
-            + pixel_in_tile(gl_LocalInvocationID.x);                                                                   \
-        ROLLED_FOR (uint i = 0u; i < PIXEL_TILES_PER_GROUP; i++) {                                                     \
+        uint tiles_across = (size.x + 7u) / 8u, tiles = has_gpu_lanes ? 1u : PIXEL_TILES_PER_GROUP;                    \
+        uvec2 tile = has_gpu_lanes ? gl_WorkGroupID.xy : place_of_tile(gl_WorkGroupID.x * tiles, tiles_across);        \
+        uvec2 pixel = tile * 8u + pixel_in_tile(gl_LocalInvocationID.x);                                               \
+        ROLLED_FOR (uint i = 0u; i < tiles; i++) {                                                                     \
             if (all(lessThan(pixel, size)))                                                                            \
                 run(pixel, pixel.y* size.x + pixel.x);                                                                 \
             pixel.x += 8u;                                                                                             \

@@ -40,14 +40,26 @@ SubsetChoice choose_subset(LightListView list, float xi, uint subset_length)
 
 // The sums of the weights so far. CPU drivers write an array lane by lane, which took a seventh of the time of weighing
 // a light, but to memory they can scatter: where the pass has some of its own for each lane (VKPT_LANE_MEMORY,
-// max_subset_length entries of 64 bytes of which a float is used), the sums are there.
+// max_subset_length entries of 64 bytes of which a float is used), the sums are there. On GPUs they are in lane_array.
 #ifdef VKPT_LANE_MEMORY
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LaneFloat { float v; };
 #define VKPT_SUMS uint64_t sums = VKPT_LANE_MEMORY
-#define VKPT_SUM(i) LaneFloat(sums + uint64_t((i)*64u)).v
+#define VKPT_CPU_SUM(i) LaneFloat(sums + uint64_t((i)*64u)).v
 #else
 #define VKPT_SUMS float sums[max_subset_length]
-#define VKPT_SUM(i) sums[i]
+#define VKPT_CPU_SUM(i) sums[i]
+#endif
+#ifdef __cplusplus
+#define VKPT_SUM(i) VKPT_CPU_SUM(i)
+#define VKPT_KEEP_SUM(i, sum) VKPT_CPU_SUM(i) = sum
+#else
+#include "device/lanes.glsl"
+#define VKPT_SUM(i) (has_gpu_lanes ? uintBitsToFloat(lane_array[i].x) : VKPT_CPU_SUM(i))
+#define VKPT_KEEP_SUM(i, sum)                                                                                          \
+    if (has_gpu_lanes)                                                                                                 \
+        lane_array[i].x = floatBitsToUint(sum);                                                                        \
+    else                                                                                                               \
+        VKPT_CPU_SUM(i) = sum
 #endif
 
 // The list to draw candidates from: a multiset, where the list is longer than a subset, which else would hold all of
@@ -70,7 +82,7 @@ LightSample sample_subset_in_two_sweeps(
     for (uint position = choice.offset; position < count && length_used < max_subset_length;
          position += choice.stride) {
         subset_total += weigh_light(list, predictor, position);
-        VKPT_SUM(length_used) = subset_total;
+        VKPT_KEEP_SUM(length_used, subset_total);
         length_used += 1u;
     }
     float total = subset_total + others.total;

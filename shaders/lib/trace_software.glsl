@@ -4,7 +4,8 @@
 // One ray per lane. Measured against the alternatives on the CPU driver: nodes and triangles come as texels
 // (texels.glsl), in half the time of 64-bit loads through buffer_reference, which become hardware gathers; a storage
 // buffer's become branches (half the speed again); a stack in global memory beats private and shared arrays by 10..30 %
-// on incoherent rays; integer min/max on the float bits spares the driver's NaN handling.
+// on incoherent rays (on GPUs it is private: lib/device/lanes.glsl); integer min/max on the float bits spares the
+// driver's NaN handling.
 //
 // Extensions are enabled here, so include this before any declaration. A BvhView that comes straight from push
 // constants or from constant places of a uniform buffer is 14 % (camera rays), 7 % (bounces), 4 % (shadow rays) faster
@@ -23,6 +24,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "../shared/trace.h"
+#include "device/lanes.glsl"
 #include "device/quick_floats.glsl"
 #include "ray.glsl"
 #include "device/texels.glsl"
@@ -43,7 +45,8 @@ uint64_t software_stack(uint64_t stack_buffer, uint lane)
 // A child's key is its entry distance with its index in the lowest bits: keys of positive floats sort as integers.
 const int bvh_key_none = 0x7f7fffff; // above every distance: the largest finite float
 const int bvh_key_child_mask = 7;
-const uint bvh_stack_stride = TRACE_STACK_INTERLEAVE * 8u;
+// From an entry of the stack to the next: a private one counts entries, one in a buffer bytes.
+uint bvh_stack_stride() { return has_gpu_lanes ? 1u : TRACE_STACK_INTERLEAVE * 8u; }
 
 void bvh_order(inout int a, inout int b)
 {
@@ -198,14 +201,17 @@ bool bvh_test_triangle(BvhTriangle triangle, BvhShear shear, int t_min, int t_ma
 // Farthest first. Nested, because most nodes have few children in the way and the lanes then skip the rest at once.
 #define BVH_PUSH(k)                                                                                                    \
     {                                                                                                                  \
-        BvhWords64(stack + uint64_t(top)).words[0]                                                                     \
-            = pack64(uvec2(uint(key[k]), child_words + uint(key[k] & bvh_key_child_mask) * 4u));                       \
-        top += bvh_stack_stride;                                                                                       \
+        uvec2 entry = uvec2(uint(key[k]), child_words + uint(key[k] & bvh_key_child_mask) * 4u);                       \
+        if (has_gpu_lanes)                                                                                             \
+            lane_array[top] = entry;                                                                                   \
+        else                                                                                                           \
+            BvhWords64(stack + uint64_t(top)).words[0] = pack64(entry);                                                \
+        top += bvh_stack_stride();                                                                                     \
     }
 
 // The nearest triangle with t in (t_min, t_max) and (mask & ray_mask) != 0, with `any_hit` the first such triangle
 // found; no_hit() without. Every ray ends: zero, infinite and NaN ones meet nothing or something, and read nothing
-// outside the trees. `stack`: software_stack() of this lane.
+// outside the trees. `stack`: software_stack() of this lane, which GPUs do not need.
 RawHit software_trace(
     BvhView bvh, vec3 origin, vec3 direction, float t_min, float hit_max, uint ray_mask, bool any_hit, uint64_t stack)
 {
@@ -261,8 +267,8 @@ RawHit software_trace(
                 current = next_root;
                 next_root = BVH_NO_CHILD;
             } else {
-                top -= bvh_stack_stride;
-                uvec2 entry = unpack32(BvhWords64(stack + uint64_t(top)).words[0]);
+                top -= bvh_stack_stride();
+                uvec2 entry = has_gpu_lanes ? lane_array[top] : unpack32(BvhWords64(stack + uint64_t(top)).words[0]);
                 if (int(entry.x) < t_max)
                     current = BvhWords32(bvh.nodes + uint64_t(entry.y)).words[0];
             }

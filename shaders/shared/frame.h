@@ -18,7 +18,8 @@ VKPT_CONST uint SAMPLER_REPEAT_NEAREST = 2u;
 VKPT_CONST uint SAMPLER_CLAMP_NEAREST = 3u;
 VKPT_CONST uint SAMPLER_COUNT = 4u;
 
-// Passes over the screen: 64 lanes walk PIXEL_TILES_PER_GROUP tiles of 8 x 8 pixels one after the other.
+// Passes over the screen: 64 lanes take a tile of 8 x 8 pixels, on the CPU driver PIXEL_TILES_PER_GROUP one after the
+// other (lib/device/lanes.glsl).
 VKPT_CONST uint PIXEL_GROUP_SIZE = 64u;
 VKPT_CONST uint PIXEL_TILES_PER_GROUP = 8u;
 

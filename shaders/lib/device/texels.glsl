@@ -7,6 +7,7 @@
 #define VKPT_LIB_TEXELS
 
 #include "../../shared/texels.h"
+#include "lanes.glsl"
 
 #ifndef VKPT_TEXEL_SET
 #define VKPT_TEXEL_SET 2
@@ -16,6 +17,11 @@ layout(constant_id = TEXELS_CONSTANT) const bool tables_are_texels = true;
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer TexelWords { uint64_t v[]; };
 
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer AlignedTexels { uvec4 v[]; };
+
+// `address`: a multiple of 16.
+uvec4 load_aligned_texel(uint64_t address, uint texel) { return AlignedTexels(address).v[texel]; }
+// `address`: a multiple of 8.
 uvec4 load_texel(uint64_t address, uint texel)
 {
     TexelWords words = TexelWords(address);
@@ -24,10 +30,13 @@ uvec4 load_texel(uint64_t address, uint texel)
 
 #define VKPT_TEXELS(name, slot) layout(set = VKPT_TEXEL_SET, binding = slot) uniform utextureBuffer name;
 
-// Texel `i` of an entry of `bytes`: number `first_of_texels` + `index` in the texels, `index` in the table at an
-// address.
+// Texel `i` of entry `index`, each of `bytes`, a multiple of 16, of the table at an address that is one, too.
+#define VKPT_LOAD_TEXEL(address, bytes, index, i)                                                                      \
+    (has_gpu_lanes ? load_aligned_texel((address) + uint64_t((index) * (bytes)), i)                                    \
+                   : load_texel((address) + uint64_t((index) * (bytes)), i))
+// The same as number `first_of_texels` + `index` in the texels, where tables are read so.
 #define VKPT_TEXEL(name, first_of_texels, address, bytes, index, i)                                                    \
     (tables_are_texels ? texelFetch(name, int(((first_of_texels) + (index)) * ((bytes) / TEXEL_BYTES) + (i)))          \
-                       : load_texel((address) + uint64_t((index) * (bytes)), i))
+                       : VKPT_LOAD_TEXEL(address, bytes, index, i))
 
 #endif

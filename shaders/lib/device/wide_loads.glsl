@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Entries of the scene's tables, by loads as wide as can be: as texels where frame.glsl has defined VKPT_SCENE_TEXELS
-// (see texels.glsl), else of 64 bits. The CPU driver makes gathers of eight lanes out of every load by address, and
-// they cost the same for 32 and 64 bits; on processors that are slowed down against data sampling that is about 10 ns
-// each, and most of the time of the passes that trace or light. GPUs merge loads of any width.
+// (see texels.glsl), else of 128 bits on GPUs and of 64 on the CPU driver. The CPU driver makes gathers of eight lanes
+// out of every load by address, and they cost the same for 32 and 64 bits; on processors that are slowed down against
+// data sampling that is about 10 ns each, and most of the time of the passes that trace or light.
 #ifndef VKPT_LIB_WIDE_LOADS
 #define VKPT_LIB_WIDE_LOADS
 
@@ -24,7 +24,7 @@ VKPT_TEXELS(packed_light_texels, TEXELS_PACKED_LIGHTS)
 VKPT_TEXELS(static_light_texels, TEXELS_STATIC_LIGHTS)
 #define VKPT_ENTRY_TEXEL(name, table, bytes, index, i) VKPT_TEXEL(name, 0u, table, bytes, index, i)
 #else
-#define VKPT_ENTRY_TEXEL(name, table, bytes, index, i) load_texel((table) + uint64_t((index) * (bytes)), i)
+#define VKPT_ENTRY_TEXEL(name, table, bytes, index, i) VKPT_LOAD_TEXEL(table, bytes, index, i)
 #endif
 
 // `table`: an address, a multiple of 8.
