@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The module on a device that calls itself a GPU with memory of its own, little or none of which the CPU sees: the same
-// pictures, whatever has to be copied, and a message where nothing fits.
+// pictures, whatever has to be copied and however lanes keep their arrays, and a message where nothing fits.
 #include "tests/module/faulty_room.hpp"
 
 namespace vkpt::tests {
@@ -15,8 +15,9 @@ protected:
 
     std::unique_ptr<Session> start() const
     {
-        // With one bounce the GPU's shaders have no loop, and round otherwise (FixedChoices).
-        return start_in({ 64, 48 }, { { "pt_bounces", "2" } });
+        // With one bounce the GPU's shaders have no loop, and round otherwise (FixedChoices). Tiles of 8 x 8 pixels
+        // overlap the edges.
+        return start_in({ 67, 45 }, { { "pt_bounces", "2" } });
     }
 
     // Things come and go, the map starts anew.
