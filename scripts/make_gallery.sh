@@ -81,7 +81,7 @@ wait_8
 quit
 CFG
     chmod -R a+rX "$work"
-    LIBGL_ALWAYS_SOFTWARE=1 VKPT_RENDERER=gl3 VKPT_GAME=vkpt VKPT_DATA=$work timeout 120 scripts/run_engine.sh "$run" "$size" \
+    LIBGL_ALWAYS_SOFTWARE=1 VKPT_RENDERER=gl3 VKPT_GAME=vkpt VKPT_DATA=$work timeout 1200 scripts/run_engine.sh "$run" "$size" \
         +set sv_entfile 1 +set con_notifytime 0 +set crosshair 0 +set cl_gun 0 +set deathmatch 0 +set maxclients 1 \
         +map "$map" +exec photograph.cfg >"$run/log" 2>&1 || { tail -n 20 "$run/log" >&2; return 1; }
     if grep -q '^Retrying with' "$run/home/.yq2/vkpt/qconsole.log"; then
