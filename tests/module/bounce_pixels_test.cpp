@@ -63,8 +63,7 @@ Radiance mean_of_frames(Session& session)
 // would send its own.
 TEST_F(BouncePixels, SendSoManyRays)
 {
-    const auto session
-        = start({ { "flt_denoiser", "asvgf" }, { "pt_count_rays", "1" }, { "pt_indirect", "trace" } });
+    const auto session = start({ { "flt_denoiser", "asvgf" }, { "pt_count_rays", "1" }, { "pt_indirect", "trace" } });
     const double pixels = 64 * 48, others = pixels + shared::LIGHT_LEVEL_LANES; // of the camera, and of light_level
     const auto bounce_rays = [&](const char* which) {
         session->set("pt_bounce_pixels", which);

@@ -38,9 +38,8 @@ protected:
         map.add_point_light({ -200, 200, 40 }, 120);
         folder_.add_map("lights", map.finish());
         // The light cache has tables and samples of its own.
-        session_
-            = std::make_unique<Session>(folder_,
-                CvarList { { "pt_accumulate", "1" }, { "pt_light_subset", "4" }, { "pt_indirect", "trace" } });
+        session_ = std::make_unique<Session>(
+            folder_, CvarList { { "pt_accumulate", "1" }, { "pt_light_subset", "4" }, { "pt_indirect", "trace" } });
         session_->load_map("lights");
         session_->look({ -220, -220, 120 }, { 60, 60, 20 });
         session_->view.dlights = &shot_;
