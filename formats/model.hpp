@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// MD2 (key-framed triangle meshes) and SP2 (sprites).
+// MD2 and MD3 (key-framed triangle meshes), and SP2 (sprites).
 #pragma once
 
 #include "formats/byte_reader.hpp"
@@ -7,17 +7,19 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace formats {
 
-// One mesh: corners are (position index, texture coordinate) pairs made unique, so one index buffer serves all frames.
+// One mesh, of an MD2 or a surface of an MD3: corners are (position index, texture coordinate) pairs made unique, so
+// one index buffer serves all frames.
 struct Md2Model {
     struct Frame {
         std::string name;
         std::vector<glm::vec3> positions; // one per vertex, model space
-        std::vector<glm::vec3> normals; // unit, from the format's table of 162 directions
+        std::vector<glm::vec3> normals; // unit, of an MD2 from a table of 162 directions
         glm::vec3 mins { 0 },
             maxs { 0 }; // hold all positions, with room to spare; write_md2 finds them where they do not
     };
@@ -40,8 +42,16 @@ struct Sp2Sprite {
 };
 
 Md2Model read_md2(Bytes file, std::string_view name);
+// A mesh for each surface; all have the same frames. Tags and flags are left out.
+std::vector<Md2Model> read_md3(Bytes file, std::string_view name);
+// Either, by the name's ending.
+std::vector<Md2Model> read_mesh(Bytes file, std::string_view name);
+// What is shown in place of NAME.md2 where the folder has it, as in other renderers: NAME.md3. Empty: the name is not
+// that of an MD2.
+std::string replacement_of_mesh(std::string_view name);
 Sp2Sprite read_sp2(Bytes file, std::string_view name);
 std::vector<std::byte> write_md2(const Md2Model& model);
+std::vector<std::byte> write_md3(std::span<const Md2Model> surfaces);
 std::vector<std::byte> write_sp2(const Sp2Sprite& sprite);
 
 } // namespace formats

@@ -3,6 +3,7 @@
 #include "formats/image.hpp"
 #include "formats/md2_disk.hpp"
 #include "formats/model.hpp"
+#include "formats/model_limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,16 +16,6 @@ namespace formats {
 using namespace md2_disk;
 
 namespace {
-
-// Vertices are multiplied by splitting them at texture seams, once for each frame: a hostile file must not fill the
-// memory.
-constexpr size_t max_expanded_bytes = size_t(128) << 20;
-
-bool is_sane(glm::vec3 v)
-{
-    constexpr float limit = 1e6f; // far outside of any map; also false for NaN
-    return std::abs(v.x) < limit && std::abs(v.y) < limit && std::abs(v.z) < limit;
-}
 
 Header read_header(ByteReader& reader)
 {
@@ -83,7 +74,7 @@ Md2Model::Frame read_frame(ByteReader& reader, const Header& header, size_t offs
     frame.name = reader.read_string(frame_name_size);
     frame.mins = translate;
     frame.maxs = translate + scale * 255.f;
-    if (!is_sane(frame.mins) || !is_sane(frame.maxs))
+    if (!is_sane_position(frame.mins) || !is_sane_position(frame.maxs))
         reader.fail_at(offset, "the frame's scale or position is invalid");
     const auto vertices
         = reader.read_array<Vertex>(offset + sizeof(FrameHeader), header.vertex_count, "frame vertices");
@@ -127,7 +118,7 @@ FrameHeader make_frame_header(const Md2Model::Frame& frame)
 {
     const auto [mins, maxs] = find_bounds(frame);
     FrameHeader header { (maxs - mins) / 255.f, mins, {} };
-    if (!std::all_of(frame.positions.begin(), frame.positions.end(), is_sane))
+    if (!std::all_of(frame.positions.begin(), frame.positions.end(), is_sane_position))
         throw std::invalid_argument("frame \"" + frame.name + "\" has a position that is not a sensible number");
     if (frame.name.size() >= frame_name_size)
         throw std::invalid_argument("frame name \"" + frame.name + "\" is longer than 15 bytes");
@@ -244,10 +235,7 @@ Md2Model read_md2(Bytes file, std::string_view name)
     const Sources sources = join_corners(reader, header, model);
     if (header.frames > file.size() || header.frame_count > (file.size() - header.frames) / header.frame_size)
         reader.fail_at(header.frames, "the frames reach past the end of the file");
-    if (uint64_t(header.frame_count) * sources.size() * 2 * sizeof(glm::vec3) > max_expanded_bytes)
-        reader.fail_at(0,
-            "the model is too large: " + std::to_string(header.frame_count) + " frames of "
-                + std::to_string(sources.size()) + " vertices");
+    ExpandedSize().add(reader, 0, header.frame_count, sources.size());
     for (uint32_t i = 0; i < header.frame_count; i++)
         model.frames.push_back(read_frame(reader, header, header.frames + size_t(i) * header.frame_size, sources));
     return model;

@@ -134,6 +134,8 @@ void add_models()
     for (int i = 0; i < 4; i++)
         many.indices.insert(many.indices.end(), many.indices.begin(), many.indices.begin() + 12);
     add("md2", "larger", formats::write_md2(many));
+    add("md3", "tetrahedra", formats::write_md3(samples::make_md3()));
+    add("md3", "larger", formats::write_md3(std::vector(3, many)));
     add("sp2", "sprite", formats::write_sp2(samples::make_sp2()));
     formats::Sp2Sprite long_one = samples::make_sp2();
     while (long_one.frames.size() < 32)

@@ -1,46 +1,122 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Makes the pictures of docs/gallery.md anew: our own map, and the scenes of docs/gallery/looks.map.
-#   scripts/make_gallery.sh [NAME]...     all, or those that are named
-# Takes vkpt, vkpt_map, the module and the game data from build/release.
+#   scripts/make_gallery.sh [--gl3] [NAME]...     all, or those that are named
+#   --gl3   those of the engine's own OpenGL 3 renderer, from the same places: NAME_gl3.jpg
+# VKPT_GALLERY_DIR: where to, if not docs/gallery.
+# Takes vkpt, vkpt_map, the module and the game data from the build. For --gl3 the real engine runs under Xvfb, on Mesa's
+# software OpenGL (libgl1-mesa-dri).
 set -euo pipefail
 cd "$(dirname "$0")/.."
-build=build/release
+build=${VKPT_BUILD_DIR:-build/release}
+out=${VKPT_GALLERY_DIR:-docs/gallery}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$work/baseq2/maps"
-cp -r "$build/game/baseq2/." "$work/baseq2/"
-"$build/tools/map_compiler/vkpt_map" docs/gallery/looks.map -o "$work/baseq2/maps/looks.bsp" \
-    --textures "$build/game/baseq2/textures"
-cp docs/gallery/looks.lights docs/gallery/looks.mat "$work/baseq2/maps/"
+size=384x216
+renderer=ours
+[[ ${1:-} != --gl3 ]] || { renderer=gl3; shift; }
+wanted=("$@")
 
-# NAME SCENE [vkpt's options]
+make_data() {
+    mkdir -p "$work/baseq2/maps"
+    cp -r "$build/game/baseq2/." "$work/baseq2/"
+    "$build/tools/map_compiler/vkpt_map" docs/gallery/looks.map -o "$work/baseq2/maps/looks.bsp" \
+        --textures "$build/game/baseq2/textures"
+    cp docs/gallery/looks.lights docs/gallery/looks.mat "$work/baseq2/maps/"
+}
+
+# entities MAP X Y Z: what is in the map, as vkpt shows it (without items and monsters), with the player's
+# start at that place and no gravity. Lump 0 of a BSP is the entities' text.
+entities() {
+    local file=$work/baseq2/maps/$1.bsp begin length
+    shift
+    read -r begin length < <(od -An -tu4 -j8 -N8 "$file")
+    head -c "$((begin + length))" "$file" | tail -c "$length" | tr -d '\0' \
+        | awk -v RS='}' '/classname/ && !/"classname"[ \t]+"(info_player|item_|weapon_|ammo_|monster_|misc_)/ {
+            sub(/"worldspawn"/, "&\n\"gravity\" \"0\"")
+            print $0 "}"
+        }'
+    printf '{\n"classname" "info_player_start"\n"origin" "%s %s %s"\n}\n' "$@"
+}
+
+# A PCX of 2 x 2 pixels, all transparent.
+make_empty_pcx() {
+    printf '\x0a\x05\x01\x08\x00\x00\x00\x00\x01\x00\x01\x00'
+    head -c 53 /dev/zero
+    printf '\x01\x02\x00'
+    head -c 60 /dev/zero
+    printf '\xc2\xff\xc2\xff\x0c'
+    head -c 768 /dev/zero
+}
+
+# No cvar of the engine hides the status bar.
+hide_status_bar() {
+    local pcx pics=$work/baseq2/pics
+    make_empty_pcx >"$work/empty.pcx"
+    for pcx in "$pics"/{num,anum,i,a,w}_*.pcx; do
+        cp "$work/empty.pcx" "$pcx"
+        rm -f "${pcx%.pcx}.png"
+    done
+}
+
+# The real engine with gl3. Our game module turns the player's view, as a start has no pitch, and swims just so much that
+# they do not sink in water.
+photograph_gl3() {
+    local name=$1 map x y z pitch yaw run=$work/run_$1
+    IFS=' ' read -r map x y z pitch yaw <<<"$(echo "${2#maps/}" | sed 's/\.bsp@\?/ /; s/,/ /g')"
+    mkdir -p "$run/files/maps" "$run/files/walks"
+    printf 'look %s %s\ninput 60 up 1\n' "$pitch" "$yaw" >"$run/files/walks/gallery.txt"
+    entities "$map" "$x" "$y" "$((z - 22))" >"$run/files/maps/$map.ent"
+    cat >"$run/files/photograph.cfg" <<CFG
+alias wait_8 "wait;wait;wait;wait;wait;wait;wait;wait"
+alias wait_64 "wait_8;wait_8;wait_8;wait_8;wait_8;wait_8;wait_8;wait_8"
+wait_64
+cmd walk gallery
+wait_8
+teleport $x $y $((z - 22))
+wait_64
+wait_64
+screenshot jpg 92
+wait_8
+quit
+CFG
+    chmod -R a+rX "$work"
+    LIBGL_ALWAYS_SOFTWARE=1 VKPT_RENDERER=gl3 VKPT_GAME=vkpt VKPT_DATA=$work timeout 1200 scripts/run_engine.sh "$run" "$size" \
+        +set sv_entfile 1 +set con_notifytime 0 +set crosshair 0 +set cl_gun 0 +set deathmatch 0 +set maxclients 1 \
+        +map "$map" +exec photograph.cfg >"$run/log" 2>&1 || { tail -n 20 "$run/log" >&2; return 1; }
+    if grep -q '^Retrying with' "$run/home/.yq2/vkpt/qconsole.log"; then
+        echo "gl3 did not start here; its console:" >&2
+        sed -n '/ref_gl3/,/^Retrying with/p' "$run/home/.yq2/vkpt/qconsole.log" >&2
+        return 1
+    fi
+    install -m 644 "$run"/home/.yq2/vkpt/scrnshot/*.jpg "$out/${name}_gl3.jpg"
+    echo "$out/${name}_gl3.jpg"
+}
+
+# picture NAME SCENE [vkpt's options]
 picture() {
     local name=$1 scene=$2
     shift 2
     if [ ${#wanted[@]} -gt 0 ] && [[ " ${wanted[*]} " != *" $name "* ]]; then
         return
     fi
-    "$build/bin/vkpt" render "$scene" --basedir "$work" --size 384x216 --frames 48 "$@" -o "docs/gallery/$name.png"
-}
-# The same, as an average of many samples.
-photograph() {
-    local name=$1 scene=$2
-    shift 2
-    if [ ${#wanted[@]} -gt 0 ] && [[ " ${wanted[*]} " != *" $name "* ]]; then
+    if [ "$renderer" = gl3 ]; then
+        photograph_gl3 "$name" "$scene"
         return
     fi
-    "$build/bin/vkpt" render "$scene" --basedir "$work" --size 384x216 --spp 400 "$@" -o "docs/gallery/$name.png"
+    "$build/bin/vkpt" render "$scene" --basedir "$work" --size "$size" "$@" -o "$out/$name.png"
 }
-wanted=("$@")
 
-picture water maps/looks.bsp@-330,-230,120,40,75
-picture slime_lava maps/looks.bsp@60,-330,130,22,80
-picture glass maps/looks.bsp@-200,170,90,12,70
-picture under_water maps/vkpt1.bsp@-600,-60,-100,10,90
-picture god_rays maps/looks.bsp@330,215,40,-14,80 --set pt_fog=0.0015 --set pt_fog_color="0.05 0.05 0.06" --set pt_god_rays=2
-picture fog maps/looks.bsp@60,-480,150,15,90 --set pt_fog=0.002 --set pt_fog_height=60
-picture physical_sky maps/vkpt1.bsp@0,520,200,-5,90 --set pt_sky=physical --set pt_sky_azimuth=120
-picture flashlight maps/vkpt1.bsp@-440,100,60,10,-135 --set pt_flashlight=1 --set pt_emission_scale=0.02
-picture wipe maps/vkpt1.bsp --set pt_wipe=0.5
-photograph lens maps/vkpt1.bsp@0,-384,46,0,90 --set pt_aperture=10 --set pt_focus=190
+make_data
+[ "$renderer" = ours ] || hide_status_bar
+frames=(--frames 48) samples=(--spp 400)
+picture water maps/looks.bsp@-330,-230,120,40,75 "${frames[@]}"
+picture slime_lava maps/looks.bsp@60,-330,130,22,80 "${frames[@]}"
+picture glass maps/looks.bsp@-200,170,90,12,70 "${frames[@]}"
+picture under_water maps/vkpt1.bsp@-600,-60,-100,10,90 "${frames[@]}"
+picture god_rays maps/looks.bsp@330,215,40,-14,80 "${frames[@]}" --set pt_fog=0.0015 --set pt_fog_color="0.05 0.05 0.06" --set pt_god_rays=2
+picture fog maps/looks.bsp@60,-480,150,15,90 "${frames[@]}" --set pt_fog=0.002 --set pt_fog_height=60
+picture physical_sky maps/vkpt1.bsp@0,520,200,-5,90 "${frames[@]}" --set pt_sky=physical --set pt_sky_azimuth=120
+picture flashlight maps/vkpt1.bsp@-440,100,60,10,-135 "${frames[@]}" --set pt_flashlight=1 --set pt_emission_scale=0.02
+[ "$renderer" = gl3 ] || picture wipe maps/vkpt1.bsp "${frames[@]}" --set pt_wipe=0.5 # its left half is what gl3 has
+picture lens maps/vkpt1.bsp@0,-384,46,0,90 "${samples[@]}" --set pt_aperture=10 --set pt_focus=190

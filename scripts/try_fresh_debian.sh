@@ -179,8 +179,10 @@ try_package() {
 }
 
 try_uninstall() {
+    # Those that package-make has installed.
+    inside build root 'apt-get purge -y --autoremove dpkg-dev lintian' >"$log_dir/uninstall-tools" 2>&1
     check uninstall 0 '' build root 'cd ref_vkpt && ./play --uninstall --yes'
-    list_packages build | grep -vE '^(dpkg-dev|lintian) ' | diff "$log_dir/packages-before" - >"$log_dir/uninstall-packages" \
+    list_packages build | diff "$log_dir/packages-before" - >"$log_dir/uninstall-packages" \
         || note "packages that differ from before: $(grep -c '^[<>]' "$log_dir/uninstall-packages") ($log_dir/uninstall-packages)"
 }
 

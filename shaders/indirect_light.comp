@@ -124,8 +124,8 @@ const FoundLight nothing_found = FoundLight(vec3(0.0), vec3(0.0), 0.0, -1.0);
 
 const uint first_guide_dimension
     = 10u; // in the first bounce's block, behind those of the BSDF sample and of the light where it ends
-const float guided_share
-    = 0.5; // of the first rays, where there are guides. Half: then MIS weighs the two densities as they are
+// Of the first rays, where there are guides.
+const float guided_share = 0.125;
 
 // The path's first ray, as sample_bsdf draws it or towards a guide.
 BsdfSample choose_first_ray(BouncePath path, Guides guides, bool to_guide, inout GuideSample aim, Random random)
@@ -155,10 +155,11 @@ float share_with_other_way(
         return to_guide ? 0.0 : 1.0;
     float aimed = pdf_guide(guides, primary.surface, path.guide, path.met);
     if (!to_guide)
-        return mis_weight(first.pdf, aimed);
+        return mis_weight(first.pdf * (1.0 - guided_share), aimed * guided_share);
     // By the density of the place that was met: rounding may have brought the ray to the next cell.
     return path.guide == aim.guide && aimed > 0.0
-        ? mis_weight(aimed, pdf_bsdf(primary.surface, first.direction)) * first.pdf / aimed
+        ? mis_weight(aimed * guided_share, pdf_bsdf(primary.surface, first.direction) * (1.0 - guided_share))
+            * first.pdf / aimed
         : 0.0;
 }
 

@@ -155,17 +155,41 @@ bool Recorder::is_usable_model(const std::string& name)
         return formats::brush_model_index(name).value_or(brush_models_) < brush_models_;
     if (name.ends_with(".bsp"))
         return brush_models_ > 0;
+    const bool is_replaced = note_replacement(name);
     const auto file = load_file(name);
     if (!file)
-        return false;
+        return is_replaced;
     if (name.ends_with(".sp2")) {
         for (const formats::Sp2Sprite::Frame& frame : formats::read_sp2(*file, name).frames)
             number_picture(frame.picture, TextureUse::sprite);
     } else {
-        for (const std::string& skin : formats::read_md2(*file, name).skins)
-            number_picture(skin, TextureUse::skin);
+        number_skins(formats::read_mesh(*file, name));
     }
     return true;
+}
+
+void Recorder::number_skins(const std::vector<formats::Md2Model>& surfaces)
+{
+    for (const formats::Md2Model& surface : surfaces)
+        for (const std::string& skin : surface.skins)
+            number_picture(skin, TextureUse::skin);
+}
+
+// What stands for the model in a replay, as it does in the game. False: nothing that can be read.
+bool Recorder::note_replacement(const std::string& name)
+{
+    const std::string path = formats::replacement_of_mesh(name);
+    if (path.empty() || !retexturing_)
+        return false;
+    const auto file = load_file(path);
+    if (!file)
+        return false;
+    try {
+        number_skins(formats::read_mesh(*file, path));
+        return true;
+    } catch (const formats::FormatError&) {
+        return false; // the module says why
+    }
 }
 
 void* Recorder::register_model(std::string_view name)

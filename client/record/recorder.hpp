@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/trace/trace_writer.hpp"
+#include "formats/model.hpp"
 #include "ref_vkpt/scene/texture_files.hpp"
 
 #include <cstdint>
@@ -42,6 +43,8 @@ private:
     void note_settings();
     std::optional<std::vector<std::byte>> load_file(const std::string& path);
     bool is_usable_model(const std::string& name);
+    bool note_replacement(const std::string& name);
+    void number_skins(const std::vector<formats::Md2Model>& surfaces);
     uint32_t number_picture(std::string_view name, TextureUse use);
     static void* to_handle(uint32_t number);
     static uint32_t to_number(const void* handle);

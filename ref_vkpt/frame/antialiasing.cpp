@@ -20,6 +20,8 @@ float halton(uint32_t index, uint32_t base)
     return value;
 }
 
+glm::vec2 halton_place(uint32_t index) { return { halton(index, 2), halton(index, 3) }; }
+
 } // namespace
 
 glm::vec2 offset_in_pixel(uint32_t index, glm::uvec2 rendered, glm::uvec2 resolved)
@@ -27,8 +29,11 @@ glm::vec2 offset_in_pixel(uint32_t index, glm::uvec2 rendered, glm::uvec2 resolv
     const uint64_t pixels = std::max<uint64_t>(1, uint64_t(rendered.x) * rendered.y);
     constexpr uint64_t least = shared::OFFSETS_PER_PIXEL, most = 16 * least;
     const uint64_t places = least * resolved.x * resolved.y / pixels;
-    index = uint32_t(index % std::clamp(places, least, most));
-    return { halton(index, 2), halton(index, 3) };
+    const auto count = uint32_t(std::clamp(places, least, most));
+    glm::vec2 mean { 0 };
+    for (uint32_t i = 0; i < count; i++)
+        mean += halton_place(i) / float(count);
+    return halton_place(index % count) - mean + 0.5f;
 }
 
 } // namespace vkpt

@@ -11,6 +11,7 @@
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -245,9 +246,9 @@ void keep_lists(View& view, shared::FrameUniforms& uniforms, const SceneSnapshot
     const uint32_t flags = uniforms.flags & (shared::FRAME_LIGHT_CACHE | shared::FRAME_GUIDES);
     const View::LightCacheUse light_cache { flags, flags ? publications : 0 };
     // With the cache rays go elsewhere than without, and with new values they bring something else. New weights choose
-    // other lights.
+    // other lights. With a fixed seed all frames have the same index.
     const bool differs = light_cache != view.light_cache || light_visibility != view.light_visibility;
-    uniforms.scene.oldest_repeatable = differs ? uniforms.frame_index
+    uniforms.scene.oldest_repeatable = differs ? std::numeric_limits<uint32_t>::max()
         : view.lists_changed                   ? view.history_frame_index
                                                : 0;
     view.light_cache = light_cache;

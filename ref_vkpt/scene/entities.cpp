@@ -81,8 +81,8 @@ private:
     void add_null_model(const Entity& entity);
     void add_glow(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, float area, const shared::Material& material);
     void add_shell_light(glm::vec3 centre, const shared::Material& material);
-    shared::Material mesh_material(const Entity& entity, const Model& model, const Model::Mesh& mesh) const;
-    bool add_md2(const Model::Mesh& mesh, const Md2Pose& pose, const shared::Material& material, uint32_t mask);
+    shared::Material mesh_material(const Entity& entity, const Model& model, const Model::Part& part) const;
+    bool add_md2(const Model::Part& part, const Md2Pose& pose, const shared::Material& material, uint32_t mask);
     Squeeze squeeze_weapon(const Entity& weapon) const;
 
     SceneSnapshot& snapshot_;
@@ -201,17 +201,17 @@ void SnapshotBuilder::add_brush(const Entity& entity, const Model::Brush& brush)
     snapshot_.has_alpha_test |= geometry.has_alpha_test && !translucent;
 }
 
-shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Model& model, const Model::Mesh& mesh) const
+shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Model& model, const Model::Part& part) const
 {
     shared::Material material = plain_material();
     const Texture* skin = static_cast<const Texture*>(entity.skin);
     if (skin && !skin->registration) // a handle of an earlier map
         skin = nullptr;
-    if (!skin && !mesh.skins.empty()) {
+    if (!skin && !part.skins.empty()) {
         const size_t number = size_t(std::max(entity.skin_number, 0));
-        skin = mesh.skins[number < mesh.skins.size() ? number : 0];
+        skin = part.skins[number < part.skins.size() ? number : 0];
         if (!skin)
-            skin = mesh.skins[0];
+            skin = part.skins[0];
     }
     if (skin)
         show_texture(material, *skin);
@@ -263,8 +263,10 @@ void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const M
         return add_shell(entity, mesh, pose);
     if (model.light && !add_placed_lights(entity, *model.light, pose.transform))
         return;
-    const shared::Material material = mesh_material(entity, model, mesh);
-    add_md2(mesh, pose, material, entity_mask(entity, material));
+    for (const Model::Part& part : mesh.parts) {
+        const shared::Material material = mesh_material(entity, model, part);
+        add_md2(part, pose, material, entity_mask(entity, material));
+    }
 }
 
 // False: its mesh is not to be seen. The spheres are, with RF_FULLBRIGHT, to the camera alone: no ray of light meets
@@ -291,9 +293,9 @@ bool SnapshotBuilder::add_placed_lights(const Entity& entity, formats::LightMode
 
 // False: it cannot be posed (MovingGeometry::add).
 bool SnapshotBuilder::add_md2(
-    const Model::Mesh& mesh, const Md2Pose& pose, const shared::Material& material, uint32_t mask)
+    const Model::Part& part, const Md2Pose& pose, const shared::Material& material, uint32_t mask)
 {
-    if (!snapshot_.moving.add(mesh.md2, pose, uint32_t(snapshot_.materials.size()), mask))
+    if (!snapshot_.moving.add(part.md2, pose, uint32_t(snapshot_.materials.size()), mask))
         return false;
     add_material(material);
     return true;
@@ -319,9 +321,15 @@ void SnapshotBuilder::add_shell(const Entity& entity, const Model::Mesh& mesh, M
     material.emission = colour * shell_radiance;
     material.opacity = shell_opacity;
     material.flags = shared::MATERIAL_TRANSLUCENT;
-    const bool is_shown = add_md2(mesh, pose, material, entity_mask(entity, material));
+    Box bounds;
+    bool is_shown = false;
+    for (const Model::Part& part : mesh.parts)
+        if (add_md2(part, pose, material, entity_mask(entity, material))) {
+            bounds.add(part.md2->bounds(pose));
+            is_shown = true;
+        }
     if (is_shown && !(entity.flags & RF_WEAPONMODEL)) // the weapon's is the player's once more
-        add_shell_light(mesh.md2->bounds(pose).centre(), material);
+        add_shell_light(bounds.centre(), material);
 }
 
 // The light of a surface that rays other than the camera's pass: light sampling alone accounts for it.

@@ -131,6 +131,33 @@ shared::Emitter make_flashlight(const engine::RefDef& refdef)
     return emitter;
 }
 
+Model::Mesh make_mesh(std::vector<formats::Md2Model>&& surfaces)
+{
+    Model::Mesh mesh;
+    for (formats::Md2Model& surface : surfaces)
+        mesh.parts.push_back({ std::make_shared<Md2Mesh>(surface), std::move(surface.skins), {} });
+    return mesh;
+}
+
+// False: there is none that can be read.
+bool load_replacement(Model& model)
+{
+    const std::string path = formats::replacement_of_mesh(model.name);
+    if (path.empty() || cvars::values().r_retexturing == 0)
+        return false;
+    const std::optional<engine::FileData> file = engine::load_file(path);
+    if (!file)
+        return false;
+    try {
+        model.shape = make_mesh(formats::read_mesh(file->bytes(), path));
+        model.file = path;
+        return true;
+    } catch (const formats::FormatError& error) {
+        engine::print("vkpt: {}; {} is shown in its place", error.what(), model.name);
+        return false;
+    }
+}
+
 FaceTexture describe(const Texture& texture, const MaterialSettings* material)
 {
     FaceTexture face;
@@ -259,26 +286,28 @@ std::optional<Model> Scene::load_model(const std::string& name) const
         model.shape = Model::Brush { 0 };
         return world_ ? std::optional(std::move(model)) : std::nullopt;
     }
+    if (load_replacement(model))
+        return model;
     const std::optional<engine::FileData> file = engine::load_file(name);
     if (!file)
         return std::nullopt;
+    model.file = name;
     if (ends_with(name, ".sp2"))
         model.shape = Model::Sprite { formats::read_sp2(file->bytes(), name), {} };
-    else {
-        formats::Md2Model md2 = formats::read_md2(file->bytes(), name);
-        model.shape = Model::Mesh { std::make_shared<Md2Mesh>(md2), std::move(md2.skins), {} };
-    }
+    else
+        model.shape = make_mesh(formats::read_mesh(file->bytes(), name));
     return model;
 }
 
 // Loads the textures of a new model, and keeps those of a known one.
 void Scene::find_textures(Model& model)
 {
-    if (auto* mesh = std::get_if<Model::Mesh>(&model.shape)) {
-        mesh->skins.clear();
-        for (const std::string& skin : mesh->skin_names)
-            mesh->skins.push_back(textures_.find(skin, TextureUse::skin));
-    }
+    if (auto* mesh = std::get_if<Model::Mesh>(&model.shape))
+        for (Model::Part& part : mesh->parts) {
+            part.skins.clear();
+            for (const std::string& skin : part.skin_names)
+                part.skins.push_back(textures_.find(skin, TextureUse::skin));
+        }
     if (auto* sprite = std::get_if<Model::Sprite>(&model.shape)) {
         sprite->textures.clear();
         for (const formats::Sp2Sprite::Frame& frame : sprite->sp2.frames)
@@ -495,10 +524,12 @@ void Scene::print_models() const
         if (!model.registration)
             continue;
         count++;
-        if (const auto* mesh = std::get_if<Model::Mesh>(&model.shape))
-            engine::print(
-                "{:6} triangles {:4} frames  {}", mesh->md2->triangle_count(), mesh->md2->frame_count(), model.name);
-        else if (const auto* brush = std::get_if<Model::Brush>(&model.shape))
+        if (const auto* mesh = std::get_if<Model::Mesh>(&model.shape)) {
+            size_t triangles = 0;
+            for (const Model::Part& part : mesh->parts)
+                triangles += part.md2->triangle_count();
+            engine::print("{:6} triangles {:4} frames  {}", triangles, mesh->parts[0].md2->frame_count(), model.file);
+        } else if (const auto* brush = std::get_if<Model::Brush>(&model.shape))
             engine::print("{:6} triangles    1 frame   {}", world_->models[brush->index].triangles.size(), model.name);
         else
             engine::print(

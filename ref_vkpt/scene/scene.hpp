@@ -28,10 +28,14 @@ inline constexpr std::string_view saved_materials_head = "# Materials saved by r
 
 // A handle that the engine holds. Brush models belong to the current map.
 struct Model {
-    struct Mesh {
+    // An MD2, or a surface of an MD3.
+    struct Part {
         std::shared_ptr<const Md2Mesh> md2; // views may outlive a model's registration
         std::vector<std::string> skin_names;
         std::vector<const Texture*> skins; // nullptr: not found
+    };
+    struct Mesh {
+        std::vector<Part> parts; // one at least
     };
     struct Sprite {
         formats::Sp2Sprite sp2;
@@ -41,6 +45,7 @@ struct Model {
         size_t index = 0; // in World::models; 0: the world itself
     };
     std::string name;
+    std::string file; // what it was read from; that of a mesh may be another one, which stands for it
     std::optional<formats::LightModel> light; // by its name
     std::variant<Mesh, Sprite, Brush> shape;
     uint32_t registration = 0; // the last one that used it; 0: free

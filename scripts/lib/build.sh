@@ -10,10 +10,10 @@ build_targets() {
     if [[ -e $build_dir && ! -w $build_dir ]]; then
         die "$build_dir belongs to $(stat -c %U "$build_dir") (an earlier run as another user). Remove it: sudo rm -r $build_dir"
     fi
-    if [[ ! -e $build_dir/build.ninja ]] || { [[ $1 == all ]] && ! has_tests; }; then
-        local tests=ON
-        # Where only the game was set up, what the tests are built with is not there.
-        [[ $1 == all || -e /usr/include/gtest/gtest.h ]] || tests=OFF
+    # Where only the game was set up, or the tests' packages have been removed, what the tests are built with is not there.
+    local tests=ON
+    [[ $1 == all || -e /usr/include/gtest/gtest.h ]] || tests=OFF
+    if [[ ! -e $build_dir/build.ninja ]] || { [[ $1 == all ]] && ! has_tests; } || { [[ $tests == OFF ]] && has_tests; }; then
         run_step configure "Configuring (cmake --preset release)" \
             cmake --preset release -D BUILD_TESTING=$tests -S "$root" -B "$build_dir" || die "cmake failed"
     fi

@@ -122,10 +122,11 @@ struct Reach {
     uint frames; // since it began anew, up to a period
 };
 
-Reach unpack_reach(uint bits) { return Reach(unpack_light2(bits & 0xffffu).x, bits >> 16u & 0xffu, bits >> 24u); }
+// From the lowest bit: is_dark, frames (5 bits), most (the upper 11 bits of light16_bits).
+Reach unpack_reach(uint bits) { return Reach(unpack_light2(bits >> 21u << 5u).x, bits & 0xffffu, bits >> 16u & 31u); }
 uint pack_reach(Reach reach)
 {
-    return pack_light2(vec2(reach.most, 0.0)) & 0xffffu | reach.is_dark << 16u | reach.frames << 24u;
+    return reach.is_dark | reach.frames << 16u | (pack_light2(vec2(reach.most, 0.0)) & 0xffe0u) << 16u;
 }
 
 // Takes in this frame's. Whether it is as dark as it was to be expected.
@@ -135,7 +136,7 @@ bool update_reach(inout Reach reach, float brightest)
     bool is_dark = brightest < 0.5 * reach.most;
     if (brightest > 2.0 * reach.most
         || (reach.frames >= OFFSETS_PER_PIXEL && is_dark != ((reach.is_dark & place) != 0u))) {
-        reach = Reach(brightest, 0xffu & ~place, 1u); // something has changed
+        reach = Reach(brightest, 0xffffu & ~place, 1u); // something has changed
         return false;
     }
     bool expected = is_dark && reach.frames >= OFFSETS_PER_PIXEL;

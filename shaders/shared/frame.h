@@ -26,7 +26,7 @@ VKPT_CONST uint PIXEL_TILES_PER_GROUP = 8u;
 VKPT_CONST uint STRATUM_BLOCKS = 3u; // A-SVGF: of so many by so many bounce blocks one repeats an older sample
 
 VKPT_CONST uint OFFSETS_PER_PIXEL
-    = 8u; // camera rays pass through so many places of each pixel of the result, one after the other
+    = 16u; // camera rays pass through so many places of each pixel of the result, one after the other
 
 VKPT_CONST uint FRAME_ALPHA_TEST = 1u; // the scene has alpha-tested triangles
 VKPT_CONST uint FRAME_NO_WORLD = 2u; // a view of models alone (menus): lit by a fixed light, no sky

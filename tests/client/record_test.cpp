@@ -11,6 +11,7 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -148,6 +149,35 @@ TEST(Record, WritesWhatTheEngineAsked)
             files.push_back(call.name);
     for (const char* name : { "maps/sample.bsp", "models/thing.md2", "pics/num_0.pcx" })
         EXPECT_EQ(std::count(files.begin(), files.end(), name), 1) << name;
+}
+
+TEST(Record, NotesWhatStandsForAModel)
+{
+    const ScratchFolder folder;
+    const auto path = folder.path() / "a.rtrace";
+    {
+        RecordModule module(path);
+        for (const char* name : { "models/both.md2", "models/damaged.md2" })
+            module.engine.files[name] = to_text(formats::write_md2(samples::make_md2()));
+        for (const char* name : { "models/both.md3", "models/alone.md3" })
+            module.engine.files[name] = to_text(formats::write_md3(samples::make_md3()));
+        module.engine.files["models/damaged.md3"] = "IDP3 and no more";
+        ASSERT_TRUE(module.api.init());
+        module.api.begin_registration("sample");
+        void* both = module.api.register_model("models/both.md2");
+        for (const char* name : { "models/both.md2", "models/alone.md2", "models/damaged.md2" })
+            EXPECT_NE(module.api.register_model(name), nullptr) << name;
+        module.api.end_registration();
+        module.draw(1, both, nullptr);
+        module.api.shutdown();
+    }
+    std::set<std::string> files;
+    trace::TraceReader reader(path);
+    for (const trace::Call& call : reader.facts())
+        if (call.kind == CallKind::file)
+            files.insert(call.name);
+    for (const char* name : { "models/both.md2", "models/both.md3", "models/alone.md3", "models/damaged.md2" })
+        EXPECT_TRUE(files.contains(name)) << name;
 }
 
 // What comes before the first 3D view: whole frames of 2D show the engine's console and are left out, what is drawn in

@@ -255,6 +255,14 @@ TEST(Corruption, Md2)
     try_mutations(write_md2(samples::make_md2()), [](Bytes file) { use_md2(read_md2(file, "m.md2")); });
 }
 
+TEST(Corruption, Md3)
+{
+    try_mutations(write_md3(samples::make_md3()), [](Bytes file) {
+        for (const Md2Model& surface : read_md3(file, "m.md3"))
+            use_md2(surface);
+    });
+}
+
 TEST(Corruption, Sp2)
 {
     try_mutations(write_sp2(samples::make_sp2()), [](Bytes file) { read_sp2(file, "m.sp2"); });

@@ -114,6 +114,16 @@ Md2Model make_md2()
     return model;
 }
 
+std::vector<Md2Model> make_md3()
+{
+    std::vector<Md2Model> surfaces(2, make_md2());
+    surfaces[1].skins = { "models/sample/base.tga" };
+    for (Md2Model::Frame& frame : surfaces[1].frames)
+        for (glm::vec3& position : frame.positions)
+            position.z -= 40;
+    return surfaces;
+}
+
 Sp2Sprite make_sp2()
 {
     return { { { 32, 48, 16, 24, "sprites/sample_0.pcx" }, { 64, 64, 32, 0, "sprites/sample_1.pcx" } } };

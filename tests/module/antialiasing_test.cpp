@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Lamps of a few pixels and less, in the picture that is averaged over frames: as bright as they are, and calm.
+#include "shaders/shared/frame.h"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
@@ -49,7 +50,7 @@ protected:
     // So many pixels a frame past the lamps; the mean brightness of the pictures around the middle of the walk.
     static double walk_past(float pixels)
     {
-        constexpr int before = 32, measured = 16;
+        constexpr int before = 4 * shared::OFFSETS_PER_PIXEL, measured = shared::OFFSETS_PER_PIXEL;
         double sum = 0;
         for (int frame = 0; frame < before + measured; frame++) {
             const float y = pixels * pixel * (before + 0.5f * measured - float(frame));

@@ -131,6 +131,17 @@ TEST_F(BadInput, DamagedModelIsRefusedAndDrawnAsAPlaceholder)
     EXPECT_FALSE(session.capture() == empty);
 }
 
+TEST_F(BadInput, DamagedReplacementLeavesTheModelItself)
+{
+    folder_.add("models/item.md2", formats::write_md2(samples::make_md2()));
+    folder_.add("models/item.md3", cut(formats::write_md3(samples::make_md3()), 0.6));
+    Session& session = start();
+    expect_good_map_works();
+    EXPECT_TRUE(session.module().register_model("models/item.md2"));
+    EXPECT_TRUE(session.has_line("models/item.md3"));
+    EXPECT_TRUE(session.has_line("models/item.md2 is shown in its place"));
+}
+
 TEST_F(BadInput, BrushModelsThatTheMapLacksAreRefused)
 {
     MapBuilder map;

@@ -59,10 +59,11 @@ Radiance mean_of_frames(Session& session)
     return sum;
 }
 
-// A room that is closed has a primary ray and, where all pixels send one, a bounce ray for each pixel.
+// A room that is closed has a primary ray and, where all pixels send one, a bounce ray for each pixel; the light cache
+// would send its own.
 TEST_F(BouncePixels, SendSoManyRays)
 {
-    const auto session = start({ { "flt_denoiser", "asvgf" }, { "pt_count_rays", "1" } });
+    const auto session = start({ { "flt_denoiser", "asvgf" }, { "pt_count_rays", "1" }, { "pt_indirect", "trace" } });
     const double pixels = 64 * 48, others = pixels + shared::LIGHT_LEVEL_LANES; // of the camera, and of light_level
     const auto bounce_rays = [&](const char* which) {
         session->set("pt_bounce_pixels", which);

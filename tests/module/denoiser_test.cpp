@@ -253,11 +253,11 @@ TEST_F(Denoiser, NarrowLightsStayNarrow)
     EXPECT_LT(in_motion, 0.009); // .0080; .0103 if moments, instead of variances, were averaged over places
 }
 
-// After a cut a picture is what it would be as the very first one.
+// After a cut a picture is what it would be as the very first one. What the light cache knows outlives cuts.
 TEST_F(Denoiser, CutsDropTheHistory)
 {
     for (const char* mode : { "temporal", "asvgf" }) {
-        const auto session = start({ { "flt_denoiser", mode } });
+        const auto session = start({ { "flt_denoiser", mode }, { "pt_indirect", "trace" } });
         session->draw(6);
         session->view.view_origin[0] += 2; // a step: history stays
         session->draw();

@@ -167,7 +167,8 @@ TEST_F(Filters, AMenusModelIsShownAsItsPicture)
 TEST_F(Filters, PauseKeepsTheHistoryAndRewindDropsIt)
 {
     session_->set("flt_taa", "off");
-    session_->set("pt_light_visibility", 0); // it is learned from all frames, whatever their time
+    session_->set("pt_light_visibility", 0); // it and the light cache learn from all frames, whatever their time
+    session_->set("pt_indirect", "trace");
     session_->draw();
     const Radiance first = session_->capture();
     session_->draw(10);
@@ -179,6 +180,7 @@ TEST_F(Filters, PauseKeepsTheHistoryAndRewindDropsIt)
     session_->draw();
     EXPECT_TRUE(session_->capture() == first);
     session_->set("pt_light_visibility", 1);
+    session_->set("pt_indirect", "cache");
 }
 
 // Lights in mid-air whose reach ends before all that is seen come and go, and with them the lists: nobody may notice.

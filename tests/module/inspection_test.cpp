@@ -46,9 +46,10 @@ protected:
     std::vector<InspectedLight> lights_;
 };
 
-// Alone or in turns: the same pictures, bit for bit.
+// Alone or in turns: the same pictures, bit for bit. Without guides, which are chosen once for all views.
 TEST_F(Inspection, ViewsKeepTheirAveragesApart)
 {
+    session_->set("pt_indirect", "trace");
     const auto draw_view = [&](uint32_t view, const char* sampler) {
         ASSERT_TRUE(session_->extension().select_view(view));
         session_->set("pt_light_sampler", sampler);

@@ -37,8 +37,9 @@ protected:
         map.add(rectangle({ 255, 0, 60 }, { 0, 0, 20 }, { 0, 60, 0 }), lamps[1]); // faces -x
         map.add_point_light({ -200, 200, 40 }, 120);
         folder_.add_map("lights", map.finish());
-        session_
-            = std::make_unique<Session>(folder_, CvarList { { "pt_accumulate", "1" }, { "pt_light_subset", "4" } });
+        // The light cache has tables and samples of its own.
+        session_ = std::make_unique<Session>(
+            folder_, CvarList { { "pt_accumulate", "1" }, { "pt_light_subset", "4" }, { "pt_indirect", "trace" } });
         session_->load_map("lights");
         session_->look({ -220, -220, 120 }, { 60, 60, 20 });
         session_->view.dlights = &shot_;

@@ -46,6 +46,19 @@ formats::Md2Model make_model()
     return model;
 }
 
+// The same triangle, red or green, and a blue one below it.
+constexpr glm::vec3 second_surface(0, 0, -32);
+
+std::vector<formats::Md2Model> make_surfaces()
+{
+    std::vector<formats::Md2Model> surfaces(2, make_model());
+    surfaces[1].skins = { "models/blue.pcx" };
+    for (formats::Md2Model::Frame& frame : surfaces[1].frames)
+        for (glm::vec3& position : frame.positions)
+            position += second_surface;
+    return surfaces;
+}
+
 // What a view is made of beside the map.
 struct Shown {
     std::vector<SceneTriangle> triangles;
@@ -88,6 +101,9 @@ protected:
         for (const auto& [path, index] : skins)
             folder_->add_skin(path, index);
         folder_->add("models/thing.md2", formats::write_md2(make_model()));
+        folder_->add("models/fine.md2", formats::write_md2(make_model()));
+        folder_->add("models/fine.md3", formats::write_md3(make_surfaces()));
+        folder_->add("models/alone.md3", formats::write_md3(make_surfaces()));
         formats::Sp2Sprite sprite;
         sprite.frames = { { 16, 8, 8, 4, "sprites/small.pcx" }, { 32, 24, 0, 0, "sprites/large.pcx" } };
         folder_->add("sprites/flame.sp2", formats::write_sp2(sprite));
@@ -216,6 +232,50 @@ TEST_F(Wiring, BacklerpIsTheShareOfTheOldFrameAndPlace)
                 glm::mix(model_frames[1][i] + glm::vec3(40, 0, 8), model_frames[0][i] + glm::vec3(20, 0, 8), backlerp));
         expect_corners(show({ entity }), corners);
     }
+}
+
+TEST_F(Wiring, Md3StandsForAnMd2WithItsSurfacesAndFrames)
+{
+    engine::Entity entity = make_entity(session_->module().register_model("models/fine.md2"), { 20, 0, 8 });
+    ASSERT_TRUE(entity.model);
+    entity.frame = 1;
+    entity.backlerp = 0.25f;
+    entity.skin_number = 1; // the second surface has one
+    const Shown shown = show({ entity });
+    ASSERT_EQ(shown.triangles.size(), 2u);
+    EXPECT_NE(shown.picture(0).find("models/green"), std::string::npos) << shown.picture(0);
+    EXPECT_NE(shown.picture(1).find("models/blue"), std::string::npos) << shown.picture(1);
+    for (size_t surface = 0; surface < 2; surface++)
+        for (size_t i = 0; i < 3; i++) {
+            const glm::vec3 wanted = glm::mix(model_frames[1][i], model_frames[0][i], 0.25f) + glm::vec3(20, 0, 8)
+                + (surface == 1 ? second_surface : glm::vec3(0));
+            float nearest = INFINITY;
+            for (const auto& seen : shown.triangles[surface].positions)
+                nearest = std::min(nearest, glm::distance(to_vec3(seen), wanted));
+            EXPECT_LT(nearest, 1.0f / 64) << "surface " << surface << ", corner " << i;
+        }
+    entity.skin = session_->module().register_skin("models/red.pcx"); // as players have: for all of it
+    const Shown dressed = show({ entity });
+    for (size_t surface = 0; surface < 2; surface++)
+        EXPECT_NE(dressed.picture(surface).find("models/red"), std::string::npos) << dressed.picture(surface);
+}
+
+TEST_F(Wiring, ShellsOfAnMd3HaveOneLight)
+{
+    engine::Entity entity = make_entity(session_->module().register_model("models/fine.md2"), { 60, 0, 8 },
+        engine::RF_SHELL_RED | engine::RF_TRANSLUCENT);
+    const size_t without = show({}).emitters.size();
+    const Shown shown = show({ entity });
+    EXPECT_EQ(shown.triangles.size(), 2u);
+    EXPECT_EQ(shown.emitters.size(), without + 8); // an octahedron
+}
+
+TEST_F(Wiring, Md3CanBeAskedForItself)
+{
+    EXPECT_EQ(
+        show({ make_entity(session_->module().register_model("models/alone.md3"), { 20, 0, 8 }) }).triangles.size(),
+        2u);
+    EXPECT_FALSE(session_->module().register_model("models/none.md3"));
 }
 
 TEST_F(Wiring, ModelsTurnByTheirAngles)

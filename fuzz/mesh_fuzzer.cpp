@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A model as the module uses it: read, made ready, posed at and between its frames, its triangles and trees written.
+// A model of the format VKPT_MODEL as the module uses it: read, made ready, posed at and between its frames, its
+// triangles and trees written.
 #include "formats/model.hpp"
 #include "fuzz/support/harness.hpp"
 #include "fuzz/support/moving.hpp"
@@ -29,15 +30,24 @@ void pose(const std::shared_ptr<const Md2Mesh>& mesh)
     fuzz::write_moving(next);
 }
 
+std::vector<formats::Md2Model> read(formats::Bytes bytes)
+{
+    constexpr std::string_view kind = VKPT_MODEL;
+    if (kind == "md3")
+        return formats::read_md3(bytes, "input.md3");
+    return { formats::read_md2(bytes, "input.md2") };
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
 {
     try {
-        const formats::Md2Model model = formats::read_md2(fuzz::bytes_of(data, size), "input.md2");
-        for (const uint32_t index : model.indices)
-            fuzz::require(index < model.vertex_count(), "a model's indices are below its number of vertices");
-        pose(std::make_shared<Md2Mesh>(model));
+        for (const formats::Md2Model& model : read(fuzz::bytes_of(data, size))) {
+            for (const uint32_t index : model.indices)
+                fuzz::require(index < model.vertex_count(), "a model's indices are below its number of vertices");
+            pose(std::make_shared<Md2Mesh>(model));
+        }
     } catch (const formats::FormatError&) {
     }
     return 0;
