@@ -75,7 +75,9 @@ public:
         y_.is_logarithmic = plot.y_is_logarithmic;
         for (size_t number = 0; number < plot.lines.size(); number++) {
             const PlotLine& line = plot.lines[number];
-            Line kept { { line.name, {} }, colour_of(number) };
+            Line kept;
+            kept.name = line.name;
+            kept.colour = colour_of(number);
             for (const PlotPoint& point : line.points)
                 if (x_.takes(point.x) && y_.takes(point.y)) {
                     x_.include(point.x);

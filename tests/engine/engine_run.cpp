@@ -109,8 +109,7 @@ void EngineRun::make_folder(const EngineOptions& options)
     std::filesystem::permissions(folder, std::filesystem::perms(0755)); // the engine's user has to enter
     std::filesystem::create_directories(folder / "files");
     std::map<std::string, std::string> files = options.files;
-    files["test.cfg"]
-        = wait_aliases() + (options.waits_at_marks ? wait_at_marks(options.script, files) : options.script);
+    files["test.cfg"] = wait_aliases() + wait_at_marks(options.script, files);
     for (const auto& [path, contents] : files) {
         std::filesystem::create_directories((folder / "files" / path).parent_path());
         std::ofstream(folder / "files" / path, std::ios::binary) << contents;

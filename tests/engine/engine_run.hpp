@@ -33,7 +33,6 @@ struct EngineOptions {
     // Called again and again while the engine runs, with its writable game folder.
     std::function<void(const std::filesystem::path&)> while_running;
     bool validation = true; // Vulkan's validation layers
-    bool waits_at_marks = true; // see display_mark
 };
 
 struct EngineResult {

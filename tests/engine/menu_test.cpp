@@ -20,14 +20,6 @@ std::string press(const std::vector<std::string>& keys)
     return command;
 }
 
-std::string repeat(const std::string& text, int count)
-{
-    std::string all;
-    for (int i = 0; i < count; i++)
-        all += text;
-    return all;
-}
-
 // What the console says of a variable: "NAME" is "VALUE".
 double printed_number(const EngineRun& run, const std::string& name)
 {
@@ -51,10 +43,8 @@ TEST(Engine, VideoMenuChoosesThisRendererAndItsRowsAct)
 {
     EngineOptions options;
     options.render_scale = 100;
-    options.waits_at_marks = false; // the keys would reach a console that lines run in
     const std::string capture = "set pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\n";
-    // A mark's waits are over before its keys are all pressed.
-    const std::string keys = display_mark + repeat("wait_100\n", 4);
+    const std::string keys = std::string(display_mark) + "wait_25\n"; // the last key's frames
     options.script = "wait_25\n" + capture + "menu_video\nwait_5\n"
         + keys
         // The menu has asked for the restart, too, but behind this script.
@@ -90,8 +80,7 @@ TEST(Engine, SettingsPageIsWorkedByKeys)
 {
     EngineOptions options;
     options.render_scale = 100;
-    options.waits_at_marks = false; // the keys would reach a console that lines run in
-    const std::string keys = display_mark + repeat("wait_100\n", 4);
+    const std::string keys = std::string(display_mark) + "wait_25\n"; // the last key's frames
     options.script = "wait_25\npt_menu\nwait_5\n" + keys + "pt_bounces\nflt_taa\necho page\npaused\n" + keys
         + "pt_bounces\necho menu\npaused\nquit\n";
     options.display_commands = {
@@ -116,8 +105,7 @@ TEST(Engine, PhotoModeIsWorkedByKeys)
     EngineOptions options;
     options.width = 128; // photo mode renders all pixels
     options.height = 72;
-    options.waits_at_marks = false; // the keys would reach a console that lines run in
-    const std::string keys = display_mark + repeat("wait_100\n", 2);
+    const std::string keys = std::string(display_mark) + "wait_25\n"; // the last key's frames
     options.script = "wait_25\npt_photo\nwait_5\npt_photo info\npt_photo save castle\nwait_5\n" + keys
         + "pt_photo info\necho photo\npaused\n" + keys + "echo game\nwait_25\npaused\nquit\n";
     options.display_commands = {
