@@ -42,18 +42,23 @@ vec3 shown_light(ReflectedLight light, Surface surface)
         return surface.albedo;
     if ((frame.flags & FRAME_GREY_LIGHT) != 0u)
         light = ReflectedLight(vec3(luminance(light.diffuse)), vec3(luminance(light.specular)));
-    light.diffuse = max(light.diffuse - taken_light(surface.position), vec3(0.0)) + frame.cvars.pt_min_light;
+    // Samples may be negative where the cache is corrected (pt_indirect both): their mean counts.
+    if (frame.dark_light_count > 0u)
+        light.diffuse = max(light.diffuse - taken_light(surface.position), vec3(0.0));
+    if ((frame.flags & FRAME_CACHE_BIAS) == 0u)
+        light.diffuse += frame.cvars.pt_min_light;
     return (frame.flags & FRAME_LIGHT_ALONE) != 0u ? light.diffuse : surface.albedo * light.diffuse + light.specular;
 }
 
 void compose_pixel(uvec2 pixel, uint index)
 {
-    vec3 radiance = load_emitted(index);
+    bool shows_cache_bias = (frame.flags & FRAME_CACHE_BIAS) != 0u;
+    vec3 radiance = shows_cache_bias ? vec3(0.0) : load_emitted(index);
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0)
         radiance += unpack_light3(load_throughput(index))
             * shown_light(reflected_light(pixel, index, primary.surface), primary.surface);
-    if ((frame.flags & FRAME_GOD_RAYS) != 0u)
+    if ((frame.flags & FRAME_GOD_RAYS) != 0u && !shows_cache_bias)
         radiance += spread_scattered(pixel, primary.depth);
     // One path that is not finite must not blacken a pixel for ever.
     if (is_nonfinite(radiance)) {

@@ -70,21 +70,45 @@ CachedLight find_cached_light(HitSurface hit)
     return read_light_cache(hit.cache_face, hit.surface.position);
 }
 
-// Radiance that the path's new surface sends back of the light that arrives there directly.
+// pt_indirect both: the share of the places read from the cache that a light is chosen at, too.
+float corrected_share() { return frame.cvars.pt_indirect == INDIRECT_BOTH ? frame.cvars.pt_cache_corrected : 0.0; }
+
+const uint correction_dimension = 15u; // in a bounce's block, behind those of guides
+
+bool shows_cache_bias() { return (frame.flags & FRAME_CACHE_BIAS) != 0u; }
+
+// Radiance that the path's new surface sends back of the light that arrives there directly. Where it is read from the
+// cache, the cache may be a control variate: at a share q of such places a static light is chosen as well, and 1 / q of
+// the difference is added. The mean is that of chosen lights, whatever the cache holds.
 vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixel_random)
 {
     bool known = (frame.flags & FRAME_LIGHT_CACHE) != 0u && cached.known && path.ray_length >= min_cached_distance
         && reflects_like_cache(path.surface, cached);
     path.lit_by_cache = known;
+    float share = known ? corrected_share() : 0.0;
+    Random correction = random_for_bounce(pixel_random, path.vertex + 1u);
+    correction.dimension += correction_dimension;
+    bool corrected = share > 0.0 && next_float(correction) < share;
     LightRandom random = light_random(pixel_random, path.vertex);
     LightListView list = open_light_list_for(random, path.cluster);
-    if (known)
-        list = dynamic_lights(list);
-    ReflectedLight direct = ReflectedLight(vec3(0.0), vec3(0.0));
-    if (light_count(list) > 0u)
-        direct = sample_lights(list, path.surface, random, !known && path.vertex < bsdf_ray_count());
-    vec3 radiance = direct.diffuse * path.surface.albedo + direct.specular;
-    return known ? radiance + reflect_cached_light(path.surface, cached) : radiance;
+    vec3 cached_radiance = known ? reflect_cached_light(path.surface, cached) : vec3(0.0);
+    vec3 radiance = shows_cache_bias() ? vec3(0.0) : cached_radiance;
+    // Lights that the cache does not know; then those that it does.
+    ROLLED_FOR (uint part = shows_cache_bias() ? 1u : 0u; part < (corrected ? 2u : 1u); part++) {
+        LightListView lights = list;
+        if (part == 1u)
+            lights = static_lights(list);
+        else if (known)
+            lights = dynamic_lights(list);
+        ReflectedLight direct = ReflectedLight(vec3(0.0), vec3(0.0));
+        if (light_count(lights) > 0u)
+            direct = sample_lights(lights, path.surface, random, !known && path.vertex < bsdf_ray_count());
+        vec3 traced = direct.diffuse * path.surface.albedo + direct.specular;
+        if (part == 1u)
+            traced = (traced - cached_radiance) * ((shows_cache_bias() ? -1.0 : 1.0) / share);
+        radiance += traced;
+    }
+    return radiance;
 }
 
 // Traces a ray and moves the path to what it finds. False: the path has ended.
@@ -100,7 +124,8 @@ bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
         return false; // outside of a closed map; a view without a world has no sky that lights
     path.ray_length = raw.t;
     HitSurface hit = fetch_surface(raw, ray, raw.t * bounce_cone_spread, TEXTURE_TEXEL);
-    path.radiance += path.throughput * count_emission(path, bsdf, hit, pixel_random);
+    if (!shows_cache_bias())
+        path.radiance += path.throughput * count_emission(path, bsdf, hit, pixel_random);
     if ((hit.flags & MATERIAL_SKY) != 0u || path.vertex >= bounce_count())
         return false;
     path.surface = hit.surface;
@@ -217,6 +242,8 @@ FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary)
 void add_light(uint index, Surface s, FoundLight found, float scale)
 {
     store_specular_hit_distance(index, found.specular_hit_distance);
+    if (shows_cache_bias())
+        store_reflected_light(index, ReflectedLight(vec3(0.0), vec3(0.0)));
     if (found.pdf <= 0.0)
         return;
     BsdfValue reflected = evaluate_bsdf(s, found.direction);

@@ -69,7 +69,8 @@ vec3 shown_colour(uvec2 pixel)
 {
     if (frame.cvars.pt_debug_view != DEBUG_VIEW_OFF) {
         uvec2 rendered = min(pixel * frame.size / frame.output_size, frame.size - 1u);
-        vec3 colour = debug_colour(frame.cvars.pt_debug_view, rendered, pixel_index(rendered));
+        vec3 colour = debug_colour(frame.cvars.pt_debug_view, rendered, pixel_index(rendered),
+            ExposureBuffer(frame.exposure).v.exposure);
         return encode_srgb(clamp(colour, 0.0, 1.0));
     }
     vec2 place = (vec2(pixel) + 0.5) / vec2(frame.output_size);

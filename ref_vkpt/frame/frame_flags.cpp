@@ -28,12 +28,17 @@ uint32_t possible_flags()
     using namespace shared;
     const uint32_t filters = filter_flags();
     return filters | (filters & FRAME_REPROJECTED ? FRAME_HISTORY | FRAME_LAYERED : 0)
-        | (filters & FRAME_DENOISED && uses_light_cache() ? FRAME_LIGHT_CACHE : 0)
+        | (uses_light_cache() && (filters & FRAME_DENOISED || corrects_light_cache()) ? FRAME_LIGHT_CACHE : 0)
         | (filters & FRAME_DENOISED && cvars::values().pt_light_visibility != 0 ? FRAME_PUBLISH_VISIBILITY : 0)
         | (cvars::shader_values().pt_bloom > 0 ? FRAME_BLOOM : 0)
         | (cvars::shader_values().pt_wipe > 0 ? FRAME_WIPE : 0);
 }
 
-bool uses_light_cache() { return cvars::values().pt_indirect != "trace" && cvars::values().pt_bounces > 0; }
+bool uses_light_cache()
+{
+    return cvars::shader_values().pt_indirect != shared::INDIRECT_TRACE && cvars::values().pt_bounces > 0;
+}
+
+bool corrects_light_cache() { return cvars::shader_values().pt_indirect == shared::INDIRECT_BOTH; }
 
 } // namespace vkpt

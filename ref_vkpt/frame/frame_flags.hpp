@@ -13,5 +13,7 @@ uint32_t filter_flags();
 uint32_t possible_flags();
 // Whether the settings let bounce rays use the light cache.
 bool uses_light_cache();
+// Whether they correct what they read there, so that averaged images may read it, too.
+bool corrects_light_cache();
 
 } // namespace vkpt

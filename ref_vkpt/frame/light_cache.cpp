@@ -103,7 +103,7 @@ GpuLightCache upload_light_cache(const LightCacheLayout& layout, Uploader& uploa
     return gpu;
 }
 
-// Filtered images read the cache; averaged ones, which are to be right, only aim by it.
+// Filtered images read the cache; averaged ones, which are to be right, only aim by it, or correct what they read.
 bool LightCacheKeeper::wants_filling(const GpuWorld& gpu_world) const
 {
     const CvarValues& cvars = cvars::values();
@@ -149,9 +149,11 @@ void LightCacheKeeper::begin_frame(
     if (world_ != gpu_world.version || !uses_light_cache() || !(filters || average))
         return;
     uniforms.flags |= shared::FRAME_GUIDES;
-    if (!filters)
+    if (!filters && !corrects_light_cache())
         return;
     uniforms.flags |= shared::FRAME_LIGHT_CACHE;
+    if (!filters && cvars::shader_values().pt_debug_view == shared::DEBUG_VIEW_CACHE_BIAS)
+        uniforms.flags |= shared::FRAME_CACHE_BIAS;
     if (frames_++ == frames_per_publication) {
         publish(commands, gpu_world.light_cache);
         publications_++;

@@ -53,6 +53,13 @@ vec3 gradient_colour(uvec2 pixel) { return vec3(changed_share(pixel), 0.0); }
 // The newest frame's share of the average: red for the diffuse lobe, green for the specular one.
 vec3 alpha_colour(uint index) { return vec3(1.0 / max(unpack_moments(load_moments(index)).frames, 1.0), 0.0); }
 
+// Of the average, as it is exposed: brighter than right red, darker blue; a tenth of white is full.
+vec3 cache_bias_colour(uint index, float exposure)
+{
+    float bias = 10.0 * exposure * luminance(load_accumulated(index));
+    return vec3(max(bias, 0.0), 0.0, max(-bias, 0.0));
+}
+
 // Quantities of the filters, which are not always on.
 vec3 filter_colour(int view, uvec2 pixel, uint index)
 {
@@ -70,12 +77,14 @@ vec3 filter_colour(int view, uvec2 pixel, uint index)
 }
 
 // `pixel` as rendered.
-vec3 debug_colour(int view, uvec2 pixel, uint index)
+vec3 debug_colour(int view, uvec2 pixel, uint index, float exposure)
 {
     const float max_rays = 16.0, longest_list = 256.0;
     PrimarySurface primary = load_primary_surface(index);
     if (view == DEBUG_VIEW_EMISSION || view == DEBUG_VIEW_CACHE) // see primary_visibility
         return load_emitted(index);
+    if (view == DEBUG_VIEW_CACHE_BIAS)
+        return (frame.flags & FRAME_CACHE_BIAS) != 0u ? cache_bias_colour(index, exposure) : unavailable_colour(pixel);
     if (view == DEBUG_VIEW_RAYS)
         return heat_colour(float(load_ray_count(index)) / max_rays);
     if (primary.depth < 0.0)

@@ -50,6 +50,7 @@ VKPT_CONST uint FRAME_FOG = 2097152u; // there is fog
 VKPT_CONST uint FRAME_GOD_RAYS = 4194304u; // and it scatters a sun's light
 VKPT_CONST uint FRAME_WIPE = 8388608u; // a part of the image shows baked lightmaps
 VKPT_CONST uint FRAME_PUBLISH_VISIBILITY = 16777216u; // the next views use what shadow rays have told since
+VKPT_CONST uint FRAME_CACHE_BIAS = 33554432u; // the image is by how much the light cache is wrong
 VKPT_CONST uint FRAME_COUNT_RAYS = 4096u; // every ray is counted in `ray_counts`
 VKPT_CONST uint FRAME_SPATIAL = 16384u; // the denoiser also filters over neighbours
 VKPT_CONST uint FRAME_FULLBRIGHT = 32768u; // r_fullbright: surfaces show their images

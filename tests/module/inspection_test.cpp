@@ -171,7 +171,7 @@ TEST_F(Inspection, DebugViewsShowSomethingOfTheirOwn)
     session_->set("pt_seed", 0);
     std::vector<std::vector<formats::Rgba8>> seen;
     for (const char* name : { "off", "albedo", "normal", "depth", "emission", "cluster", "list_length", "irradiance",
-             "roughness", "motion", "variance", "gradient", "alpha", "rays" }) {
+             "roughness", "motion", "variance", "gradient", "alpha", "cache", "cache_bias", "rays" }) {
         session_->set("pt_debug_view", name);
         for (int frame = 0; frame < 2; frame++) {
             session_->view.view_angles[1] += 0.5f;

@@ -204,6 +204,64 @@ TEST_F(LightCache, LetsPhotoModeConvergeToTheSame)
     EXPECT_LT(error_between(session->accumulate(64), aimed), 0.5 * error_between(short_traced, traced));
 }
 
+// pt_indirect both: what the cache knows of lamps that have since become four times as bright is far too dark, and a shot
+// is not in it at all. The corrected mean is right, with any share and with samplers whose rays share light by MIS.
+TEST_F(LightCache, CorrectedGivesTheMeanOfTracing)
+{
+    add_room(0);
+    engine::DynamicLight shot { { 0, 150, 100 }, { 1, 0.6f, 0.3f }, 150 };
+    for (const auto& [sampler, share] : { std::pair("subset_pps", 0.25), { "subset_pps", 1.0 }, { "subset_mis", 0.25 } }) {
+        const auto session = start({ { "flt_denoiser", "asvgf" }, { "pt_light_sampler", sampler } });
+        session->view.dlights = &shot;
+        session->view.dlight_count = 1;
+        session->draw(4);
+        session->set("pt_emission_scale", 4);
+        session->set("pt_cache_corrected", share);
+        session->set("pt_indirect", "trace");
+        const Radiance traced = session->accumulate(4096);
+        session->set("pt_indirect", "both");
+        const Radiance corrected = session->accumulate(4096);
+        EXPECT_FALSE(corrected == traced);
+        EXPECT_NEAR(luminance(corrected.mean()) / luminance(traced.mean()), 1, 0.01) << sampler << " " << share;
+        EXPECT_LT(block_errors(corrected, traced).back(), 0.06) << sampler << " " << share;
+    }
+}
+
+// The map of the bias: little where the cache knows the light, three quarters of all bounced light where lamps have
+// become four times as bright since. Shown in red what is too bright, in blue what is too dark.
+TEST_F(LightCache, ShowsItsBias)
+{
+    add_room(0);
+    const auto session = start({ { "flt_denoiser", "asvgf" }, { "pt_indirect", "both" } });
+    session->set("pt_indirect", "both");
+    const auto mean_display = [&] {
+        glm::vec3 sum(0);
+        for (const formats::Rgba8& pixel : session->capture_display().pixels)
+            sum += glm::vec3(pixel.r, pixel.g, pixel.b);
+        return sum / float(picture_size.x * picture_size.y);
+    };
+    session->draw(4);
+    const float known = luminance(session->accumulate(1024).mean());
+    session->set("pt_debug_view", "cache_bias");
+    EXPECT_LT(std::abs(luminance(session->accumulate(4096).mean())), 0.03f * known);
+
+    session->set("pt_emission_scale", 4);
+    const float dark = luminance(session->accumulate(16).mean()) / (4 * known); // before the cache follows
+    EXPECT_LT(dark, -0.4f);
+    EXPECT_GT(dark, -0.76f);
+    glm::vec3 shown = mean_display();
+    EXPECT_GT(shown.b, 4 * shown.r);
+    session->set("pt_emission_scale", 0.25);
+    session->accumulate(16);
+    shown = mean_display();
+    EXPECT_GT(shown.r, 4 * shown.b);
+
+    session->set("pt_indirect", "cache"); // averaged pictures do not read it then: stripes
+    session->accumulate(4);
+    const formats::Image stripes = session->capture_display();
+    EXPECT_FALSE(stripes.at(32, 40) == stripes.at(40, 40));
+}
+
 // Its own samples read tables that other samplers do without: at the start of a map, and where it is switched on later.
 TEST_F(LightCache, HasItsTablesWithAnySampler)
 {
