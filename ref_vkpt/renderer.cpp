@@ -53,6 +53,12 @@ VSync vsync()
     return wanted == 0 ? VSync::off : wanted == 2 ? VSync::adaptive : VSync::on;
 }
 
+WindowWishes window_wishes()
+{
+    const CvarValues& cvars = cvars::values();
+    return { vsync(), cvars.pt_hdr != 0, cvars.pt_hdr_peak, cvars.pt_hdr_paper_white };
+}
+
 GraphicsSettings graphics_settings(void* sdl_window)
 {
     const CvarValues& cvars = cvars::values();
@@ -65,7 +71,7 @@ GraphicsSettings graphics_settings(void* sdl_window)
     settings.ray_tracing = cvars.pt_device_rays != 0;
     settings.table_reads = TableReads(find_choice(find_cvar_row("pt_table_reads")->choices, cvars.pt_table_reads));
     settings.pipeline_statistics = !wanted_statistics_file().empty();
-    settings.vsync = vsync();
+    settings.window = window_wishes();
     return settings;
 }
 
@@ -463,7 +469,7 @@ void begin_frame(float)
     if (cvars::update()) {
         m.photo.note_settings();
         check_light_sampler();
-        m.graphics.set_vsync(vsync());
+        m.graphics.set_window_wishes(window_wishes());
     }
     if (m.trace_choice.wants_measurement() && m.view().snapshot && !m.graphics.is_recording())
         measure_trace_backends(m);

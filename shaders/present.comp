@@ -11,8 +11,13 @@ VKPT_PUSH_CONSTANTS
 void show_pixel(uvec2 pixel, uint index)
 {
     uvec2 from = min(pixel, push.image_size - 1u);
-    uvec2 packed_words
-        = pack_for_window(load_element(push.image, from.y * push.image_size.x + from.x, 0u), push.packing);
+    uint at = from.y * push.image_size.x + from.x, word = load_element(push.image, at, 0u);
+    uvec2 packed_words;
+    if (push.transfer == PRESENT_SDR)
+        packed_words = pack_for_window(word, push.packing);
+    else
+        packed_words = pack_for_hdr_window(word, load_element(push.highlights, at, uvec2(0u)), push.packing,
+            push.transfer, push.paper_white, push.peak);
     if (push.packing == PRESENT_RGBA16F) {
         store_element(push.words, 2u * index, packed_words.x);
         store_element(push.words, 2u * index + 1u, packed_words.y);

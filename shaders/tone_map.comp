@@ -2,10 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
 // From radiance to what the screen shows, at the window's size: under water it sways, bright things shine over,
-// exposure and tone curve, the engine's blend, gamma, and 8 bits by blue noise. Debug views take the image's place.
+// exposure and tone curve, the engine's blend, gamma, and 8 bits by blue noise. Debug views take the image's place. For
+// HDR screens also what they show beyond that.
 #include "lib/frame.glsl"
 #include "bloom/bloom.glsl"
 #include "lib/debug_views.glsl"
+#include "lib/present_packing.glsl"
 #include "lib/random.glsl"
 #include "lib/sharpen.glsl"
 #include "lib/surfaces.glsl"
@@ -14,11 +16,22 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Exp
 
 // A shoulder and a toe around a straight middle, rational in x: a (x (x + toe)) / (x (x shoulder + slope) + lift),
 // scaled so that `white` maps to 1.
+const float filmic_toe = 0.025, filmic_shoulder = 0.96, filmic_slope = 0.60, filmic_lift = 0.12, filmic_white = 11.0;
+const float filmic_at_white = filmic_white * (filmic_white + filmic_toe)
+    / (filmic_white * (filmic_white * filmic_shoulder + filmic_slope) + filmic_lift);
 vec3 filmic_curve(vec3 x)
 {
-    const float toe = 0.025, shoulder = 0.96, slope = 0.60, lift = 0.12, white = 11.0;
-    const float at_white = white * (white + toe) / (white * (white * shoulder + slope) + lift);
-    return quick_clamp(x * (x + toe) / (x * (x * shoulder + slope) + lift) * (1.0 / at_white), 0.0, 1.0);
+    return quick_clamp(x * (x + filmic_toe) / (x * (x * filmic_shoulder + filmic_slope) + filmic_lift)
+            * (1.0 / filmic_at_white),
+        0.0, 1.0);
+}
+
+// The same for a screen with headroom: its shoulder lies as many times higher, while toe and middle stay.
+vec3 filmic_curve_of_hdr(vec3 x, float headroom)
+{
+    return quick_clamp(x * (x + filmic_toe) / (x * (x * (filmic_shoulder / headroom) + filmic_slope) + filmic_lift)
+            * (1.0 / filmic_at_white),
+        0.0, headroom);
 }
 
 vec3 encode_srgb(vec3 linear)
@@ -64,15 +77,9 @@ vec2 sway(vec2 place)
     return mix(vec2(0.5), place, 1.0 - 2.0 * height) + height * sin(phase);
 }
 
-// `pixel` of the window.
-vec3 shown_colour(uvec2 pixel)
+// Radiance at a pixel of the window, exposed: 1 is white.
+vec3 exposed_radiance(uvec2 pixel)
 {
-    if (frame.cvars.pt_debug_view != DEBUG_VIEW_OFF) {
-        uvec2 rendered = min(pixel * frame.size / frame.output_size, frame.size - 1u);
-        vec3 colour = debug_colour(frame.cvars.pt_debug_view, rendered, pixel_index(rendered),
-            ExposureBuffer(frame.exposure).v.exposure);
-        return encode_srgb(clamp(colour, 0.0, 1.0));
-    }
     vec2 place = (vec2(pixel) + 0.5) / vec2(frame.output_size);
     if ((frame.flags & FRAME_UNDERWATER) != 0u && frame.cvars.pt_water_warp > 0.0)
         place = sway(place);
@@ -80,17 +87,41 @@ vec3 shown_colour(uvec2 pixel)
     if ((frame.flags & FRAME_BLOOM) != 0u)
         radiance = mix(
             radiance, sample_bloom_level(frame.screen.bloom.address, frame.bloom_size, place), frame.cvars.pt_bloom);
-    vec3 exposed = radiance * (ExposureBuffer(frame.exposure).v.exposure * frame.overbright);
-    vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve(exposed) : quick_clamp(exposed, 0.0, 1.0);
-    vec3 colour = mix(quick_min(encode_srgb(display) * frame.intensity, vec3(1.0)), frame.blend.rgb, frame.blend.a);
+    return radiance * (ExposureBuffer(frame.exposure).v.exposure * frame.overbright);
+}
+
+// As the player wants to see what the tone curve has made; `brightest` is the most that is shown.
+vec3 encode_display(vec3 display, vec3 brightest)
+{
+    vec3 colour = mix(quick_min(encode_srgb(display) * frame.intensity, brightest), frame.blend.rgb, frame.blend.a);
     // The players' gamma was made for unlit darkness: 1.2, its default, changes nothing here.
     float gamma = 1.2 / max(frame.gamma, 0.1);
     if (abs(gamma - 1.0) > 1e-3)
         colour = pow(colour, vec3(gamma));
+    return colour;
+}
+
+vec3 shown_colour(vec3 exposed, uvec2 pixel)
+{
+    vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve(exposed) : quick_clamp(exposed, 0.0, 1.0);
     float dither = blue_dimension(BlueNoiseBuffer(frame.blue_noise), pixel, frame.frame_index,
                        blue_period_key(frame.frame_index, 0u), 0u)
         - 0.5;
-    return colour + dither / 255.0;
+    return encode_display(display, vec3(1.0)) + dither / 255.0;
+}
+
+// What an HDR screen shows of it. 10 bits need no dither.
+vec3 shown_colour_of_hdr(vec3 exposed)
+{
+    vec3 display = frame.cvars.pt_tone_map == TONE_MAP_FILMIC ? filmic_curve_of_hdr(exposed, frame.headroom)
+                                                              : quick_clamp(exposed, 0.0, frame.headroom);
+    return encode_display(display, encode_srgb(vec3(frame.headroom)));
+}
+
+// Of the finished image; `alpha`: see FrameUniforms::highlights.
+void store_shown(uint at, vec3 shown, float alpha)
+{
+    store_element(frame.output_words, at, pack_unorm4(vec4(shown, alpha)));
 }
 
 void show_pixel(uvec2 pixel, uint index)
@@ -102,8 +133,20 @@ void show_pixel(uvec2 pixel, uint index)
             return;
     }
     uvec2 place = frame.output_origin + pixel;
-    store_element(
-        frame.output_words, place.y * frame.output_across + place.x, pack_unorm4(vec4(shown_colour(pixel), 1.0)));
+    uint at = place.y * frame.output_across + place.x;
+    if (frame.cvars.pt_debug_view != DEBUG_VIEW_OFF) {
+        uvec2 rendered = min(pixel * frame.size / frame.output_size, frame.size - 1u);
+        vec3 colour = debug_colour(frame.cvars.pt_debug_view, rendered, pixel_index(rendered),
+            ExposureBuffer(frame.exposure).v.exposure);
+        store_shown(at, encode_srgb(clamp(colour, 0.0, 1.0)), 1.0);
+        return;
+    }
+    vec3 exposed = exposed_radiance(pixel), shown = shown_colour(exposed, pixel);
+    store_shown(at, shown, frame.headroom > 1.0 ? 0.0 : 1.0);
+    if (frame.headroom > 1.0) {
+        vec3 stored = unpack_unorm4(pack_unorm4(vec4(shown, 0.0))).rgb;
+        store_element(frame.highlights, at, pack_highlight(shown_colour_of_hdr(exposed) - stored));
+    }
 }
 
 VKPT_RUN_OVER(frame.output_size, show_pixel)

@@ -139,6 +139,8 @@ shared::FrameUniforms Frame::make_uniforms(View& view, const Viewpoint& from, gl
     uniforms.previous_scale = glm::vec2(1);
     uniforms.output_words = graphics_.output.words.address();
     uniforms.output_across = graphics_.size().width;
+    uniforms.headroom = graphics_.headroom();
+    uniforms.highlights = uniforms.headroom > 1 ? graphics_.output.highlights.address() : 0;
     uniforms.output_origin = glm::uvec2(from.origin);
     uniforms.output_size = from.size;
     uniforms.frame_seconds = cvars.pt_seed > 0 ? first_frame_seconds : std::min(seconds, 1.0f);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace vkpt {
 
@@ -36,7 +37,7 @@ Graphics::Graphics(const GraphicsSettings& settings)
     , device(device_settings(settings, window_))
     , pipelines(gpu, bindings, settings.cache_directory.empty() ? "" : settings.cache_directory + "/pipelines.bin")
     , headless_size_(settings.size)
-    , vsync_(settings.vsync)
+    , wishes_(settings.window)
 {
     if (window_)
         swapchain_.emplace(gpu, window_);
@@ -82,10 +83,18 @@ VkExtent2D Graphics::size() const
     return window.width > 0 && window.height > 0 ? window : headless_size_;
 }
 
-void Graphics::set_vsync(VSync vsync)
+void Graphics::set_window_wishes(const WindowWishes& wishes)
 {
-    swapchain_outdated_ |= vsync != vsync_;
-    vsync_ = vsync;
+    const bool is_told = wishes.hdr && (wishes.peak != wishes_.peak || wishes.paper_white != wishes_.paper_white);
+    swapchain_outdated_ |= wishes.vsync != wishes_.vsync || wishes.hdr != wishes_.hdr || is_told;
+    told_of_no_hdr_ &= wishes.hdr;
+    wishes_ = wishes;
+}
+
+float Graphics::headroom() const
+{
+    const bool shows_hdr = swapchain_ && swapchain_->is_usable() && swapchain_->format().is_hdr();
+    return shows_hdr && output.highlights ? std::max(wishes_.peak / wishes_.paper_white, 1.0f) : 1;
 }
 
 void Graphics::finish() { device.wait_idle(); }
@@ -100,13 +109,14 @@ bool Graphics::follow_window()
             wanted = size();
         } else if (swapchain_outdated_) {
             device.wait_idle();
-            const bool is_usable = swapchain_->recreate(vsync_);
+            const bool is_usable = swapchain_->recreate(wishes_);
             present_words_ = Buffer();
             const VkExtent2D extent = swapchain_->extent();
             const VkDeviceSize pixel = swapchain_->format().words * sizeof(uint32_t);
             present_words_ = Buffer(
                 gpu, pixel * extent.width * extent.height, BufferHome::device, MemoryKind::images, "present words");
             swapchain_outdated_ = !is_usable;
+            follow_hdr();
         }
     }
     if (output && output.size.width == wanted.width && output.size.height == wanted.height)
@@ -117,12 +127,28 @@ bool Graphics::follow_window()
     return true;
 }
 
+// Behind new images of the window. The device must be idle.
+void Graphics::follow_hdr()
+{
+    if (!swapchain_->is_usable())
+        return;
+    const bool shows_hdr = swapchain_->format().is_hdr();
+    if (wishes_.hdr && !shows_hdr && !std::exchange(told_of_no_hdr_, true))
+        engine::print("ref_vkpt: pt_hdr 1: the desktop offers this window no HDR format; switch HDR on in the "
+                      "desktop's display settings, and play full screen where it asks for that");
+    if (output && bool(output.highlights) != shows_hdr)
+        resize_output(output.size);
+}
+
 // The device must be idle.
 void Graphics::resize_output(VkExtent2D size)
 {
-    output.words = Buffer(); // given back before the new one is asked for
+    output.words = output.highlights = Buffer(); // given back before the new one is asked for
     output.words = Buffer(gpu, VkDeviceSize(size.width) * size.height * sizeof(uint32_t), BufferHome::device,
         MemoryKind::images, "output");
+    if (swapchain_ && swapchain_->is_usable() && swapchain_->format().is_hdr())
+        output.highlights = Buffer(gpu, VkDeviceSize(size.width) * size.height * 2 * sizeof(uint32_t),
+            BufferHome::device, MemoryKind::images, "highlights");
     output.size = size;
 }
 
@@ -140,8 +166,10 @@ void Graphics::clear_output()
 void Graphics::record_present_words()
 {
     const VkExtent2D extent = swapchain_->extent();
-    const shared::PresentPush push { output.words.address(), present_words_.address(),
-        { output.size.width, output.size.height }, { extent.width, extent.height }, swapchain_->format().packing };
+    const WindowFormat& format = swapchain_->format();
+    const shared::PresentPush push { output.words.address(), output.highlights ? output.highlights.address() : 0,
+        present_words_.address(), { output.size.width, output.size.height }, { extent.width, extent.height },
+        format.packing, output.highlights ? format.transfer : shared::PRESENT_SDR, wishes_.paper_white, wishes_.peak };
     constexpr VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     record_memory_barrier(commands(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
         VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT, compute,

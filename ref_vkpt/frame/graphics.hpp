@@ -20,6 +20,7 @@ namespace vkpt {
 // than an image, whose texels Mesa's CPU driver stores one after the other.
 struct OutputImage {
     Buffer words;
+    Buffer highlights; // FrameUniforms::highlights, where the window shows HDR
     VkExtent2D size {};
 
     explicit operator bool() const { return bool(words); }
@@ -34,7 +35,7 @@ struct GraphicsSettings {
     bool ray_tracing = true; // use the device's own where it has it
     bool pipeline_statistics = false; // registers and the like of what is compiled
     TableReads table_reads = TableReads::automatic;
-    VSync vsync = VSync::on;
+    WindowWishes window;
 };
 
 class Graphics {
@@ -57,7 +58,9 @@ public:
     // Frames submitted since the start.
     uint64_t frame_number() const { return frame_number_; }
 
-    void set_vsync(VSync vsync);
+    void set_window_wishes(const WindowWishes& wishes);
+    // How many times as bright as paper white the window's screen can be; 1: it shows no HDR.
+    float headroom() const;
     bool is_vsync_active() const { return swapchain_ && swapchain_->vsync() != VSync::off; }
     // The size of images without a window.
     void set_size(VkExtent2D size) { headless_size_ = size; }
@@ -98,6 +101,7 @@ private:
     bool can_show() const;
     void show(Slot& slot);
     bool follow_window();
+    void follow_hdr();
     void resize_output(VkExtent2D size);
     void clear_output();
     void record_present_words();
@@ -105,7 +109,8 @@ private:
     std::optional<Swapchain> swapchain_;
     Buffer present_words_; // the image in the window's format
     VkExtent2D headless_size_;
-    VSync vsync_;
+    WindowWishes wishes_;
+    bool told_of_no_hdr_ = false;
     bool swapchain_outdated_ = true;
     bool recording_ = false;
     Slot slots_[frames_in_flight];

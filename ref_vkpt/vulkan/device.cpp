@@ -344,6 +344,9 @@ void Device::create_instance(const DeviceSettings& settings)
     if (windowed_)
         extensions = settings.window->instance_extensions();
     const std::vector<VkExtensionProperties> offered = instance_extensions(nullptr);
+    // Else surfaces tell of no colour space but sRGB.
+    if (windowed_ && contains(offered, VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME))
+        extensions.push_back(VK_EXT_SWAPCHAIN_COLOR_SPACE_EXTENSION_NAME);
     // Devices that lack parts of Vulkan, such as Apple's by MoltenVK, are named only to who asks for them.
     const bool lists_portable = contains(offered, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
     if (lists_portable)
@@ -479,6 +482,9 @@ void Device::create_logical_device()
     has_swapchain = windowed_ && contains(offered, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     if (has_swapchain)
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    has_hdr_metadata = has_swapchain && contains(offered, VK_EXT_HDR_METADATA_EXTENSION_NAME);
+    if (has_hdr_metadata)
+        extensions.push_back(VK_EXT_HDR_METADATA_EXTENSION_NAME);
     if (contains(offered, portability_subset)) // a device that has it wants it enabled
         extensions.push_back(portability_subset);
 

@@ -65,6 +65,7 @@ public:
     uint32_t timestamp_bits = 0;
     bool has_pipeline_statistics = false; // VK_KHR_pipeline_executable_properties, where it was asked for
     bool has_swapchain = false;
+    bool has_hdr_metadata = false; // VK_EXT_hdr_metadata
     bool has_debug_utils = false;
     uint32_t max_textures = 0;
 

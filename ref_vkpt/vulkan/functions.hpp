@@ -119,6 +119,7 @@
     X(vkGetSwapchainImagesKHR)                                                                                         \
     X(vkAcquireNextImageKHR)                                                                                           \
     X(vkQueuePresentKHR)                                                                                               \
+    X(vkSetHdrMetadataEXT)                                                                                             \
     X(vkCmdBeginDebugUtilsLabelEXT)                                                                                    \
     X(vkCmdEndDebugUtilsLabelEXT)                                                                                      \
     X(vkSetDebugUtilsObjectNameEXT)                                                                                    \

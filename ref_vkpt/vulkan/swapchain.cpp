@@ -94,9 +94,9 @@ std::vector<VkPresentModeKHR> Swapchain::offered_modes() const
     return modes;
 }
 
-bool Swapchain::recreate(VSync vsync)
+bool Swapchain::recreate(const WindowWishes& wishes)
 {
-    vsync_ = vsync;
+    wishes_ = wishes;
     if (surface_lost_)
         renew_surface();
     return make_images();
@@ -136,20 +136,20 @@ bool Swapchain::make_images()
     transform_ = surface.currentTransform;
     const auto old = std::move(swapchain_);
     if (extent_.width > 0 && extent_.height > 0) {
-        format_ = choose_window_format(offered_formats());
+        format_ = choose_window_format(offered_formats(), wishes_.hdr);
         VkSwapchainCreateInfoKHR info { VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR };
         info.surface = surface_;
         info.minImageCount = surface.minImageCount + 1;
         if (surface.maxImageCount > 0)
             info.minImageCount = std::min(info.minImageCount, surface.maxImageCount);
         info.imageFormat = format_.format;
-        info.imageColorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
+        info.imageColorSpace = format_.color_space;
         info.imageExtent = extent_;
         info.imageArrayLayers = 1;
         info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         info.preTransform = surface.currentTransform;
         info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-        info.presentMode = choose_present_mode(offered_modes(), vsync_);
+        info.presentMode = choose_present_mode(offered_modes(), wishes_.vsync);
         info.clipped = VK_TRUE;
         info.oldSwapchain = old;
         if (!check(swapchain_.renew(vkCreateSwapchainKHR, gpu_.device.handle, info), "vkCreateSwapchainKHR"))
@@ -161,8 +161,25 @@ bool Swapchain::make_images()
         finished_.resize(count);
         for (Semaphore& semaphore : finished_)
             renew(semaphore, gpu_.device.handle);
+        tell_screen();
     }
     return is_usable();
+}
+
+// What the images may hold, so that the screen need not compress it further.
+void Swapchain::tell_screen() const
+{
+    if (!format_.is_hdr() || !gpu_.device.has_hdr_metadata)
+        return;
+    VkHdrMetadataEXT metadata { VK_STRUCTURE_TYPE_HDR_METADATA_EXT };
+    metadata.displayPrimaryRed = { 0.708f, 0.292f }; // BT.2020
+    metadata.displayPrimaryGreen = { 0.170f, 0.797f };
+    metadata.displayPrimaryBlue = { 0.131f, 0.046f };
+    metadata.whitePoint = { 0.3127f, 0.3290f };
+    metadata.maxLuminance = metadata.maxContentLightLevel = wishes_.peak;
+    metadata.maxFrameAverageLightLevel = std::min(wishes_.paper_white, wishes_.peak);
+    const VkSwapchainKHR swapchain = swapchain_;
+    vkSetHdrMetadataEXT(gpu_.device.handle, 1, &swapchain, &metadata);
 }
 
 Acquired Swapchain::acquire(uint32_t frame_slot)

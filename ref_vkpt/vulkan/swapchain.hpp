@@ -14,6 +14,13 @@ namespace vkpt {
 
 inline constexpr uint32_t frames_in_flight = 2;
 
+// What the player asks the window for.
+struct WindowWishes {
+    VSync vsync = VSync::on;
+    bool hdr = false;
+    float peak = 1000, paper_white = 200; // of an HDR screen, in cd/m^2; these do not need new images
+};
+
 // An image was taken; none was free in time, this frame is not shown; the window changed, recreate.
 enum class Acquired { image, none, outdated };
 
@@ -26,9 +33,9 @@ public:
 
     // Makes the images for the window's size now, and the surface where it was lost. False: there is nothing to show
     // (minimised), or the surface is gone again. The device must be idle.
-    bool recreate(VSync vsync);
+    bool recreate(const WindowWishes& wishes);
     bool is_usable() const { return swapchain_ != VK_NULL_HANDLE; }
-    VSync vsync() const { return vsync_; }
+    VSync vsync() const { return wishes_.vsync; }
 
     Acquired acquire(uint32_t frame_slot);
     // Copies words in the window's format, row by row, written by the passes before, into the image taken.
@@ -45,6 +52,7 @@ private:
     void create_surface();
     void renew_surface();
     bool make_images();
+    void tell_screen() const;
     // Whether the surface still is. Throws for other failures.
     bool check(VkResult result, const char* call);
     VkExtent2D extent_for(const VkSurfaceCapabilitiesKHR& surface) const;
@@ -61,7 +69,7 @@ private:
     VkSurfaceTransformFlagBitsKHR transform_ = VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR;
     bool surface_lost_ = false;
     WindowFormat format_;
-    VSync vsync_ = VSync::on;
+    WindowWishes wishes_;
     std::vector<VkImage> images_;
     std::vector<Semaphore> finished_; // one per image: it may be presented
     std::array<Semaphore, frames_in_flight> acquired_;

@@ -25,15 +25,34 @@ constexpr WindowFormat known_formats[] = {
     { VK_FORMAT_R16G16B16A16_SFLOAT, shared::PRESENT_RGBA16F, 2 },
 };
 
+// HDR10 is what screens take; half floats are converted once more, by the desktop.
+constexpr WindowFormat hdr_formats[] = {
+    { VK_FORMAT_A2B10G10R10_UNORM_PACK32, shared::PRESENT_RGB10A2, 1, VK_COLOR_SPACE_HDR10_ST2084_EXT,
+        shared::PRESENT_HDR10 },
+    { VK_FORMAT_A2R10G10B10_UNORM_PACK32, shared::PRESENT_BGR10A2, 1, VK_COLOR_SPACE_HDR10_ST2084_EXT,
+        shared::PRESENT_HDR10 },
+    { VK_FORMAT_R16G16B16A16_SFLOAT, shared::PRESENT_RGBA16F, 2, VK_COLOR_SPACE_EXTENDED_SRGB_LINEAR_EXT,
+        shared::PRESENT_SCRGB },
+};
+
+const WindowFormat* find_offered(std::span<const WindowFormat> wishes, std::span<const VkSurfaceFormatKHR> offered)
+{
+    for (const WindowFormat& wish : wishes)
+        if (std::ranges::any_of(offered, [&](const VkSurfaceFormatKHR& format) {
+                return format.format == wish.format && format.colorSpace == wish.color_space;
+            }))
+            return &wish;
+    return nullptr;
+}
+
 } // namespace
 
-WindowFormat choose_window_format(std::span<const VkSurfaceFormatKHR> offered)
+WindowFormat choose_window_format(std::span<const VkSurfaceFormatKHR> offered, bool wants_hdr)
 {
-    for (const WindowFormat& known : known_formats)
-        if (std::ranges::any_of(offered, [&](const VkSurfaceFormatKHR& format) {
-                return format.format == known.format && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
-            }))
-            return known;
+    if (const WindowFormat* found = wants_hdr ? find_offered(hdr_formats, offered) : nullptr)
+        return *found;
+    if (const WindowFormat* found = find_offered(known_formats, offered))
+        return *found;
     std::string numbers;
     for (const VkSurfaceFormatKHR& format : offered)
         numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", int(format.format));

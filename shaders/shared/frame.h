@@ -237,6 +237,10 @@ struct FrameUniforms {
     uvec2 resolved_size; // pixels of the buffers `resolved` and `accumulated`: more where anti-aliasing upscales
     uint64_t output_words; // the image that is shown: a word a pixel, RGBA, red in the lowest byte, sRGB-encoded
     uint output_across; // its pixels in a row
+    float headroom; // how many times as bright as paper white the screen can be; 1: highlights are not kept
+    // What the screen shows above the image, sRGB-encoded as that; three half floats a pixel, in 8 bytes. The image's
+    // alpha is then what 2D covers of it.
+    uint64_t highlights;
     uvec2 output_origin; // where the view lies in it
     uvec2 output_size;
     float time; // seconds of the game

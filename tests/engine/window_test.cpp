@@ -3,7 +3,10 @@
 #include "tests/client/run_program.hpp"
 #include "tests/engine/captures.hpp"
 #include "tests/engine/engine_run.hpp"
+#include "tests/engine/picture_statistics.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
 
@@ -37,6 +40,14 @@ private:
     ScratchFolder folder;
 };
 
+// Of sRGB's and ST 2084's signals: linear, 1 being white; cd/m^2.
+double decode_srgb(double signal) { return std::pow((signal + 0.055) / 1.055, 2.4); }
+double decode_pq(double signal)
+{
+    const double p = std::pow(signal, 1 / 78.84375);
+    return 10000 * std::pow(std::max(p - 0.8359375, 0.0) / (18.8515625 - 18.6875 * p), 1 / 0.1593017578125);
+}
+
 } // namespace
 
 // Displays may offer no plain format of 8 bits. What is copied into one that encodes is encoded already.
@@ -57,6 +68,60 @@ TEST(Engine, WindowsOfSrgbFormatShowTheSame)
     const EngineRun run(options);
     run.expect_clean();
     expect_captured(run, grabbed);
+}
+
+// The window is told that its pixels are HDR10: of each, red and green are read back out of 24 bits that the display
+// keeps. Darker parts are as an SDR screen shows them, a little brighter at most; lamps are beyond paper white.
+TEST(Engine, HdrWindowsShowMoreThanPaperWhite)
+{
+    const ScratchFolder folder;
+    const Faults faults;
+    ASSERT_EQ(std::system(faults.begin("format 64 1000104008").c_str()), 0); // A2B10G10R10, HDR10_ST2084
+    EngineOptions options;
+    faults.add_to(options);
+    const std::string grabbed = (folder.path() / "window.png").string();
+    options.script = std::string("wait_100\nset pt_capture_every 1\nwait_5\n") + display_mark
+        + "set pt_capture_every 0\nwait\nquit\n";
+    options.display_commands = { VKPT_GRAB_WINDOW " " + std::to_string(options.width) + " "
+        + std::to_string(options.height) + " " + grabbed };
+    options.arguments = { "+set", "pt_hdr", "1", "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec",
+        "test.cfg" };
+    options.render_scale = 100;
+    options.cpu_seconds = 900;
+    const EngineRun run(options);
+    run.expect_clean();
+    EXPECT_TRUE(run.lines_with("pt_hdr 1: the desktop offers").empty());
+    const std::vector<fs::path> captured = list_pictures(run.captures());
+    ASSERT_FALSE(captured.empty());
+    const formats::Image window = load_picture(grabbed), image = load_picture(captured.back());
+    ASSERT_EQ(window.pixels.size(), image.pixels.size());
+    constexpr double paper_white = 200; // pt_hdr_paper_white
+    size_t dark = 0, alike = 0, beyond = 0;
+    for (size_t i = 0; i < window.pixels.size(); i++) {
+        const formats::Rgba8 p = window.pixels[i], sdr = image.pixels[i];
+        EXPECT_EQ(sdr.a, 255);
+        const uint32_t word = uint32_t(p.r) << 16 | uint32_t(p.g) << 8 | p.b;
+        const double green = decode_pq((word >> 10 & 1023) / 1023.0) / paper_white;
+        const double expected = decode_srgb(sdr.g / 255.0);
+        beyond += green > 1.5;
+        if (sdr.r > 40 && sdr.r < 140 && std::abs(sdr.r - sdr.g) < 25 && std::abs(sdr.g - sdr.b) < 25) { // nearly grey
+            dark++;
+            alike += green > 0.75 * expected && green < 1.6 * expected;
+        }
+    }
+    EXPECT_GT(dark, window.pixels.size() / 20);
+    EXPECT_GT(double(alike), 0.9 * double(dark)); // the window's frame is not quite the captured one
+    EXPECT_GT(beyond, window.pixels.size() / 500);
+}
+
+TEST(Engine, DesktopsWithoutHdrAreToldOfOnce)
+{
+    EngineOptions options;
+    options.script = "wait_25\nr_vsync 0\nwait_25\npt_hdr 0\nwait_5\nquit\n";
+    options.arguments = { "+set", "pt_hdr", "1", "+exec", "test.cfg" };
+    const EngineRun run(options);
+    run.expect_clean();
+    EXPECT_EQ(run.lines_with("pt_hdr 1: the desktop offers this window no HDR format").size(), 1u);
 }
 
 TEST(Engine, MapsThatDoNotFitAreDropped)

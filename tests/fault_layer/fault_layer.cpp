@@ -2,7 +2,7 @@
 // A Vulkan layer for tests. While there is a file $VKPT_FAULTS, calls fail as its text says, a fault a line:
 //   memory N   all allocations of device memory but the next N
 //   surface    the window's surface is lost, once: whatever uses that surface fails until it is destroyed
-//   format N   windows have no format but VkFormat N
+//   format N [SPACE]   windows have no format but VkFormat N, in VkColorSpaceKHR SPACE (0: sRGB)
 //   suboptimal every picture that is shown is said not to be the best for its window
 //   slow N     the compilation of a pipeline takes N ms longer
 //   lost       the device is lost, once: the next submission is run, and fails, as does all waiting
@@ -366,8 +366,11 @@ VkResult VKAPI_CALL get_formats(
     const std::string format = read_fault("format");
     if (format == "-")
         return next_formats(physical, surface, count, formats);
-    if (formats && *count > 0)
-        formats[0] = { VkFormat(std::atoi(format.c_str())), VK_COLOR_SPACE_SRGB_NONLINEAR_KHR };
+    if (formats && *count > 0) {
+        char* space = nullptr;
+        const long number = std::strtol(format.c_str(), &space, 10);
+        formats[0] = { VkFormat(number), VkColorSpaceKHR(std::atol(space)) };
+    }
     *count = 1;
     return VK_SUCCESS;
 }

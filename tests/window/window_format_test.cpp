@@ -5,7 +5,7 @@
 #include "shaders/shared/present.h"
 
 #include <cmath>
-#include <glm/packing.hpp>
+#include <glm/glm.hpp>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -57,6 +57,23 @@ TEST(WindowFormat, OtherColourSpacesAndUnknownFormatsAreNamed)
     } catch (const FatalError& error) {
         EXPECT_NE(std::string(error.what()).find("VkFormat 44, 4;"), std::string::npos) << error.what();
     }
+}
+
+TEST(WindowFormat, HdrIsTakenWhereItIsWantedAndOffered)
+{
+    const VkSurfaceFormatKHR plain { VK_FORMAT_B8G8R8A8_UNORM, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR },
+        half_floats { VK_FORMAT_R16G16B16A16_SFLOAT, VK_COLOR_SPACE_EXTENDED_SRGB_LINEAR_EXT },
+        hdr10 { VK_FORMAT_A2R10G10B10_UNORM_PACK32, VK_COLOR_SPACE_HDR10_ST2084_EXT },
+        wide { VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_COLOR_SPACE_DISPLAY_P3_NONLINEAR_EXT };
+    const std::vector all { plain, half_floats, hdr10, wide }, some { plain, wide, half_floats }, none { wide, plain };
+    EXPECT_FALSE(choose_window_format(all).is_hdr());
+    EXPECT_EQ(choose_window_format(all, true).packing, shared::PRESENT_BGR10A2);
+    EXPECT_EQ(choose_window_format(all, true).transfer, shared::PRESENT_HDR10);
+    EXPECT_EQ(choose_window_format(all, true).color_space, VK_COLOR_SPACE_HDR10_ST2084_EXT);
+    EXPECT_EQ(choose_window_format(some, true).transfer, shared::PRESENT_SCRGB);
+    EXPECT_EQ(choose_window_format(some, true).words, 2u);
+    EXPECT_EQ(choose_window_format(none, true).format, VK_FORMAT_B8G8R8A8_UNORM);
+    EXPECT_FALSE(choose_window_format(none, true).is_hdr());
 }
 
 // A window's pixel as its format's definition reads it, 0..1.
