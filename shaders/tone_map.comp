@@ -16,22 +16,19 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Exp
 
 // A shoulder and a toe around a straight middle, rational in x: a (x (x + toe)) / (x (x shoulder + slope) + lift),
 // scaled so that `white` maps to 1.
-const float filmic_toe = 0.025, filmic_shoulder = 0.96, filmic_slope = 0.60, filmic_lift = 0.12, filmic_white = 11.0;
-const float filmic_at_white = filmic_white * (filmic_white + filmic_toe)
-    / (filmic_white * (filmic_white * filmic_shoulder + filmic_slope) + filmic_lift);
 vec3 filmic_curve(vec3 x)
 {
-    return quick_clamp(x * (x + filmic_toe) / (x * (x * filmic_shoulder + filmic_slope) + filmic_lift)
-            * (1.0 / filmic_at_white),
-        0.0, 1.0);
+    const float toe = 0.025, shoulder = 0.96, slope = 0.60, lift = 0.12, white = 11.0;
+    const float at_white = white * (white + toe) / (white * (white * shoulder + slope) + lift);
+    return quick_clamp(x * (x + toe) / (x * (x * shoulder + slope) + lift) * (1.0 / at_white), 0.0, 1.0);
 }
 
-// The same for a screen with headroom: its shoulder lies as many times higher, while toe and middle stay.
+// The same for a screen with headroom: what the shoulder takes from bright light is given back up to `headroom`. Dark
+// light gains x^2 / 4 whatever the headroom is: 6 % at 0.18.
 vec3 filmic_curve_of_hdr(vec3 x, float headroom)
 {
-    return quick_clamp(x * (x + filmic_toe) / (x * (x * (filmic_shoulder / headroom) + filmic_slope) + filmic_lift)
-            * (1.0 / filmic_at_white),
-        0.0, headroom);
+    float above = headroom - 1.0;
+    return filmic_curve(x) + above * (x * x) / (x * x + 4.0 * above);
 }
 
 vec3 encode_srgb(vec3 linear)
@@ -136,8 +133,8 @@ void show_pixel(uvec2 pixel, uint index)
     uint at = place.y * frame.output_across + place.x;
     if (frame.cvars.pt_debug_view != DEBUG_VIEW_OFF) {
         uvec2 rendered = min(pixel * frame.size / frame.output_size, frame.size - 1u);
-        vec3 colour = debug_colour(frame.cvars.pt_debug_view, rendered, pixel_index(rendered),
-            ExposureBuffer(frame.exposure).v.exposure);
+        vec3 colour = debug_colour(
+            frame.cvars.pt_debug_view, rendered, pixel_index(rendered), ExposureBuffer(frame.exposure).v.exposure);
         store_shown(at, encode_srgb(clamp(colour, 0.0, 1.0)), 1.0);
         return;
     }

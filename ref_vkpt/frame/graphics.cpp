@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/frame/graphics.hpp"
 
+#include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/errors.hpp"
 #include "ref_vkpt/vulkan/commands.hpp"
 #include "shaders/shared/present.h"
@@ -143,7 +144,8 @@ void Graphics::follow_hdr()
 // The device must be idle.
 void Graphics::resize_output(VkExtent2D size)
 {
-    output.words = output.highlights = Buffer(); // given back before the new one is asked for
+    output.words = Buffer(); // given back before the new one is asked for
+    output.highlights = Buffer();
     output.words = Buffer(gpu, VkDeviceSize(size.width) * size.height * sizeof(uint32_t), BufferHome::device,
         MemoryKind::images, "output");
     if (swapchain_ && swapchain_->is_usable() && swapchain_->format().is_hdr())

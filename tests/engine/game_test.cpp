@@ -119,8 +119,8 @@ std::vector<int> read_emitters(const EngineRun& run)
 
 } // namespace
 
-// Keys held for a while, as a human's; then the same from the file that `walk record` wrote. The recording ends once the
-// player stands, so that both walks end at the same place.
+// Keys held for a while, as a human's; then the same from the file that `walk record` wrote. The recording ends once
+// the player stands, so that both walks end at the same place.
 TEST(EngineGame, ARecordedWalkIsWalkedAgain)
 {
     // Up the stairs, a jump, a turn to the left, backwards and sideways: nowhere into a wall, at whose corners one walk

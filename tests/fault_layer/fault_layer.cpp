@@ -2,7 +2,9 @@
 // A Vulkan layer for tests. While there is a file $VKPT_FAULTS, calls fail as its text says, a fault a line:
 //   memory N   all allocations of device memory but the next N
 //   surface    the window's surface is lost, once: whatever uses that surface fails until it is destroyed
-//   format N [SPACE]   windows have no format but VkFormat N, in VkColorSpaceKHR SPACE (0: sRGB)
+//   format N [SPACE]   windows have no format but VkFormat N, in VkColorSpaceKHR SPACE (0: sRGB; else N has 32 bits,
+//   which
+//              become those of B8G8R8A8)
 //   suboptimal every picture that is shown is said not to be the best for its window
 //   slow N     the compilation of a pipeline takes N ms longer
 //   lost       the device is lost, once: the next submission is run, and fails, as does all waiting
@@ -324,6 +326,14 @@ void VKAPI_CALL write_timestamp(
 
 // ---- windows
 
+// That the fault `format` says windows have.
+VkSurfaceFormatKHR read_format(const std::string& fault)
+{
+    char* space = nullptr;
+    const long number = std::strtol(fault.c_str(), &space, 10);
+    return { VkFormat(number), VkColorSpaceKHR(std::atol(space)) };
+}
+
 PFN_vkCreateSwapchainKHR next_create_swapchain;
 VkResult VKAPI_CALL create_swapchain(
     VkDevice of, const VkSwapchainCreateInfoKHR* info, const VkAllocationCallbacks* callbacks, VkSwapchainKHR* made)
@@ -332,7 +342,12 @@ VkResult VKAPI_CALL create_swapchain(
         return VK_ERROR_SURFACE_LOST_KHR;
     shown = info->surface;
     counts.swapchains++;
-    return next_create_swapchain(of, info, callbacks, made);
+    VkSwapchainCreateInfoKHR changed = *info;
+    if (const std::string format = read_fault("format"); format != "-" && read_format(format).colorSpace != 0) {
+        changed.imageFormat = VK_FORMAT_B8G8R8A8_UNORM;
+        changed.imageColorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
+    }
+    return next_create_swapchain(of, &changed, callbacks, made);
 }
 
 PFN_vkAcquireNextImageKHR next_acquire;
@@ -366,11 +381,8 @@ VkResult VKAPI_CALL get_formats(
     const std::string format = read_fault("format");
     if (format == "-")
         return next_formats(physical, surface, count, formats);
-    if (formats && *count > 0) {
-        char* space = nullptr;
-        const long number = std::strtol(format.c_str(), &space, 10);
-        formats[0] = { VkFormat(number), VkColorSpaceKHR(std::atol(space)) };
-    }
+    if (formats && *count > 0)
+        formats[0] = read_format(format);
     *count = 1;
     return VK_SUCCESS;
 }

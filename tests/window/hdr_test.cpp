@@ -54,8 +54,8 @@ glm::dvec3 shown_by_hdr10(uint32_t word, glm::vec3 highlight, uint32_t packing =
 // As linear light of BT.709's primaries.
 glm::dvec3 shown_by_scrgb(uint32_t word, glm::vec3 highlight)
 {
-    const glm::uvec2 packed = glsl::pack_for_hdr_window(word, glsl::pack_highlight(highlight), shared::PRESENT_RGBA16F,
-        shared::PRESENT_SCRGB, paper_white, peak);
+    const glm::uvec2 packed = glsl::pack_for_hdr_window(
+        word, glsl::pack_highlight(highlight), shared::PRESENT_RGBA16F, shared::PRESENT_SCRGB, paper_white, peak);
     const glm::vec2 a = glm::unpackHalf2x16(packed.x), b = glm::unpackHalf2x16(packed.y);
     EXPECT_EQ(b.y, 1);
     return glm::dvec3(a.x, a.y, b.x) * 80.0;
@@ -64,9 +64,8 @@ glm::dvec3 shown_by_scrgb(uint32_t word, glm::vec3 highlight)
 // BT.2100, table 4, and BT.2408's level of reference white.
 TEST(Hdr, LuminanceIsEncodedAsSt2084Says)
 {
-    for (const auto& [luminance, signal] :
-        { std::pair(0.0f, 0.0), { 0.1f, 0.0625 }, { 1.0f, 0.1499 }, { 100.0f, 0.5081 }, { 203.0f, 0.5806 },
-            { 1000.0f, 0.7518 }, { 4000.0f, 0.9026 }, { 10000.0f, 1.0 } })
+    for (const auto& [luminance, signal] : { std::pair(0.0f, 0.0), { 0.1f, 0.0625 }, { 1.0f, 0.1499 },
+             { 100.0f, 0.5081 }, { 203.0f, 0.5806 }, { 1000.0f, 0.7518 }, { 4000.0f, 0.9026 }, { 10000.0f, 1.0 } })
         EXPECT_NEAR(glsl::encode_pq(glm::vec3(luminance)).x, signal, 2e-4) << luminance;
 }
 
@@ -112,7 +111,8 @@ TEST(Hdr, HighlightsAreAboveItAndEndAtThePeak)
     }
     EXPECT_NEAR(shown_by_hdr10(white, highlight(5000)).y, peak, 0.02 * peak);
     // Too bright a colour keeps its hue.
-    const glm::dvec3 orange = shown_by_scrgb(word_of({ 255, 255, 0 }, 0), { float(encode_srgb(20) - 1), float(encode_srgb(5) - 1), 0 });
+    const glm::dvec3 orange
+        = shown_by_scrgb(word_of({ 255, 255, 0 }, 0), { float(encode_srgb(20) - 1), float(encode_srgb(5) - 1), 0 });
     EXPECT_NEAR(orange.x, peak, 10);
     EXPECT_NEAR(orange.y / orange.x, 0.25, 0.01);
     // Half covered by 2D: half of the highlight.
