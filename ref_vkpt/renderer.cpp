@@ -359,8 +359,8 @@ static void fix_choices(Module& m)
 {
     const shared::ShaderCvars cvars = cvars::shader_values();
     if (m.graphics.device.traits.specializes_pipelines && !m.shader_reload.is_on())
-        m.graphics.pipelines.fix(
-            { cvars.pt_light_weight, cvars.pt_light_point, cvars.pt_bounces }, wants_settled_frames());
+        m.graphics.pipelines.fix({ cvars.pt_light_weight, cvars.pt_light_point, cvars.pt_bounces, cvars.pt_indirect },
+            wants_settled_frames());
 }
 
 void begin_registration(std::string_view map)

@@ -70,12 +70,18 @@ CachedLight find_cached_light(HitSurface hit)
     return read_light_cache(hit.cache_face, hit.surface.position);
 }
 
+layout(constant_id = INDIRECT_CONSTANT) const int fixed_indirect = NOT_FIXED;
+bool corrects_cache()
+{
+    return (fixed_indirect == NOT_FIXED ? frame.cvars.pt_indirect : fixed_indirect) == INDIRECT_BOTH;
+}
+
 // pt_indirect both: the share of the places read from the cache that a light is chosen at, too.
-float corrected_share() { return frame.cvars.pt_indirect == INDIRECT_BOTH ? frame.cvars.pt_cache_corrected : 0.0; }
+float corrected_share() { return corrects_cache() ? frame.cvars.pt_cache_corrected : 0.0; }
 
 const uint correction_dimension = 15u; // in a bounce's block, behind those of guides
 
-bool shows_cache_bias() { return (frame.flags & FRAME_CACHE_BIAS) != 0u; }
+bool shows_cache_bias() { return corrects_cache() && (frame.flags & FRAME_CACHE_BIAS) != 0u; }
 
 // Radiance that the path's new surface sends back of the light that arrives there directly. Where it is read from the
 // cache, the cache may be a control variate: at a share q of such places a static light is chosen as well, and 1 / q of

@@ -16,6 +16,8 @@ VKPT_CONST uint BOUNCES_CONSTANT = 4u; // pt_bounces
 
 VKPT_CONST uint GPU_LANES_CONSTANT = 5u; // lib/device/lanes.glsl
 
+VKPT_CONST uint INDIRECT_CONSTANT = 6u; // pt_indirect
+
 VKPT_CONST int NOT_FIXED = -1; // read from the frame's settings
 
 VKPT_SHARED_END

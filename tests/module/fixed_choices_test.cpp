@@ -32,20 +32,21 @@ protected:
         return largest;
     }
     struct Choices {
-        const char *weight, *point, *bounces;
+        const char *weight, *point, *bounces, *indirect;
     };
     static void choose(Session& session, const Choices& choices)
     {
         session.set("pt_light_weight", choices.weight);
         session.set("pt_light_point", choices.point);
         session.set("pt_bounces", choices.bounces);
+        session.set("pt_indirect", choices.indirect);
     }
 };
 
 TEST_F(FixedChoices, MakeTheSamePictures)
 {
-    const Choices choices[]
-        = { { "brdf_centre", "solid_angle", "1" }, { "ltc", "projected", "2" }, { "brdf_centre", "area", "1" } };
+    const Choices choices[] = { { "brdf_centre", "solid_angle", "1", "cache" }, { "ltc", "projected", "2", "both" },
+        { "brdf_centre", "area", "1", "trace" } };
     std::vector<Radiance> expected;
     {
         const auto session = start();

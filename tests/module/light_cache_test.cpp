@@ -84,7 +84,7 @@ std::vector<float> block_errors(const Radiance& picture, const Radiance& expecte
 // the cache in LetsPhotoModeConvergeToTheSame.
 void expect_same_light(Session& session)
 {
-    const Radiance expected = session.accumulate(4096);
+    const Radiance expected = session.accumulate(2048);
     session.set("pt_accumulate", "0");
     const Radiance cached = mean_of_first_frames(session, 1600); // a block's mean is then known to 1 %
     ASSERT_GT(luminance(expected.mean()), 0);
@@ -242,10 +242,10 @@ TEST_F(WrongLightCache, IsCorrectedToTheMeanOfTracing)
         session->set("pt_cache_corrected", share);
         if (traced.pixels.empty()) {
             session->set("pt_indirect", "trace");
-            traced = session->accumulate(4096);
+            traced = session->accumulate(2048);
         }
         session->set("pt_indirect", "both");
-        const Radiance corrected = session->accumulate(2048);
+        const Radiance corrected = session->accumulate(1024);
         EXPECT_NEAR(luminance(corrected.mean()) / luminance(traced.mean()), 1, 0.01) << sampler << " " << share;
         EXPECT_LT(block_errors(corrected, traced).back(), 0.06) << sampler << " " << share;
     }

@@ -58,7 +58,8 @@ protected:
         return picture();
     }
 
-    static constexpr const char *shown = "return colour + dither / 255.0;", *red = "return vec3(1.0, 0.0, 0.0);";
+    static constexpr const char *shown = "return encode_display(display, vec3(1.0)) + dither / 255.0;",
+                                *red = "return vec3(1.0, 0.0, 0.0);";
 
     GameFolder folder_;
     fs::path shaders_;
