@@ -97,8 +97,7 @@ vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixe
     bool corrected = share > 0.0 && next_float(correction) < share;
     LightRandom random = light_random(pixel_random, path.vertex);
     LightListView list = open_light_list_for(random, path.cluster);
-    vec3 cached_radiance = known ? reflect_cached_light(path.surface, cached) : vec3(0.0);
-    vec3 radiance = shows_cache_bias() ? vec3(0.0) : cached_radiance;
+    vec3 radiance = vec3(0.0);
     // Lights that the cache does not know; then those that it does.
     ROLLED_FOR (uint part = shows_cache_bias() ? 1u : 0u; part < (corrected ? 2u : 1u); part++) {
         LightListView lights = list;
@@ -110,11 +109,16 @@ vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixe
         if (light_count(lights) > 0u)
             direct = sample_lights(lights, path.surface, random, !known && path.vertex < bsdf_ray_count());
         vec3 traced = direct.diffuse * path.surface.albedo + direct.specular;
-        if (part == 1u)
-            traced = (traced - cached_radiance) * ((shows_cache_bias() ? -1.0 : 1.0) / share);
-        radiance += traced;
+        radiance += part == 1u ? traced / share : traced;
+        if (!corrects_cache()) // compilers that know it drop the loop
+            break;
     }
-    return radiance;
+    if (!known)
+        return radiance;
+    // With a share of 0 this is the cache's light alone. Only now: shadow rays leave no room for it in registers.
+    float rest = (shows_cache_bias() ? 0.0 : 1.0) - (corrected ? 1.0 / share : 0.0);
+    radiance += rest * reflect_cached_light(path.surface, cached);
+    return shows_cache_bias() ? -radiance : radiance;
 }
 
 // Traces a ray and moves the path to what it finds. False: the path has ended.
