@@ -125,9 +125,9 @@ std::vector<std::byte> TraceReader::read_payload(const Chunk& chunk)
 }
 
 // on_call(call, number of the frame in the chunk, inside) sees every call, on_frame(frame) every shown frame after
-// them. What all of it takes in memory.
+// them, with all of its calls or with those alone that last. What all of it takes in memory, if all are kept.
 template <class OnCall, class OnFrame>
-uint64_t TraceReader::decode(const Chunk& chunk, OnCall on_call, OnFrame on_frame)
+uint64_t TraceReader::decode(const Chunk& chunk, FrameCalls kept, OnCall on_call, OnFrame on_frame)
 {
     const std::vector<std::byte> raw = read_payload(chunk);
     Decoder decoder(raw, path_.string() + ", chunk at byte " + std::to_string(chunk.offset));
@@ -169,11 +169,12 @@ uint64_t TraceReader::decode(const Chunk& chunk, OnCall on_call, OnFrame on_fram
             count(memory_of(view));
         }
         const bool is_last = is_open && call.kind == CallKind::end_frame;
-        if (is_lasting(call.kind) && is_open)
+        const bool lasts = is_lasting(call.kind) && is_open;
+        if (lasts)
             lasting.push_back(current.calls.size());
         else
             on_call(call, frames, false);
-        if (is_open)
+        if (lasts || (is_open && kept == FrameCalls::all))
             current.calls.push_back(std::move(call));
         if (is_last) {
             close(!current.views.empty());
@@ -214,7 +215,7 @@ void TraceReader::index_chunk(const Chunk& chunk)
     if (unpacked_ > max_unpacked_ratio * size)
         fail(chunk.offset, "it decompresses to more than " + std::to_string(max_unpacked_ratio) + " times its size");
     memory_ += decode(
-        chunk,
+        chunk, FrameCalls::lasting,
         [&](const Call& call, size_t frame, bool is_inside) {
             totals_.count(call.kind);
             note(call, chunk.first_frame + frame, is_inside);
@@ -289,7 +290,7 @@ const Frame& TraceReader::frame(size_t number)
         decoded_chunk_ = SIZE_MAX;
         decoded_.clear();
         decode(
-            chunks_[place], [](const Call&, size_t, bool) {},
+            chunks_[place], FrameCalls::all, [](const Call&, size_t, bool) {},
             [&](Frame&& frame) { decoded_.push_back(std::move(frame)); });
         decoded_chunk_ = place;
     }

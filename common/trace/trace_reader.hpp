@@ -69,7 +69,9 @@ private:
     void read_header();
     bool read_chunk_header(uint64_t offset, ChunkHeader& header);
     std::vector<std::byte> read_payload(const Chunk& chunk);
-    template <class OnCall, class OnFrame> uint64_t decode(const Chunk& chunk, OnCall on_call, OnFrame on_frame);
+    enum class FrameCalls { all, lasting };
+    template <class OnCall, class OnFrame>
+    uint64_t decode(const Chunk& chunk, FrameCalls kept, OnCall on_call, OnFrame on_frame);
     void index_chunks();
     void index_chunk(const Chunk& chunk);
     void index_frame(const Frame& frame);
