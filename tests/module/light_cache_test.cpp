@@ -286,6 +286,16 @@ TEST_F(WrongLightCache, IsShown)
     EXPECT_FALSE(stripes.at(32, 40) == stripes.at(40, 40));
 }
 
+// The first frame, without a cache yet, is a picture, and is not averaged with the bias.
+TEST_F(WrongLightCache, IsShownWithoutThePicture)
+{
+    const auto session = start({ { "flt_denoiser", "asvgf" }, { "pt_debug_view", "cache_bias" } }, "lamps");
+    session->set("pt_indirect", "both");
+    const float bias = std::abs(luminance(session->accumulate(8).mean()));
+    session->set("pt_debug_view", "off");
+    EXPECT_LT(bias, 0.06f * luminance(session->accumulate(256).mean()));
+}
+
 // Its own samples read tables that other samplers do without: at the start of a map, and where it is switched on later.
 TEST_F(LightCache, HasItsTablesWithAnySampler)
 {
