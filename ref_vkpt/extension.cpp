@@ -30,8 +30,9 @@ bool capture_display(uint8_t* rgba)
     const OutputImage& output = m->graphics.output;
     const size_t bytes = size_t(output.size.width) * output.size.height * sizeof(uint32_t);
     std::memcpy(rgba, m->graphics.read_back(output.words, bytes).mapped(), bytes);
-    for (size_t alpha = 3; output.highlights && alpha < bytes; alpha += 4)
-        rgba[alpha] = 255;
+    if (output.highlights) // alpha is what 2D covers
+        for (size_t alpha = 3; alpha < bytes; alpha += 4)
+            rgba[alpha] = 255;
     return true;
 }
 

@@ -45,21 +45,35 @@ vec3 shown_light(ReflectedLight light, Surface surface)
     // Samples may be negative where the cache is corrected (pt_indirect both): their mean counts.
     if (frame.dark_light_count > 0u)
         light.diffuse = max(light.diffuse - taken_light(surface.position), vec3(0.0));
-    if ((frame.flags & FRAME_CACHE_BIAS) == 0u)
-        light.diffuse += frame.cvars.pt_min_light;
+    light.diffuse += frame.cvars.pt_min_light;
     return (frame.flags & FRAME_LIGHT_ALONE) != 0u ? light.diffuse : surface.albedo * light.diffuse + light.specular;
+}
+
+// How wrong the light cache is there, which is all that indirect_light has stored (FRAME_CACHE_BIAS).
+vec3 cache_bias(uint index, PrimarySurface primary)
+{
+    ReflectedLight bias = load_reflected_light(index);
+    return primary.depth < 0.0
+        ? vec3(0.0)
+        : unpack_light3(load_throughput(index)) * (primary.surface.albedo * bias.diffuse + bias.specular);
+}
+
+vec3 compose_radiance(uvec2 pixel, uint index, PrimarySurface primary)
+{
+    vec3 radiance = load_emitted(index);
+    if (primary.depth >= 0.0)
+        radiance += unpack_light3(load_throughput(index))
+            * shown_light(reflected_light(pixel, index, primary.surface), primary.surface);
+    if ((frame.flags & FRAME_GOD_RAYS) != 0u)
+        radiance += spread_scattered(pixel, primary.depth);
+    return radiance;
 }
 
 void compose_pixel(uvec2 pixel, uint index)
 {
-    bool shows_cache_bias = (frame.flags & FRAME_CACHE_BIAS) != 0u;
-    vec3 radiance = shows_cache_bias ? vec3(0.0) : load_emitted(index);
     PrimarySurface primary = load_primary_surface(index);
-    if (primary.depth >= 0.0)
-        radiance += unpack_light3(load_throughput(index))
-            * shown_light(reflected_light(pixel, index, primary.surface), primary.surface);
-    if ((frame.flags & FRAME_GOD_RAYS) != 0u && !shows_cache_bias)
-        radiance += spread_scattered(pixel, primary.depth);
+    vec3 radiance
+        = (frame.flags & FRAME_CACHE_BIAS) != 0u ? cache_bias(index, primary) : compose_radiance(pixel, index, primary);
     // One path that is not finite must not blacken a pixel for ever.
     if (is_nonfinite(radiance)) {
         count_nonfinite_pixel();

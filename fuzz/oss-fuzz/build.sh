@@ -15,7 +15,7 @@ CXXFLAGS=${CXXFLAGS//-stdlib=libc++/}
 find_static() { "$CC" -print-file-name="lib$1.a"; }
 cmake -S "$root" -B "$WORK/build" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS="$CFLAGS" -DCMAKE_CXX_FLAGS="$CXXFLAGS" \
     -DCMAKE_EXE_LINKER_FLAGS="-static-libstdc++ -static-libgcc" \
-    -DPNG_LIBRARY="$(find_static png)" -DZLIB_LIBRARY="$(find_static z)" -DJPEG_LIBRARY="$(find_static jpeg)" \
+    -DVKPT_FMT=fmt::fmt-header-only -DPNG_LIBRARY="$(find_static png)" -DZLIB_LIBRARY="$(find_static z)" -DJPEG_LIBRARY="$(find_static jpeg)" \
     -DVKPT_READERS_ONLY=ON -DVKPT_FUZZ=ON -DBUILD_TESTING=OFF
 cmake --build "$WORK/build" --target harness_programs fuzz_seeds
 

@@ -19,7 +19,7 @@ function(vkpt_add_engine_door target)
     # GetRefAPI returns a C++ class on purpose (see ReturnedTable).
     set_source_files_properties(${vkpt_engine_folder}/exports.cpp PROPERTIES
         COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:Clang>:-Wno-return-type-c-linkage>")
-    target_link_libraries(${target} PRIVATE vkpt_build vkpt_formats fmt::fmt ${CMAKE_DL_LIBS})
+    target_link_libraries(${target} PRIVATE vkpt_build vkpt_formats ${VKPT_FMT} ${CMAKE_DL_LIBS})
     set(map ${vkpt_engine_folder}/exports.map)
     target_link_options(${target} PRIVATE "LINKER:--version-script=${map}" "LINKER:-z,defs")
     set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${map})

@@ -245,10 +245,7 @@ void prepare_menu(shared::FrameUniforms& uniforms)
 void keep_lists(View& view, shared::FrameUniforms& uniforms, const SceneSnapshot& scene, uint32_t publications,
     uint32_t light_visibility)
 {
-    const uint32_t flags
-        = uniforms.flags & (shared::FRAME_LIGHT_CACHE | shared::FRAME_GUIDES | shared::FRAME_CACHE_BIAS);
-    if ((flags ^ view.light_cache.flags) & shared::FRAME_CACHE_BIAS)
-        uniforms.accumulated_frames = view.accumulated_frames = 0; // the average is no longer, or not yet, an image's
+    const uint32_t flags = uniforms.flags & (shared::FRAME_LIGHT_CACHE | shared::FRAME_GUIDES);
     const View::LightCacheUse light_cache { flags, flags ? publications : 0 };
     // With the cache rays go elsewhere than without, and with new values they bring something else. New weights choose
     // other lights. With a fixed seed all frames have the same index.

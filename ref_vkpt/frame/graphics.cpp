@@ -86,17 +86,14 @@ VkExtent2D Graphics::size() const
 
 void Graphics::set_window_wishes(const WindowWishes& wishes)
 {
-    const bool is_told = wishes.hdr && (wishes.peak != wishes_.peak || wishes.paper_white != wishes_.paper_white);
-    swapchain_outdated_ |= wishes.vsync != wishes_.vsync || wishes.hdr != wishes_.hdr || is_told;
+    swapchain_outdated_ |= wishes != wishes_;
     told_of_no_hdr_ &= wishes.hdr;
     wishes_ = wishes;
 }
 
-float Graphics::headroom() const
-{
-    const bool shows_hdr = swapchain_ && swapchain_->is_usable() && swapchain_->format().is_hdr();
-    return shows_hdr && output.highlights ? std::max(wishes_.peak / wishes_.paper_white, 1.0f) : 1;
-}
+bool Graphics::shows_hdr() const { return swapchain_ && swapchain_->is_usable() && swapchain_->format().is_hdr(); }
+
+float Graphics::headroom() const { return output.highlights ? std::max(wishes_.peak / wishes_.paper_white, 1.0f) : 1; }
 
 void Graphics::finish() { device.wait_idle(); }
 
@@ -117,28 +114,18 @@ bool Graphics::follow_window()
             present_words_ = Buffer(
                 gpu, pixel * extent.width * extent.height, BufferHome::device, MemoryKind::images, "present words");
             swapchain_outdated_ = !is_usable;
-            follow_hdr();
+            if (is_usable && wishes_.hdr && !shows_hdr() && !std::exchange(told_of_no_hdr_, true))
+                engine::print("ref_vkpt: pt_hdr 1: the desktop offers this window no HDR format; switch HDR on in the "
+                              "desktop's display settings, and play full screen where it asks for that");
         }
     }
-    if (output && output.size.width == wanted.width && output.size.height == wanted.height)
+    const bool fits = output && output.size.width == wanted.width && output.size.height == wanted.height;
+    if (fits && bool(output.highlights) == shows_hdr())
         return false;
     device.wait_idle();
-    swapchain_outdated_ |= output && swapchain_;
+    swapchain_outdated_ |= output && swapchain_ && !fits;
     resize_output(wanted);
     return true;
-}
-
-// Behind new images of the window. The device must be idle.
-void Graphics::follow_hdr()
-{
-    if (!swapchain_->is_usable())
-        return;
-    const bool shows_hdr = swapchain_->format().is_hdr();
-    if (wishes_.hdr && !shows_hdr && !std::exchange(told_of_no_hdr_, true))
-        engine::print("ref_vkpt: pt_hdr 1: the desktop offers this window no HDR format; switch HDR on in the "
-                      "desktop's display settings, and play full screen where it asks for that");
-    if (output && bool(output.highlights) != shows_hdr)
-        resize_output(output.size);
 }
 
 // The device must be idle.
@@ -148,7 +135,7 @@ void Graphics::resize_output(VkExtent2D size)
     output.highlights = Buffer();
     output.words = Buffer(gpu, VkDeviceSize(size.width) * size.height * sizeof(uint32_t), BufferHome::device,
         MemoryKind::images, "output");
-    if (swapchain_ && swapchain_->is_usable() && swapchain_->format().is_hdr())
+    if (shows_hdr())
         output.highlights = Buffer(gpu, VkDeviceSize(size.width) * size.height * 2 * sizeof(uint32_t),
             BufferHome::device, MemoryKind::images, "highlights");
     output.size = size;

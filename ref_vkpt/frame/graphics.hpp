@@ -101,7 +101,7 @@ private:
     bool can_show() const;
     void show(Slot& slot);
     bool follow_window();
-    void follow_hdr();
+    bool shows_hdr() const;
     void resize_output(VkExtent2D size);
     void clear_output();
     void record_present_words();

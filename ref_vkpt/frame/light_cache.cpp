@@ -59,6 +59,8 @@ void publish(VkCommandBuffer commands, const GpuLightCache& cache)
     vkCmdCopyBuffer(commands, cache.values.handle(), cache.values.handle(), 1, &region);
 }
 
+bool shows_cache_bias() { return cvars::shader_values().pt_debug_view == shared::DEBUG_VIEW_CACHE_BIAS; }
+
 } // namespace
 
 PassWork cache_update_work(const shared::FrameUniforms& uniforms)
@@ -133,7 +135,8 @@ void LightCacheKeeper::fill(Graphics& graphics, Frame& frame, View& view, GpuWor
             const Pass& pass = find_pass(PassId::update_light_cache);
             frame.recorder().record(pass, pass_steps(pass, uniforms)[0]);
         });
-    view.accumulated_frames = frames;
+    // What was averaged before is an image, and no bias.
+    view.accumulated_frames = shows_cache_bias() ? 0 : frames;
     upload_guides(graphics, *view.snapshot->world, view.snapshot->lightstyles, gpu_world.light_cache);
     world_ = gpu_world.version;
     next_cell_ = 0;
@@ -152,7 +155,7 @@ void LightCacheKeeper::begin_frame(
     if (!filters && !corrects_light_cache())
         return;
     uniforms.flags |= shared::FRAME_LIGHT_CACHE;
-    if (!filters && cvars::shader_values().pt_debug_view == shared::DEBUG_VIEW_CACHE_BIAS)
+    if (!filters && shows_cache_bias())
         uniforms.flags |= shared::FRAME_CACHE_BIAS;
     if (frames_++ == frames_per_publication) {
         publish(commands, gpu_world.light_cache);

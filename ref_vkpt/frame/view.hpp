@@ -37,7 +37,7 @@ struct View {
     ViewHistory history;
     bool lists_changed = false;
     struct LightCacheUse {
-        uint32_t flags = 0; // FRAME_LIGHT_CACHE, FRAME_GUIDES, FRAME_CACHE_BIAS
+        uint32_t flags = 0; // FRAME_LIGHT_CACHE, FRAME_GUIDES
         uint32_t publications = 0; // see LightCacheKeeper
         bool operator==(const LightCacheUse&) const = default;
     };

@@ -22,5 +22,5 @@ add_library(vkpt_lights STATIC
     ${CMAKE_CURRENT_LIST_DIR}/suns.cpp
     ${CMAKE_CURRENT_LIST_DIR}/triangulate.cpp)
 find_package(fmt REQUIRED)
-target_link_libraries(vkpt_lights PUBLIC vkpt_formats PRIVATE vkpt_entity_geometry vkpt_build fmt::fmt)
+target_link_libraries(vkpt_lights PUBLIC vkpt_formats PRIVATE vkpt_entity_geometry vkpt_build ${VKPT_FMT})
 target_include_directories(vkpt_lights PUBLIC ${CMAKE_CURRENT_LIST_DIR}/../..)

@@ -8,4 +8,4 @@ add_library(vkpt_world STATIC
     ${CMAKE_CURRENT_LIST_DIR}/material_guess.cpp
     ${CMAKE_CURRENT_LIST_DIR}/material_library.cpp
     ${CMAKE_CURRENT_LIST_DIR}/world.cpp)
-target_link_libraries(vkpt_world PUBLIC vkpt_lights vkpt_entity_geometry PRIVATE vkpt_build fmt::fmt)
+target_link_libraries(vkpt_world PUBLIC vkpt_lights vkpt_entity_geometry PRIVATE vkpt_build ${VKPT_FMT})

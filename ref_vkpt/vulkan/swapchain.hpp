@@ -18,7 +18,8 @@ inline constexpr uint32_t frames_in_flight = 2;
 struct WindowWishes {
     VSync vsync = VSync::on;
     bool hdr = false;
-    float peak = 1000, paper_white = 200; // of an HDR screen, in cd/m^2; these do not need new images
+    float peak = 1000, paper_white = 200; // of an HDR screen, in cd/m^2
+    bool operator==(const WindowWishes&) const = default;
 };
 
 // An image was taken; none was free in time, this frame is not shown; the window changed, recreate.

@@ -2,9 +2,8 @@
 // A Vulkan layer for tests. While there is a file $VKPT_FAULTS, calls fail as its text says, a fault a line:
 //   memory N   all allocations of device memory but the next N
 //   surface    the window's surface is lost, once: whatever uses that surface fails until it is destroyed
-//   format N [SPACE]   windows have no format but VkFormat N, in VkColorSpaceKHR SPACE (0: sRGB; else N has 32 bits,
-//   which
-//              become those of B8G8R8A8)
+//   format N   windows have no format but VkFormat N
+//   hdr N SPACE  they have B8G8R8A8, and VkFormat N of as many bits, which are shown as those, in VkColorSpaceKHR SPACE
 //   suboptimal every picture that is shown is said not to be the best for its window
 //   slow N     the compilation of a pipeline takes N ms longer
 //   lost       the device is lost, once: the next submission is run, and fails, as does all waiting
@@ -326,13 +325,7 @@ void VKAPI_CALL write_timestamp(
 
 // ---- windows
 
-// That the fault `format` says windows have.
-VkSurfaceFormatKHR read_format(const std::string& fault)
-{
-    char* space = nullptr;
-    const long number = std::strtol(fault.c_str(), &space, 10);
-    return { VkFormat(number), VkColorSpaceKHR(std::atol(space)) };
-}
+constexpr VkSurfaceFormatKHR plain_format { VK_FORMAT_B8G8R8A8_UNORM, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR };
 
 PFN_vkCreateSwapchainKHR next_create_swapchain;
 VkResult VKAPI_CALL create_swapchain(
@@ -343,9 +336,9 @@ VkResult VKAPI_CALL create_swapchain(
     shown = info->surface;
     counts.swapchains++;
     VkSwapchainCreateInfoKHR changed = *info;
-    if (const std::string format = read_fault("format"); format != "-" && read_format(format).colorSpace != 0) {
-        changed.imageFormat = VK_FORMAT_B8G8R8A8_UNORM;
-        changed.imageColorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
+    if (info->imageColorSpace != plain_format.colorSpace) {
+        changed.imageFormat = plain_format.format;
+        changed.imageColorSpace = plain_format.colorSpace;
     }
     return next_create_swapchain(of, &changed, callbacks, made);
 }
@@ -378,12 +371,18 @@ PFN_vkGetPhysicalDeviceSurfaceFormatsKHR next_formats;
 VkResult VKAPI_CALL get_formats(
     VkPhysicalDevice physical, VkSurfaceKHR surface, uint32_t* count, VkSurfaceFormatKHR* formats)
 {
-    const std::string format = read_fault("format");
-    if (format == "-")
+    const std::string format = read_fault("format"), hdr = read_fault("hdr");
+    std::vector<VkSurfaceFormatKHR> offered;
+    if (format != "-")
+        offered = { { VkFormat(std::atoi(format.c_str())), plain_format.colorSpace } };
+    else if (char* space = nullptr; hdr != "-") {
+        const long number = std::strtol(hdr.c_str(), &space, 10);
+        offered = { plain_format, { VkFormat(number), VkColorSpaceKHR(std::atol(space)) } };
+    } else
         return next_formats(physical, surface, count, formats);
-    if (formats && *count > 0)
-        formats[0] = read_format(format);
-    *count = 1;
+    if (formats)
+        std::copy_n(offered.begin(), std::min<size_t>(*count, offered.size()), formats);
+    *count = uint32_t(offered.size());
     return VK_SUCCESS;
 }
 

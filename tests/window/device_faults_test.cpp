@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What drivers of GPUs and displays may do to a window, and CPU drivers do not: by the layer of faults.
+#include "ref_vkpt/extension.hpp"
 #include "tests/fault_layer/faults.hpp"
 #include "tests/window/mock_window.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <vector>
 
 namespace vkpt::tests {
 namespace {
@@ -48,6 +52,29 @@ TEST_F(Presenting, MakesNewPicturesOnlyForAnotherSize)
     module.draw(5);
     EXPECT_EQ(Faults::counts().swapchains, 2u);
     EXPECT_GE(Faults::counts().presented, 8u);
+}
+
+// The image is another one then: 2D is drawn on that.
+TEST_F(Presenting, DrawsOnWhileHdrIsSwitched)
+{
+    const Faults faults("hdr 64 1000104008"); // A2B10G10R10, HDR10_ST2084
+    const ModuleInWindow module(engine, window);
+    ASSERT_TRUE(module.is_running());
+    const auto picture = [&] {
+        module.draw(3);
+        const auto door = reinterpret_cast<GetExtension>(dlsym(module.library(), "vkpt_extension"));
+        std::vector<uint8_t> pixels(size_t(window.width) * size_t(window.height) * 4);
+        EXPECT_TRUE(door(extension_version)->capture_display(pixels.data()));
+        return pixels;
+    };
+    const std::vector<uint8_t> expected = picture();
+    EXPECT_GT(std::max({ expected[0], expected[1], expected[2] }), 20) << "nothing is drawn";
+    const uint32_t swapchains = Faults::counts().swapchains;
+    for (const char* hdr : { "1", "0" }) {
+        engine.set("pt_hdr", hdr);
+        EXPECT_TRUE(picture() == expected) << hdr;
+    }
+    EXPECT_EQ(Faults::counts().swapchains, swapchains + 2);
 }
 
 TEST_F(Presenting, RestsWhileTheWindowIsMinimised)

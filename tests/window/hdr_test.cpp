@@ -1,42 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The light that HDR windows are sent, against the standards' own figures: known luminances of ST 2084, white and
 // primaries of BT.2020, and the image below paper white as an SDR screen of that brightness shows it.
-#include "shaders/shared/present.h"
+#include "common/colour.hpp"
+#include "tests/window/present_shader.hpp"
+#include "tests/window/st2084.hpp"
 
-#include <cmath>
-#include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
 namespace vkpt::tests {
 namespace {
-namespace glsl {
-using namespace vkpt::shared;
-using namespace ::glm;
-using uint = uint32_t;
-#include "shaders/lib/present_packing.glsl"
-} // namespace glsl
-#pragma GCC diagnostic pop
 
 constexpr float paper_white = 200, peak = 1000;
 
 uint32_t word_of(glm::uvec3 rgb, uint32_t covered) { return rgb.x | rgb.y << 8 | rgb.z << 16 | covered << 24; }
-
-// The EOTF of ST 2084, in double precision.
-double decode_pq(double signal)
-{
-    const double m1 = 0.1593017578125, m2 = 78.84375, c1 = 0.8359375, c2 = 18.8515625, c3 = 18.6875;
-    const double p = std::pow(signal, 1 / m2);
-    return 10000 * std::pow(std::max(p - c1, 0.0) / (c2 - c3 * p), 1 / m1);
-}
-
-double decode_srgb(double signal)
-{
-    return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4);
-}
-
-double encode_srgb(double light) { return 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
 
 // cd/m^2 of red, green and blue by BT.2020 that a pixel of HDR10 stands for.
 glm::dvec3 shown_by_hdr10(uint32_t word, glm::vec3 highlight, uint32_t packing = shared::PRESENT_RGB10A2)
@@ -112,7 +88,7 @@ TEST(Hdr, HighlightsAreAboveItAndEndAtThePeak)
     EXPECT_NEAR(shown_by_hdr10(white, highlight(5000)).y, peak, 0.02 * peak);
     // Too bright a colour keeps its hue.
     const glm::dvec3 orange
-        = shown_by_scrgb(word_of({ 255, 255, 0 }, 0), { float(encode_srgb(20) - 1), float(encode_srgb(5) - 1), 0 });
+        = shown_by_scrgb(word_of({ 255, 255, 0 }, 0), { float(encode_srgb(20.0) - 1), float(encode_srgb(5.0) - 1), 0 });
     EXPECT_NEAR(orange.x, peak, 10);
     EXPECT_NEAR(orange.y / orange.x, 0.25, 0.01);
     // Half covered by 2D: half of the highlight.

@@ -2,24 +2,14 @@
 // Every format that displays offer is taken, in the best order, and gets its pixels packed as Vulkan defines them.
 #include "ref_vkpt/engine/errors.hpp"
 #include "ref_vkpt/vulkan/window_format.hpp"
-#include "shaders/shared/present.h"
+#include "tests/window/present_shader.hpp"
 
 #include <cmath>
-#include <glm/glm.hpp>
 #include <gtest/gtest.h>
 #include <vector>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
 namespace vkpt::tests {
 namespace {
-namespace glsl {
-using namespace vkpt::shared;
-using namespace ::glm;
-using uint = uint32_t;
-#include "shaders/lib/present_packing.glsl"
-} // namespace glsl
-#pragma GCC diagnostic pop
 
 std::vector<VkSurfaceFormatKHR> srgb_formats(const std::vector<VkFormat>& formats)
 {
