@@ -23,13 +23,14 @@ protected:
         folder_.add_wall("metal", 180);
     }
 
-    void add_room(int style, const char* material = "wall")
+    // The lamp's distance from the wall says how much brighter the spot is than what it lights.
+    void add_room(int style, const char* material = "wall", float lamp_distance = 8)
     {
         MapBuilder map;
         const uint16_t wall = map.add_material(material);
         map.add_room({ -256, -256, 0 }, { 256, 256, 192 }, wall);
         map.add_block({ -200, -100, 0 }, { -192, 100, 160 }, wall);
-        map.add_point_light({ -248, 0, 80 }, 200, style);
+        map.add_point_light({ -256 + lamp_distance, 0, 80 }, 200, style);
         folder_.add_map("room", map.finish());
     }
 
@@ -66,13 +67,12 @@ Radiance mean_of_first_frames(Session& session, int frames)
     return sum;
 }
 
-// |ratio - 1| of the means of blocks of 16 x 16 pixels, ascending.
-std::vector<float> block_errors(const Radiance& picture, const Radiance& expected)
+// |ratio - 1| of the means of blocks of pixels, ascending.
+std::vector<float> block_errors(const Radiance& picture, const Radiance& expected, glm::ivec2 block)
 {
-    constexpr int block = 16;
     std::vector<float> errors;
-    for (int y = 0; y < picture.height; y += block)
-        for (int x = 0; x < picture.width; x += block) {
+    for (int y = 0; y < picture.height; y += block.y)
+        for (int x = 0; x < picture.width; x += block.x) {
             const glm::ivec2 first { x, y }, end = first + block;
             errors.push_back(std::abs(luminance(picture.mean(first, end)) / luminance(expected.mean(first, end)) - 1));
         }
@@ -82,15 +82,16 @@ std::vector<float> block_errors(const Radiance& picture, const Radiance& expecte
 
 // Against the converged picture that is aimed by the cache and does not read it; that one is compared with one without
 // the cache in LetsPhotoModeConvergeToTheSame.
-void expect_same_light(Session& session)
+// A quarter's mean is known to 1 % from 1,600 frames of walls, and from 3,200 of metal.
+void expect_same_light(Session& session, int frames)
 {
     const Radiance expected = session.accumulate(2048);
     session.set("pt_accumulate", "0");
-    const Radiance cached = mean_of_first_frames(session, 1600); // a block's mean is then known to 1 %
+    const Radiance cached = mean_of_first_frames(session, frames);
     ASSERT_GT(luminance(expected.mean()), 0);
     EXPECT_NEAR(luminance(cached.mean()) / luminance(expected.mean()), 1, 0.02);
-    const std::vector<float> errors = block_errors(cached, expected);
-    EXPECT_LT(errors[errors.size() * 95 / 100], 0.05);
+    const std::vector<float> errors = block_errors(cached, expected, picture_size / 2);
+    EXPECT_LT(errors.back(), 0.05);
 }
 
 const CvarList unlimited { { "flt_denoiser", "temporal" }, { "flt_taa", "on" }, { "pt_seed", "0" } };
@@ -98,14 +99,14 @@ const CvarList unlimited { { "flt_denoiser", "temporal" }, { "flt_taa", "on" }, 
 TEST_F(LightCache, KeepsTheLight)
 {
     add_room(0);
-    expect_same_light(*start(unlimited));
+    expect_same_light(*start(unlimited), 1600);
 }
 
 // The layer is all that is seen of it: the directions that light comes from matter.
 TEST_F(LightCache, KeepsTheLightOfMetal)
 {
-    add_room(0, "metal");
-    expect_same_light(*start(unlimited));
+    add_room(0, "metal", 28); // nearer, neither picture is known well enough
+    expect_same_light(*start(unlimited), 3200);
 }
 
 // One frame without history.
@@ -199,7 +200,7 @@ TEST_F(LightCache, LetsPhotoModeConvergeToTheSame)
     session->set("pt_indirect", "cache");
     const Radiance aimed = session->accumulate(2048);
     EXPECT_NEAR(luminance(aimed.mean()) / luminance(traced.mean()), 1, 0.01);
-    const std::vector<float> errors = block_errors(aimed, traced);
+    const std::vector<float> errors = block_errors(aimed, traced, glm::ivec2(16));
     EXPECT_LT(errors.back(), 0.05);
     EXPECT_LT(error_between(session->accumulate(64), aimed), 0.5 * error_between(short_traced, traced));
 }
@@ -247,7 +248,7 @@ TEST_F(WrongLightCache, IsCorrectedToTheMeanOfTracing)
         session->set("pt_indirect", "both");
         const Radiance corrected = session->accumulate(1024);
         EXPECT_NEAR(luminance(corrected.mean()) / luminance(traced.mean()), 1, 0.01) << sampler << " " << share;
-        EXPECT_LT(block_errors(corrected, traced).back(), 0.06) << sampler << " " << share;
+        EXPECT_LT(block_errors(corrected, traced, glm::ivec2(16)).back(), 0.06) << sampler << " " << share;
     }
 }
 
