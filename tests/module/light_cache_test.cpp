@@ -120,7 +120,7 @@ TEST_F(LightCache, HasLessNoise)
         session->set("pt_indirect", which);
         session->draw(2);
         double sum = 0;
-        for (int i = 0; i < 32; i++) {
+        for (int i = 0; i < 128; i++) {
             session->view.time += 100;
             session->draw();
             sum += error_between(session->capture(), expected);
