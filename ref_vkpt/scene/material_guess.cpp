@@ -54,7 +54,7 @@ void set_normal_map(shared::Material& material, const SurfaceGuess& surface, con
         | pack_mips(maps.normals.packed_size, material.texture_size) << shared::MATERIAL_BUMP_BITS;
     if (maps.texture_has_roughness && !(material.flags & shared::MATERIAL_ALPHA_TEST)) {
         material.flags |= shared::MATERIAL_ROUGHNESS_IN_ALPHA;
-        material.roughness = surface.least_roughness;
+        material.roughness = surface.min_roughness;
     }
     if (maps.has_metalness && surface.metalness_factor >= 0) {
         material.flags |= shared::MATERIAL_METALNESS_IN_ALPHA;
@@ -78,7 +78,7 @@ void apply_material(SurfaceGuess& surface, std::string_view name, const Material
     if (!settings)
         return;
     if (settings->roughness >= 0)
-        surface.roughness = surface.least_roughness = settings->roughness;
+        surface.roughness = surface.min_roughness = settings->roughness;
     if (settings->metalness >= 0)
         surface.metallic = settings->metalness;
     surface.base_factor = settings->base_factor;

@@ -17,7 +17,7 @@ struct SurfaceGuess {
     float base_factor = 1; // times the texture's colour
     // Where there is a normal map:
     float bump_scale = 1; // of its tilt
-    float least_roughness = 0; // below what the texture's alpha says
+    float min_roughness = 0; // below what the texture's alpha says
     float metalness_factor = 1; // times what the map's alpha says; below 0: `metallic` counts instead
     float emissive_factor = 1; // times what glows of skins
 };

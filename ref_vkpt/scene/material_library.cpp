@@ -25,7 +25,7 @@ std::string word_of(const Attributes& attributes, std::string_view name)
 
 MaterialSettings make_settings(const Attributes& attributes)
 {
-    constexpr float brightest = 16, usual_threshold = 215, steepest = 4, most_emissive = 1000;
+    constexpr float brightest = 16, usual_threshold = 215, steepest = 4, max_emissive = 1000;
     MaterialSettings settings;
     settings.roughness = std::min(number_of(attributes, "roughness_override", -1), 1.0f);
     settings.metalness = std::min(number_of(attributes, "metalness_override", -1), 1.0f);
@@ -40,7 +40,7 @@ MaterialSettings make_settings(const Attributes& attributes)
     settings.base_factor = std::clamp(number_of(attributes, "base_factor", 1), 0.0f, brightest);
     settings.bump_scale = std::clamp(number_of(attributes, "bump_scale", 1), 0.0f, steepest);
     settings.metalness_factor = std::clamp(number_of(attributes, "metalness_factor", 1), 0.0f, 1.0f);
-    settings.emissive_factor = std::clamp(number_of(attributes, "emissive_factor", 1), 0.0f, most_emissive);
+    settings.emissive_factor = std::clamp(number_of(attributes, "emissive_factor", 1), 0.0f, max_emissive);
     settings.base_file = word_of(attributes, "texture_base");
     settings.normals_file = word_of(attributes, "texture_normals");
     settings.emissive_file = word_of(attributes, "texture_emissive");

@@ -22,10 +22,10 @@ struct Level {
 
 glm::vec4 read_texel(const Rgba8& texel)
 {
-    constexpr float least_z = 1e-3f, least_length = 0.05f;
+    constexpr float min_z = 1e-3f, min_length = 0.05f;
     const glm::vec3 n = (glm::vec3(texel.r, texel.g, texel.b) - 128.0f) / 127.0f;
     const float length = glm::length(n);
-    const bool is_outward = n.z > least_z * length && length > least_length;
+    const bool is_outward = n.z > min_z * length && length > min_length;
     return glm::vec4(is_outward ? n / length : glm::vec3(0, 0, 1), float(texel.a) / 255);
 }
 

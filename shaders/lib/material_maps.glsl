@@ -61,9 +61,9 @@ vec4 find_tangent(Triangle triangle, vec3 normal)
 // Normals that face away from the viewer would show a side that cannot be seen: they are bent back as far as it takes.
 vec3 bend_to_viewer(vec3 normal, vec3 view)
 {
-    const float least_cosine = 0.01;
+    const float min_cosine = 0.01;
     float cosine = dot(normal, view);
-    return cosine >= least_cosine ? normal : normalize(normal + view * (least_cosine - cosine));
+    return cosine >= min_cosine ? normal : normalize(normal + view * (min_cosine - cosine));
 }
 
 // GGX: alpha^2 grows by twice the variance of the slope along each axis, as that of facets of alpha is alpha^2 / 2.
