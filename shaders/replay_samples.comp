@@ -53,7 +53,7 @@ void replay_stratum(uvec2 stratum, uint number)
         store_replayed(number, vec2(-1.0));
         return;
     }
-    ReflectedLight before = load_previous_reflected_light(there);
+    ReflectedLight before = load_reflected_light(there);
     store_replayed(number, vec2(luminance(before.diffuse), luminance(before.specular)));
     store_position(index, vec4(load_previous_position(there).xyz, primary.depth));
     store_normals(index, load_previous_normals(there));

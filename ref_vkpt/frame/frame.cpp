@@ -14,6 +14,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace vkpt {
 
@@ -232,10 +233,11 @@ shared::FrameUniforms Frame::begin_query(
 
 namespace {
 
-// A view without a world, such as the player's model in a menu, leaves what the world's views remember alone.
+// A view without a world, such as the player's model in a menu, leaves what the world's views remember alone, but for
+// their samples. Nothing is filtered.
 void prepare_menu(shared::FrameUniforms& uniforms)
 {
-    uniforms.screen.accumulated = uniforms.screen.radiance;
+    uniforms.screen.accumulated = uniforms.screen.filtered;
     uniforms.accumulated_frames = 0;
     uniforms.exposure += sizeof(shared::ExposureState);
     uniforms.flags |= shared::FRAME_NO_WORLD;
@@ -249,7 +251,8 @@ void keep_lists(View& view, shared::FrameUniforms& uniforms, const SceneSnapshot
     const View::LightCacheUse light_cache { flags, flags ? publications : 0 };
     // With the cache rays go elsewhere than without, and with new values they bring something else. New weights choose
     // other lights. With a fixed seed all frames have the same index.
-    const bool differs = light_cache != view.light_cache || light_visibility != view.light_visibility;
+    const bool differs = std::exchange(view.samples_are_lost, false) || light_cache != view.light_cache
+        || light_visibility != view.light_visibility;
     uniforms.scene.oldest_repeatable = differs ? std::numeric_limits<uint32_t>::max()
         : view.lists_changed                   ? view.history_frame_index
                                                : 0;
@@ -280,7 +283,7 @@ void Frame::record_view(
         prepare_menu(uniforms);
     begin_filters(uniforms, view, scene, gpu_world, average);
     view.size = uniforms.resolved_size;
-    view.radiance = has_world ? &view.buffers.accumulated() : &view.buffers.radiance();
+    view.radiance = &view.buffers.buffer_of(uniforms.screen.accumulated);
     fill_scene(uniforms, graphics_.commands(), view, scene, gpu_world);
     if (has_world) {
         view.rendered_size = size;
@@ -300,8 +303,10 @@ void Frame::record_view(
     record(graphics_.commands(), view, uniforms, is_complete);
     if (has_world)
         view.accumulated_frames += is_complete ? 0 : 1;
-    else
+    else {
         view.buffers.exchange_history();
+        view.samples_are_lost = true;
+    }
 }
 
 void Frame::record(

@@ -53,6 +53,25 @@ static_assert(std::size(pass_resource_names) == resource_count);
 using PassResources = uint64_t;
 static_assert(resource_count <= 64, "more resources than PassResources has bits");
 
+struct BorrowedBuffer {
+    PassResource name, lender; // `name` lies in its memory
+};
+inline constexpr BorrowedBuffer borrowed_buffers[] = {
+#define VKPT_SCREEN_BUFFER(type, name)
+#define VKPT_BORROWED_BUFFER(type, name, lender) { resource_##name, resource_##lender },
+#include "shaders/shared/screen_buffers.def"
+#undef VKPT_SCREEN_BUFFER
+};
+
+// With those whose memory they lie in: two sets have memory in common where these have bits in common.
+constexpr PassResources with_lenders(PassResources resources)
+{
+    for (const BorrowedBuffer& borrowed : borrowed_buffers)
+        if (resources >> borrowed.name & 1)
+            resources |= PassResources(1) << borrowed.lender;
+    return resources;
+}
+
 // Of names with spaces between. A name that there is not does not compile.
 consteval PassResources find_resources(std::string_view names)
 {

@@ -36,7 +36,7 @@ void SceneQueries::measure_irradiance(std::span<const IrradianceProbe> probes, u
     frame.reserve(view, from.size);
     view.history.forget();
     view.size = from.size;
-    view.radiance = &view.buffers.accumulated();
+    view.radiance = &view.buffers.buffer_of(view.buffers.rows().accumulated);
     for (uint32_t sample = 0; sample < samples; sample++) {
         view.accumulated_frames = sample;
         graphics.run_once([&](VkCommandBuffer commands) {

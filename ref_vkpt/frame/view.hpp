@@ -36,6 +36,7 @@ struct View {
     const Buffer* radiance = nullptr; // nullptr: no image yet
     ViewHistory history;
     bool lists_changed = false;
+    bool samples_are_lost = false; // a menu has been drawn since: its light lies where the world's did
     struct LightCacheUse {
         uint32_t flags = 0; // FRAME_LIGHT_CACHE, FRAME_GUIDES
         uint32_t publications = 0; // see LightCacheKeeper

@@ -15,6 +15,18 @@ size_t pixel_count(glm::uvec2 size) { return size_t(size.x) * size.y; }
 template <class Element>
 constexpr size_t element_bytes = std::is_same_v<Element, glm::vec3> ? sizeof(glm::vec4) : sizeof(Element);
 
+// By name.
+namespace bytes_of {
+using namespace shared;
+#define VKPT_SCREEN_BUFFER(type, name) constexpr size_t name = element_bytes<type>;
+#include "shaders/shared/screen_buffers.def"
+#undef VKPT_SCREEN_BUFFER
+} // namespace bytes_of
+#define VKPT_SCREEN_BUFFER(type, name)
+#define VKPT_BORROWED_BUFFER(type, name, lender) static_assert(bytes_of::name == bytes_of::lender);
+#include "shaders/shared/screen_buffers.def"
+#undef VKPT_SCREEN_BUFFER
+
 glm::uvec2 count_tiles(glm::uvec2 size) { return count_blocks(size, glm::uvec2(8)); }
 
 // Of PIXEL_TILES_PER_GROUP tiles.
@@ -69,8 +81,10 @@ void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::
     const size_t strata = pixels / 3 + 1;
 #define VKPT_SCREEN_BUFFER(type, name) rows_.name = renew_row(row_##name, pixels, element_bytes<type>, #name);
 #define VKPT_STRATUM_BUFFER(type, name) rows_.name = renew_row(row_##name, strata, element_bytes<type>, #name);
+#define VKPT_BORROWED_BUFFER(type, name, lender)
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
+    lend();
     // Updates of the light cache may be more lanes than a small image's pixels.
     const uint32_t cache_groups = tile_groups({ CACHE_ROW, CACHE_MAX_UPDATED / CACHE_ROW });
     const size_t lanes = size_t(std::max(groups, cache_groups)) * PIXEL_GROUP_SIZE;
@@ -85,6 +99,15 @@ void ViewBuffers::exchange_history()
 {
 #define VKPT_SCREEN_BUFFER(type, name)
 #define VKPT_HISTORY_BUFFER(type, name) std::swap(rows_.name, rows_.previous_##name);
+#include "shaders/shared/screen_buffers.def"
+#undef VKPT_SCREEN_BUFFER
+    lend();
+}
+
+void ViewBuffers::lend()
+{
+#define VKPT_SCREEN_BUFFER(type, name)
+#define VKPT_BORROWED_BUFFER(type, name, lender) rows_.name = rows_.lender;
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
 }

@@ -26,16 +26,19 @@ public:
     // device must be idle then.
     void reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size, bool with_stacks);
     bool must_grow(glm::uvec2 size, bool with_stacks) const;
-    // A new frame of the view begins: what was stored as NAME is from now on read as previous_NAME.
+    // A new frame of the view begins: what was stored as NAME is from now on read as previous_NAME. What was stored in
+    // borrowed memory has other names.
     void exchange_history();
 
     const shared::ScreenBuffers& rows() const { return rows_; }
     VkDescriptorSet texels() const { return texels_.handle(); }
     VkDeviceAddress trace_stack() const { return trace_stack_.address(); }
-    const Buffer& accumulated() const { return buffers_[row_accumulated]; }
-    const Buffer& radiance() const { return buffers_[row_radiance]; }
+    // Where one of the rows lies.
+    const Buffer& buffer_of(const shared::ScreenBuffer& row) const { return buffers_[row.texels]; }
 
 private:
+    void lend(); // the rows that lie in others' memory
+
     size_t pixels_ = 0; // that every buffer has room for
     uint32_t groups_ = 0; // that the trace stack has room for; 0: there is none
     std::array<Buffer, shared::SCREEN_BUFFER_COUNT> buffers_;

@@ -12,7 +12,6 @@ void store_image(uint index, vec3 radiance)
         store_composed(index, pack_light3(radiance));
         return;
     }
-    store_radiance(index, radiance);
     float share = 1.0 / float(frame.accumulated_frames + 1u);
     vec3 before = frame.accumulated_frames > 0u ? load_accumulated(index) : vec3(0.0);
     store_accumulated(index, before + (radiance - before) * share);

@@ -146,6 +146,19 @@ TEST_F(Filters, AMenuLeavesTheGamesHistoryAlone)
     EXPECT_LT(error_between(with, without), 0.1 * error_between(anew, without));
 }
 
+// Its light lies where that of the world's samples did.
+TEST_F(Filters, AMenuIsNotTakenForAChangeOfTheLight)
+{
+    session_->set("pt_debug_view", "gradient");
+    session_->draw(4);
+    for (int frame = 0; frame < 4; frame++) {
+        draw_menu(14);
+        session_->draw();
+        EXPECT_TRUE(shows_no_gradient()) << frame;
+    }
+    session_->set("pt_debug_view", "off");
+}
+
 // However little of the menu's view it fills.
 TEST_F(Filters, AMenusModelIsShownAsItsPicture)
 {

@@ -110,6 +110,62 @@ TEST(PassRows, ReadNothingThatNobodyWrites)
         }
 }
 
+// The passes from the first that uses one of these to the last.
+struct Use {
+    size_t first = std::size(pass_rows), last = 0;
+};
+Use find_use(PassResources resources)
+{
+    Use use;
+    for (size_t i = 0; i < std::size(pass_rows); i++)
+        if ((pass_rows[i].reads | pass_rows[i].writes) & resources) {
+            use.first = std::min(use.first, i);
+            use.last = i;
+        }
+    return use;
+}
+
+bool reads_after(size_t pass, PassResources resources)
+{
+    for (size_t i = pass + 1; i < std::size(pass_rows); i++)
+        if (pass_rows[i].writes & resources)
+            return false;
+        else if (pass_rows[i].reads & resources)
+            return true;
+    return false;
+}
+
+// What is stored in memory that belongs to another buffer is read before that is stored again, and nobody reads the
+// other in its place: neither in this view, nor, if it has a history, in the next one.
+TEST(PassRows, LendMemoryThatIsFree)
+{
+    std::vector<std::pair<PassResource, Use>> uses;
+    for (const BorrowedBuffer& borrowed : borrowed_buffers) {
+        SCOPED_TRACE(pass_resource_names[borrowed.name]);
+        const PassResources lender = PassResources(1) << borrowed.lender;
+        const Use use = find_use(PassResources(1) << borrowed.name);
+        ASSERT_LE(use.first, use.last);
+        EXPECT_TRUE(pass_rows[use.first].writes >> borrowed.name & 1) << "read before it is stored";
+        for (size_t i = use.first; i <= use.last; i++)
+            EXPECT_FALSE((pass_rows[i].reads | pass_rows[i].writes) & lender) << pass_rows[i].name;
+        EXPECT_FALSE(reads_after(use.last, lender)) << "of its lender";
+        const std::string name(pass_resource_names[borrowed.lender]);
+        const bool has_history
+            = std::ranges::find(pass_resource_names, "previous_" + name) != std::end(pass_resource_names);
+        if (has_history) {
+            EXPECT_LT(use.last, find_use(lender).first) << "stored over what the next view reads";
+        } else {
+            EXPECT_TRUE(name.starts_with("previous_")) << "its lender is of this view alone";
+        }
+        for (const auto& [other, other_use] : uses)
+            if (other == borrowed.lender) {
+                EXPECT_TRUE(use.last < other_use.first || other_use.last < use.first) << "two at once";
+            }
+        uses.emplace_back(borrowed.lender, use);
+    }
+    EXPECT_FALSE(uses.empty());
+}
+
 // The list's order is the frame's: a view starts with its surfaces and ends with what is shown.
 TEST(PassRows, BeginWithTheCameraAndEndWithThePicture)
 {
