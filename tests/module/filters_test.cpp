@@ -159,6 +159,28 @@ TEST_F(Filters, AMenuIsNotTakenForAChangeOfTheLight)
     session_->set("pt_debug_view", "off");
 }
 
+TEST_F(Filters, AMenuLeavesAnAverageAlone)
+{
+    session_->set("pt_light_visibility", 0); // it and the light cache learn from all frames
+    session_->set("pt_indirect", "trace");
+    const Radiance without = session_->accumulate(6);
+    const auto average_with_menus = [] {
+        session_->set("pt_accumulate", 0);
+        session_->draw(); // ends the other
+        session_->set("pt_accumulate", 1);
+        for (int frame = 0; frame < 6; frame++) {
+            if (frame > 0)
+                draw_menu(14);
+            session_->draw();
+        }
+        return session_->capture();
+    };
+    EXPECT_TRUE(average_with_menus() == without);
+    session_->set("pt_accumulate", 0);
+    session_->set("pt_light_visibility", 1);
+    session_->set("pt_indirect", "cache");
+}
+
 // However little of the menu's view it fills.
 TEST_F(Filters, AMenusModelIsShownAsItsPicture)
 {
