@@ -11,6 +11,9 @@
 #include <cstdlib>
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <ranges>
+#include <set>
+#include <string_view>
 
 namespace vkpt::client {
 
@@ -123,7 +126,10 @@ void Host::start_module()
 
 void Host::check_wanted_cvars()
 {
-    for (const auto& [name, text] : options_.cvars) {
+    std::set<std::string_view> seen; // of several settings of one variable the last counts
+    for (const auto& [name, text] : options_.cvars | std::views::reverse) {
+        if (!seen.insert(name).second)
+            continue;
         if (!cvars_.was_asked_for(name))
             throw WrongUse(
                 fmt::format("--set {}={}: there is no such variable; `vkpt info --cvars` lists them", name, text));

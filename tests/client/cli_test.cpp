@@ -183,6 +183,10 @@ TEST_F(Cli, CorrectedSettingIsTold)
     EXPECT_EQ(result.status, 0) << result.errors;
     expect_in(result.errors, "pt_bounces=99");
     expect_in(result.errors, "8");
+    // What is set again does not count.
+    const ProgramResult again = render({ "--set", "pt_bounces=99", "--set", "pt_bounces=2", "-o", "a.png" });
+    EXPECT_EQ(again.status, 0);
+    EXPECT_EQ(again.errors.find("pt_bounces"), std::string::npos) << again.errors;
 }
 
 TEST_F(Cli, RegistersAsTheClientDoes)
