@@ -14,15 +14,14 @@ void PassRecorder::begin(VkCommandBuffer commands, const ShaderChoice& choice)
 
 void PassRecorder::wait_for_what_it_uses(const Pass& pass)
 {
-    const PassResources reads = with_lenders(pass.reads), writes = with_lenders(pass.writes);
-    if ((reads & written_) || (writes & (read_ | written_))) {
+    if ((pass.read_memory & written_) || (pass.written_memory & (read_ | written_))) {
         const VkPipelineStageFlags shaders = graphics_.device.shader_stages();
         record_memory_barrier(commands_, shaders, VK_ACCESS_SHADER_WRITE_BIT, shaders,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
         read_ = written_ = 0;
     }
-    read_ |= reads;
-    written_ |= writes;
+    read_ |= pass.read_memory;
+    written_ |= pass.written_memory;
 }
 
 void PassRecorder::dispatch(const Pass& pass, const PassWork& work)

@@ -64,7 +64,7 @@ inline constexpr BorrowedBuffer borrowed_buffers[] = {
 };
 
 // With those whose memory they lie in: two sets have memory in common where these have bits in common.
-constexpr PassResources with_lenders(PassResources resources)
+consteval PassResources with_lenders(PassResources resources)
 {
     for (const BorrowedBuffer& borrowed : borrowed_buffers)
         if (resources >> borrowed.name & 1)
@@ -105,6 +105,7 @@ struct Pass {
     const char* when_text;
     const char* unless_text;
     PassResources reads, writes;
+    PassResources read_memory, written_memory; // with their lenders
     const char* help;
 
     constexpr bool is_run_with(uint32_t frame_flags) const
@@ -121,7 +122,7 @@ inline constexpr PassExtent PIXELS = PassExtent::pixels, BOUNCE_BLOCKS = PassExt
                             CACHE_CELLS = PassExtent::cache_cells, HALF = PassExtent::half, STRATA = PassExtent::strata,
                             RESOLVED = PassExtent::resolved, VISIBILITY_TABLE = PassExtent::visibility_table,
                             OUTPUT = PassExtent::output, ONE = PassExtent::one, LEVELS = PassExtent::levels;
-constexpr PassResources add_trace_stack(PassResources resources, PassKind kind)
+consteval PassResources add_trace_stack(PassResources resources, PassKind kind)
 {
     return resources | (kind == TRACED || kind == LIT ? PassResources(1) << resource_trace_stack : PassResources(0));
 }
@@ -133,10 +134,12 @@ template <> inline constexpr uint32_t push_bytes<NONE> = 0;
 inline constexpr Pass rows[] = {
 #define VKPT_FRAME_PASS(name, kind, push, extent, when, unless, reads, writes, help)                                   \
     { PassId::name, #name, kind, #push, push_bytes<push>, extent, when, unless, #when, #unless, find_resources(reads), \
-        add_trace_stack(find_resources(writes), kind), help },
+        add_trace_stack(find_resources(writes), kind), with_lenders(find_resources(reads)),                            \
+        with_lenders(add_trace_stack(find_resources(writes), kind)), help },
 #define VKPT_OTHER_PASS(name, kind, push, reads, writes, help)                                                         \
     { PassId::name, #name, kind, #push, push_bytes<push>, PassExtent::other, 0, 0, "", "", find_resources(reads),      \
-        add_trace_stack(find_resources(writes), kind), help },
+        add_trace_stack(find_resources(writes), kind), with_lenders(find_resources(reads)),                            \
+        with_lenders(add_trace_stack(find_resources(writes), kind)), help },
 #include "shaders/passes.def"
 };
 } // namespace pass_row_names

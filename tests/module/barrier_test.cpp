@@ -68,8 +68,8 @@ bool depend(const RecordedCommand& before, const RecordedCommand& after)
 {
     const Pass *const first = find_pass(before.label), *const second = find_pass(after.label);
     if (first && second)
-        return (with_lenders(first->writes) & with_lenders(second->reads | second->writes))
-            || (with_lenders(first->reads) & with_lenders(second->writes));
+        return (first->written_memory & (second->read_memory | second->written_memory))
+            || (first->read_memory & second->written_memory);
     if (is_shader(before.kind))
         return after.kind != RecordedCommand::build; // builds read what the host wrote
     // Builds: see StandBetweenTheDevicesOwnTracesToo.

@@ -81,6 +81,13 @@ protected:
             [](const formats::Rgba8& pixel) { return pixel.r == 0 && pixel.g == 0; });
     }
 
+    // The lights' visibility and the light cache do, whatever the frames' time.
+    static void learn_from_frames(bool wanted)
+    {
+        session_->set("pt_light_visibility", int(wanted));
+        session_->set("pt_indirect", wanted ? "cache" : "trace");
+    }
+
     // A menu with a model before the picture.
     static void draw_menu(float distance = 40, int entity_flags = 0, int frames = 1)
     {
@@ -161,24 +168,16 @@ TEST_F(Filters, AMenuIsNotTakenForAChangeOfTheLight)
 
 TEST_F(Filters, AMenuLeavesAnAverageAlone)
 {
-    session_->set("pt_light_visibility", 0); // it and the light cache learn from all frames
-    session_->set("pt_indirect", "trace");
+    learn_from_frames(false);
     const Radiance without = session_->accumulate(6);
-    const auto average_with_menus = [] {
-        session_->set("pt_accumulate", 0);
-        session_->draw(); // ends the other
-        session_->set("pt_accumulate", 1);
-        for (int frame = 0; frame < 6; frame++) {
-            if (frame > 0)
-                draw_menu(14);
-            session_->draw();
-        }
-        return session_->capture();
-    };
-    EXPECT_TRUE(average_with_menus() == without);
+    session_->accumulate(1);
+    for (int frame = 1; frame < 6; frame++) {
+        draw_menu(14);
+        session_->draw();
+    }
+    EXPECT_TRUE(session_->capture() == without);
     session_->set("pt_accumulate", 0);
-    session_->set("pt_light_visibility", 1);
-    session_->set("pt_indirect", "cache");
+    learn_from_frames(true);
 }
 
 // However little of the menu's view it fills.
@@ -202,8 +201,7 @@ TEST_F(Filters, AMenusModelIsShownAsItsPicture)
 TEST_F(Filters, PauseKeepsTheHistoryAndRewindDropsIt)
 {
     session_->set("flt_taa", "off");
-    session_->set("pt_light_visibility", 0); // it and the light cache learn from all frames, whatever their time
-    session_->set("pt_indirect", "trace");
+    learn_from_frames(false);
     session_->draw();
     const Radiance first = session_->capture();
     session_->draw(10);
@@ -214,8 +212,7 @@ TEST_F(Filters, PauseKeepsTheHistoryAndRewindDropsIt)
     session_->view.time = 0.5f;
     session_->draw();
     EXPECT_TRUE(session_->capture() == first);
-    session_->set("pt_light_visibility", 1);
-    session_->set("pt_indirect", "cache");
+    learn_from_frames(true);
 }
 
 // Lights in mid-air whose reach ends before all that is seen come and go, and with them the lists: nobody may notice.

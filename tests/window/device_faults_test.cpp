@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What drivers of GPUs and displays may do to a window, and CPU drivers do not: by the layer of faults.
-#include "ref_vkpt/extension.hpp"
 #include "tests/fault_layer/faults.hpp"
 #include "tests/window/mock_window.hpp"
 
 #include <algorithm>
 #include <chrono>
-#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <vector>
 
@@ -62,9 +60,8 @@ TEST_F(Presenting, DrawsOnWhileHdrIsSwitched)
     ASSERT_TRUE(module.is_running());
     const auto picture = [&] {
         module.draw(3);
-        const auto door = reinterpret_cast<GetExtension>(dlsym(module.library(), "vkpt_extension"));
         std::vector<uint8_t> pixels(size_t(window.width) * size_t(window.height) * 4);
-        EXPECT_TRUE(door(extension_version)->capture_display(pixels.data()));
+        EXPECT_TRUE(module.extension().capture_display(pixels.data()));
         return pixels;
     };
     const std::vector<uint8_t> expected = picture();

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A window on a display of double density has four times the pixels that the engine asked for.
-#include "ref_vkpt/extension.hpp"
 #include "tests/window/mock_window.hpp"
 
-#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 namespace vkpt::tests {
@@ -26,8 +24,7 @@ TEST(WindowOfHighDensity, IsFilledFromTheFirstFrameOn)
         expect_size(module.exports());
         module.draw(3);
         expect_size(module.exports());
-        const auto door = reinterpret_cast<GetExtension>(dlsym(module.library(), "vkpt_extension"));
-        const ImageSize picture = door(extension_version)->frame_size();
+        const ImageSize picture = module.extension().frame_size();
         EXPECT_EQ(picture.width, 96 * density);
         EXPECT_EQ(picture.height, 64 * density);
     }

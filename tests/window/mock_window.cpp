@@ -96,6 +96,11 @@ ModuleInWindow::~ModuleInWindow()
 
 const engine::Exports8& ModuleInWindow::exports() const { return table_->exports; }
 
+const Extension& ModuleInWindow::extension() const
+{
+    return *reinterpret_cast<GetExtension>(dlsym(library_, "vkpt_extension"))(extension_version);
+}
+
 void ModuleInWindow::draw(int frames) const
 {
     for (int frame = 0; frame < frames; frame++) {

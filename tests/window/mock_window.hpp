@@ -3,6 +3,7 @@
 // surface without a display.
 #pragma once
 
+#include "ref_vkpt/extension.hpp"
 #include "tests/contract/mock_engine.hpp"
 
 #include <cstdint>
@@ -34,7 +35,7 @@ public:
 
     bool is_running() const { return running_; }
     const engine::Exports8& exports() const;
-    void* library() const { return library_; }
+    const Extension& extension() const;
     // Frames of 2D alone.
     void draw(int frames = 1) const;
     void shut_down();
