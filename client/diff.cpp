@@ -30,7 +30,7 @@ struct DiffOptions {
 
 struct Difference {
     ImageError error;
-    double flip = 0, low_to_high = 0;
+    double flip = 0, low_to_high = 0, specks = 0;
     std::vector<float> flip_map;
 };
 
@@ -59,17 +59,19 @@ Difference measure(const DiffOptions& options, const LinearImage& reference, con
     result.low_to_high = measure_tiled_spectrum(
         { relative_errors(reference, picture) }, size_t(reference.width), size_t(reference.height))
                              .low_to_high();
+    result.specks = measure_specks(reference, picture);
     return result;
 }
 
 void print(const DiffOptions& options, const std::vector<Difference>& differences)
 {
     if (!options.json) {
-        fmt::print("{:>10} {:>10} {:>10} {:>10} {:>10}\n", "rmse", "rel_mse", "mean_diff", "flip", "low/high");
+        fmt::print("{:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n", "rmse", "rel_mse", "mean_diff", "flip", "low/high",
+            "specks %");
         for (size_t i = 0; i < differences.size(); i++)
-            fmt::print("{:>10.5f} {:>10.5f} {:>+10.5f} {:>10.5f} {:>10.3f}  {}\n", differences[i].error.rmse,
+            fmt::print("{:>10.5f} {:>10.5f} {:>+10.5f} {:>10.5f} {:>10.3f} {:>10.3f}  {}\n", differences[i].error.rmse,
                 differences[i].error.relative_mse, differences[i].error.mean_difference, differences[i].flip,
-                differences[i].low_to_high, options.pictures[i]);
+                differences[i].low_to_high, 100 * differences[i].specks, options.pictures[i]);
         return;
     }
     nlohmann::ordered_json json { { "schema", diff_schema }, { "reference", options.reference } };
@@ -77,7 +79,7 @@ void print(const DiffOptions& options, const std::vector<Difference>& difference
         json["pictures"].push_back({ { "file", options.pictures[i] }, { "rmse", differences[i].error.rmse },
             { "rel_mse", differences[i].error.relative_mse },
             { "mean_difference", differences[i].error.mean_difference }, { "flip", differences[i].flip },
-            { "spectrum_low_high", differences[i].low_to_high } });
+            { "spectrum_low_high", differences[i].low_to_high }, { "specks", differences[i].specks } });
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
@@ -135,6 +137,7 @@ void add_diff_command(CLI::App& program)
                     "mean_diff difference of the means / mean of the reference\n"
                     "flip      0 equal .. 1, what a viewer sees flipping between the two (Andersson et al. 2020)\n"
                     "low/high  power of the error below 1/8 cycle per pixel divided by that above; white noise has 1\n"
+                    "specks %  pixels brighter than 1.6 times the reference, and than the same of their surroundings\n"
                     "Example: vkpt diff reference.pfm picture.pfm -o heat.png");
     command->callback([options] { run_diff(*options); });
 }

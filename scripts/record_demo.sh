@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Records our demo anew, through the real engine: plays the route of scripts/demo_route.cfg in our map.
 #
-#   scripts/record_demo.sh [ROUTE.cfg [DEMO.dm2]]      default: scripts/demo_route.cfg, baseq2/demos/vkpt1.dm2
+#   scripts/record_demo.sh [ROUTE.cfg [DEMO.dm2 [MAP.bsp]]]      default: scripts/demo_route.cfg, baseq2/demos/vkpt1.dm2
 #
+# MAP.bsp: a map file to play in instead of ours.
 # The route is a list of console commands; it starts when the player stands in the map and ends with the recording. What is
 # stored about the demo's frames has to be made anew with it: VKPT_UPDATE_STATISTICS=1 ./test -- -R DemoFrames
 set -uo pipefail
@@ -11,13 +12,17 @@ root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
 . "$root/scripts/lib/common.sh"
 route=${1:-$root/scripts/demo_route.cfg}
 demo=${2:-$root/baseq2/demos/vkpt1.dm2}
-[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '3,9s/^# \?//p' "$0"; exit 0; }
+map=${3:-}
+[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '3,10s/^# \?//p' "$0"; exit 0; }
 [[ -r $route ]] || die "no route $route"
+[[ -z $map || -r $map ]] || die "no map $map"
 
 folder=$(mktemp -d)
 chmod 755 "$folder"
 trap 'rm -rf "$folder"' EXIT
-mkdir -p "$folder/files"
+mkdir -p "$folder/files/maps"
+[[ -z $map ]] || cp "$map" "$folder/files/maps/" || die "cannot copy $map"
+map_name=$(basename "${map:-vkpt1}" .bsp)
 cp "$route" "$folder/files/route.cfg"
 # Routes may use our game module's commands. Without a game directory of its own, the demo plays wherever our data is.
 cp "$build_dir/game/vkpt/game.so" "$folder/files/game.so" || die "no game module; build first: cmake --build --preset release"
@@ -38,7 +43,7 @@ CFG
 cpu_driver=$(find /usr/share/vulkan/icd.d -name 'lvp_icd*.json' 2>/dev/null | head -n 1)
 export VK_ICD_FILENAMES=${cpu_driver:-${VK_ICD_FILENAMES:-}}
 run_step record-demo "Recording ${demo##*/}" "$root/scripts/run_engine.sh" "$folder" 320x180 \
-    +set fixedtime 16667 +set pt_bounces 2 +set deathmatch 0 +set maxclients 1 +map vkpt1 +exec record.cfg \
+    +set fixedtime 16667 +set pt_bounces 2 +set deathmatch 0 +set maxclients 1 +map "$map_name" +exec record.cfg \
     || die "the engine did not play the route"
 recorded=$folder/home/.yq2/baseq2/demos/new.dm2
 [[ -s $recorded ]] || die "the engine recorded nothing; its console: $folder/home/.yq2/baseq2/qconsole.log"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "client/analysis/error.hpp"
 
+#include "common/quantile.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -62,6 +64,32 @@ std::vector<double> relative_errors(const LinearImage& reference, const LinearIm
     for (size_t i = 0; i < truth.size(); i++)
         errors[i] = (double(values[i]) - double(truth[i])) / (double(truth[i]) + floor);
     return errors;
+}
+
+double measure_specks(const LinearImage& reference, const LinearImage& image)
+{
+    check_sizes(reference, image);
+    const std::vector<float> truth = luminances(reference), values = luminances(image);
+    const double floor = 0.02 * scale_of(reference);
+    std::vector<double> ratios(truth.size());
+    for (size_t i = 0; i < truth.size(); i++)
+        ratios[i] = (double(values[i]) + floor) / (double(truth[i]) + floor);
+    constexpr int reach = 3;
+    const auto median_around = [&](int x, int y) {
+        std::vector<double> around;
+        for (int row = y - reach; row <= y + reach; row++)
+            for (int column = x - reach; column <= x + reach; column++)
+                around.push_back(ratios[size_t(std::clamp(row, 0, image.height - 1)) * size_t(image.width)
+                    + size_t(std::clamp(column, 0, image.width - 1))]);
+        return find_median(std::move(around));
+    };
+    size_t count = 0;
+    for (int y = 0; y < image.height; y++)
+        for (int x = 0; x < image.width; x++) {
+            const double ratio = ratios[size_t(y) * size_t(image.width) + size_t(x)];
+            count += ratio > speck_factor && ratio > speck_factor * median_around(x, y);
+        }
+    return double(count) / double(ratios.size());
 }
 
 double student_quantile(size_t degrees_of_freedom)

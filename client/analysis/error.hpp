@@ -24,6 +24,12 @@ ImageError average_errors(std::span<const ImageError> errors);
 // Error of each pixel's luminance by (reference + 1 % of the reference's mean): what spectra are made of.
 std::vector<double> relative_errors(const LinearImage& reference, const LinearImage& image);
 
+// Share of pixels (0 to 1) that are specks: brighter than speck_factor times the reference, and than speck_factor times
+// the median of the pixels around (7 x 7) in the ratio of picture to reference. Both have 2 % of the reference's mean
+// added. So a place that is too bright as a whole is none.
+inline constexpr double speck_factor = 1.6;
+double measure_specks(const LinearImage& reference, const LinearImage& image);
+
 // A mean and the half width of its 95 % confidence interval.
 struct Estimate {
     double mean = 0, interval = 0;

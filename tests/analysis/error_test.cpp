@@ -41,6 +41,30 @@ TEST(ImageError, AveragesSquares)
     EXPECT_NEAR(mean.mean_difference, 0, 1e-12);
 }
 
+TEST(Specks, ArePixelsThatStandOutOfTheirSurroundings)
+{
+    const LinearImage reference = grey(20, 20, { 1 });
+    LinearImage image = reference;
+    const auto set = [&image](int x, int y, float value) {
+        for (int channel = 0; channel < 3; channel++)
+            image.rgb[size_t(3 * (y * image.width + x) + channel)] = value;
+    };
+    EXPECT_EQ(measure_specks(reference, image), 0);
+    set(10, 10, 1.7f); // (1.7 + .02) / 1.02 is more than 1.6
+    set(0, 19, 5); // at the edge
+    set(15, 3, 1.6f); // and this is less
+    set(3, 3, 0); // dark ones are none
+    EXPECT_DOUBLE_EQ(measure_specks(reference, image), 2.0 / 400);
+    // The same pixels where the image is twice as bright as it should be: no more than their surroundings.
+    for (float& value : image.rgb)
+        value = 2;
+    set(10, 10, 3);
+    EXPECT_EQ(measure_specks(reference, image), 0);
+    set(10, 10, 3.4f);
+    EXPECT_DOUBLE_EQ(measure_specks(reference, image), 1.0 / 400);
+    EXPECT_THROW(measure_specks(reference, grey(1, 2, { 1 })), std::invalid_argument);
+}
+
 TEST(Student, HasTheTablesQuantiles)
 {
     const std::pair<size_t, double> rows[] = { { 15, 2.1314 }, { 30, 2.0423 }, { 1000, 1.9623 } };

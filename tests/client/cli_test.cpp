@@ -396,7 +396,7 @@ TEST_F(Cli, DiffMeasuresAndDraws)
     const nlohmann::json json = nlohmann::json::parse(same.output);
     EXPECT_EQ(json.at("schema"), 1);
     const nlohmann::json& picture = json.at("pictures").at(0);
-    for (const char* name : { "rmse", "rel_mse", "mean_difference", "flip" })
+    for (const char* name : { "rmse", "rel_mse", "mean_difference", "flip", "specks" })
         EXPECT_EQ(picture.at(name), 0) << name;
     EXPECT_EQ(picture.at("file"), "a.exr");
     const ProgramResult heat = run({ "diff", "a.pfm", "a.exr", "-o", "heat.png" });

@@ -253,6 +253,72 @@ TEST_F(Denoiser, NarrowLightsStayNarrow)
     EXPECT_LT(in_motion, 0.009); // .0080; .0103 if moments, instead of variances, were averaged over places
 }
 
+// What pixels that should be dark beside bright ones (below a fifth of their brightest neighbour) have too much, as a
+// share of those neighbours' light.
+float light_on_dark_lines(const Radiance& picture, const Radiance& reference)
+{
+    const auto brightest_around = [&reference](int x, int y) {
+        float brightest = 0;
+        for (int tap = 0; tap < 9; tap++)
+            brightest = std::max(brightest, luminance(reference.at(x + tap % 3 - 1, y + tap / 3 - 1)));
+        return brightest;
+    };
+    float excess = 0, bright = 0;
+    int count = 0;
+    for (int y = 1; y + 1 < reference.height; y++)
+        for (int x = 1; x + 1 < reference.width; x++) {
+            if (luminance(reference.at(x, y)) > 0.2f * brightest_around(x, y))
+                continue;
+            excess += luminance(picture.at(x, y)) - luminance(reference.at(x, y));
+            bright += brightest_around(x, y);
+            count++;
+        }
+    EXPECT_GT(count, 40);
+    return excess / bright;
+}
+
+// Mean of unfiltered frames: unlike accumulate(), with camera rays through the pixels' centres, as the filters have it.
+Radiance average_frames(Session& session, int frames)
+{
+    session.set("flt_denoiser", "off");
+    Radiance sum;
+    for (int frame = 0; frame < frames; frame++) {
+        session.draw();
+        const Radiance now = session.capture();
+        if (frame == 0)
+            sum = now;
+        else
+            for (size_t i = 0; i < sum.pixels.size(); i++)
+                sum.pixels[i] += now.pixels[i];
+    }
+    for (glm::vec3& pixel : sum.pixels)
+        pixel /= float(frames);
+    return sum;
+}
+
+// The wall right under a ledge is dark for a pixel or two, and bright below.
+TEST_F(Denoiser, DarkLinesStayDark)
+{
+    folder_.add_wall("lamp", white_index);
+    MapBuilder map;
+    map.add_room({ -200, -200, 0 }, { 200, 200, 200 }, map.add_material("wall"));
+    map.add_block({ -200, 170, 120 }, { 200, 199, 130 }, map.add_material("wall"));
+    map.add(rectangle({ -100, -100, 190 }, { 0, 200, 0 }, { 200, 0, 0 }), map.add_material("lamp", 0, 100));
+    folder_.add_map("ledge", map.finish());
+    Session session(folder_,
+        { { "pt_seed", "0" }, { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "flt_taa", "off" } },
+        { 192, 108 });
+    session.set("flt_denoiser", "asvgf");
+    session.load_map("ledge");
+    session.look({ 0, -150, 60 }, { -5, 90, 0 });
+    session.draw(32);
+    const Radiance filtered = session.capture();
+    const float light = light_on_dark_lines(filtered, average_frames(session, 128));
+    RecordProperty("light", std::to_string(light));
+    EXPECT_LT(light, 0.05f);
+    EXPECT_GT(light, -0.05f);
+}
+
 // After a cut a picture is what it would be as the very first one. What the light cache knows outlives cuts.
 TEST_F(Denoiser, CutsDropTheHistory)
 {
