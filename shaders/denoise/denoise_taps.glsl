@@ -69,15 +69,20 @@ float min_variance(float l)
     return least * least;
 }
 
-// How much of a brighter tap's own deviation counts. It counts in full up to so many times of the pixel's luminance, and
+// How much of a tap's own variance counts, for either lobe. All of it up to so many times of the pixel's luminance, and
 // beyond that as if the tap were no brighter: a tap's deviation grows with its light, so one that is twenty times
 // brighter would count as alike, and a dark line of a pixel's width (the gap under a ledge) would fill up.
 const float max_times_brighter_tap = 3.0;
-vec2 share_of_deviations(vec2 pixel, vec2 tap)
+vec2 counted_variance(vec2 pixel, vec2 tap)
 {
-    vec2 reach = max_times_brighter_tap * max_times_brighter_tap * pixel * pixel + 1e-11,
-         divisor = quick_max(tap * tap, reach);
+    vec2 reach = max_times_brighter_tap * max_times_brighter_tap * pixel * pixel + 1e-11;
+    vec2 divisor = quick_max(tap * tap, reach);
     return reach * divisor.yx * (1.0 / (divisor.x * divisor.y));
+}
+
+float tap_allowed_square(float deviation, float counted)
+{
+    return allowed_square(deviation) * (is_known(deviation) ? counted : 1.0);
 }
 
 // The pixel that is filtered.
@@ -143,10 +148,10 @@ void add_neighbour(inout Sums diffuse, inout Sums specular, Pixel pixel, ScreenB
     // For either lobe 1 / (1 + luminance_fall x^2)^2, with x the difference in what is allowed; a division for both.
     float diffuse_luminance = luminance(light.diffuse), specular_luminance = luminance(light.specular);
     vec2 off = vec2(diffuse_luminance - pixel.diffuse_luminance, specular_luminance - pixel.specular_luminance);
-    vec2 counted = share_of_deviations(vec2(pixel.diffuse_luminance, pixel.specular_luminance),
-        vec2(diffuse_luminance, specular_luminance));
-    vec2 allowed = vec2(pixel.diffuse_allowed + allowed_square(light.diffuse_deviation) * counted.x,
-        pixel.specular_allowed + allowed_square(light.specular_deviation) * counted.y);
+    vec2 counted = counted_variance(
+        vec2(pixel.diffuse_luminance, pixel.specular_luminance), vec2(diffuse_luminance, specular_luminance));
+    vec2 allowed = vec2(pixel.diffuse_allowed + tap_allowed_square(light.diffuse_deviation, counted.x),
+        pixel.specular_allowed + tap_allowed_square(light.specular_deviation, counted.y));
     vec2 all = allowed + luminance_fall * off * off;
     vec2 share = allowed * all.yx * (1.0 / (all.x * all.y));
     share *= share * weight;
