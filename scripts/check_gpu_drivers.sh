@@ -81,7 +81,7 @@ fail() {
 draw() {
     rm -rf "$folder/cache" "$folder/statistics"
     mkdir "$folder/cache"
-    env LD_PRELOAD="$shim" AMDGPU_GPU_ID="$1" VK_ICD_FILENAMES="$icd" VK_DRIVER_FILES="$icd" XDG_CACHE_HOME="$folder/cache" \
+    env LD_PRELOAD="$shim" AMDGPU_GPU_ID="$1" VK_ICD_FILENAMES="$icd" VK_DRIVER_FILES="$icd" XDG_CACHE_HOME="$folder/cache" VKPT_CACHE_DIR="$folder/cache" \
         MESA_SHADER_CACHE_DISABLE=1 VKPT_PIPELINE_STATISTICS="$folder/statistics" \
         "$vkpt" render "$3" --basedir "$base_folder" --size 128x96 --frames 4 --verbose -o "$folder/picture.png" \
         --set pt_trace="$2" --set pt_validation=1 --set flt_denoiser=asvgf --set flt_taa=upscale >"$folder/console" 2>&1

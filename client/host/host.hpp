@@ -84,6 +84,7 @@ private:
     engine::Exports8 exports_ {};
     const Extension* extension_ = nullptr;
     bool is_started_ = false;
+    bool keeps_context_ = false; // while the module starts once more, in another size
 };
 
 } // namespace vkpt::client

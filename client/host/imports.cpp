@@ -58,6 +58,19 @@ std::vector<formats::Rgba8> to_rgba(int width, int height, int bytes_per_pixel, 
 
 void HostImports::bind(Host* new_host) { host = new_host; }
 
+void HostImports::resize(Host& resized, int width, int height)
+{
+    resized.options_.width = width;
+    resized.options_.height = height;
+    resized.cvars_.set("r_customwidth", std::to_string(width));
+    resized.cvars_.set("r_customheight", std::to_string(height));
+    resized.keeps_context_ = true;
+    const bool is_on = engine::is_true(resized.exports_.init());
+    resized.keeps_context_ = false;
+    if (!is_on)
+        throw Failure("the refresh module did not start again; it said:\n" + resized.console_tail());
+}
+
 void HostImports::use_files(Host& reader, FileSystem* files) { reader.files_ = files; }
 
 void HostImports::add_commands(engine::Imports& imports)
@@ -129,11 +142,11 @@ void HostImports::add_video(engine::Imports& imports)
         }
     };
     imports.init_graphics = [](int, int* width, int* height) -> engine::QBoolean {
-        if (host->exports_.prepare_for_window() == -1)
+        if (!host->keeps_context_ && host->exports_.prepare_for_window() == -1)
             return 0;
         *width = host->options_.width;
         *height = host->options_.height;
-        return host->exports_.init_context(nullptr) != 0;
+        return host->keeps_context_ || host->exports_.init_context(nullptr) != 0;
     };
     imports.desktop_mode = [](int* width, int* height) -> engine::QBoolean {
         *width = host->options_.width;

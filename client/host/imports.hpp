@@ -14,6 +14,9 @@ struct HostImports {
     static engine::Imports table();
     // From now on the host reads from these; nullptr: there are none.
     static void use_files(Host& host, FileSystem* files);
+    // From the next frame on pictures have this size. As in an engine that starts its renderer once more and keeps the
+    // context: devices and pipelines stay.
+    static void resize(Host& host, int width, int height);
 
 private:
     static void add_commands(engine::Imports& imports);

@@ -3,8 +3,8 @@
 // its longest edge.
 #pragma once
 
-#include "shaders/shared/light_cache.h"
 #include "ref_vkpt/lights/light_lists.hpp"
+#include "shaders/shared/light_cache.h"
 
 #include <cstdint>
 #include <glm/vec2.hpp>

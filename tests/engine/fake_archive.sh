@@ -11,7 +11,7 @@ architecture=$(dpkg --print-architecture)
 # add_package SUITE COMPONENT NAME VERSION [DEPENDS [MORE-FIELDS]]
 add_package() {
     local packages=$archive/dists/$1/$2/binary-$architecture/Packages
-    mkdir -p "${packages%/*}"
+    [[ -d ${packages%/*} ]] || mkdir -p "${packages%/*}"
     {
         printf 'Package: %s\nVersion: %s\nArchitecture: %s\nMaintainer: nobody\nDescription: a name\n' "$3" "$4" "$architecture"
         printf 'Filename: pool/%s_%s.deb\nSize: 1000000\nSHA256: %064d\n' "$3" "$4" 0
@@ -39,30 +39,33 @@ finish_suite() {
                 "$(stat -c %s "${component}binary-$architecture/Packages")" "${component}binary-$architecture/Packages"
         done)
     } >"$archive/dists/$1/Release"
+    rm -rf "$folder/known_lists"
 }
 
-# print_stanza NAME VERSION: from whichever suite has it.
-print_stanza() {
-    cat "$archive"/dists/*/*/binary-*/Packages \
-        | awk -v RS='' -v name="$1" -v version="$2" '$0 ~ "^Package: " name "\n" && index($0, "\nVersion: " version "\n") && !done { print $0; done = 1 }' \
-        | grep -vE '^(Filename|Size|SHA256):'
-}
-
-# install_fake NAME VERSION: the machine has it from now on, in place of another version.
-install_fake() {
-    remove_fake "$1"
-    print_stanza "$1" "$2" | sed '1a Status: install ok installed' >>"$machine/dpkg/status"
-    echo >>"$machine/dpkg/status"
-    grep -q "^Package: $1$" "$machine/dpkg/status" || echo "no $1 $2 in the archive" >&2
-}
-remove_fake() {
-    awk -v RS='' -v ORS='\n\n' -v name="$1" '$0 !~ "^Package: " name "\n"' "$machine/dpkg/status" >"$machine/status.new"
+# change_fakes: the machine has these from now on, in place of other versions: lines "NAME VERSION", or "NAME" for what it loses. All in
+# one go: a process for each of hundreds of packages takes minutes.
+change_fakes() {
+    awk -v ORS='\n\n' '
+        phase == "changes" { wanted[$1] = $2; next }
+        phase == "status" { if (!($2 in wanted)) print; next }
+        wanted[$2] != "" && !($2 in found) && index($0, "\nVersion: " wanted[$2] "\n") {
+            found[$2] = 1
+            gsub(/\n(Filename|Size|SHA256):[^\n]*/, "")
+            sub(/\n/, "\nStatus: install ok installed\n")
+            print
+        }
+        END {
+            for (name in wanted)
+                if (wanted[name] != "" && !(name in found)) print "no " name " " wanted[name] " in the archive" >"/dev/stderr"
+        }' phase=changes - RS= phase=status "$machine/dpkg/status" phase=archive "$archive"/dists/*/*/binary-*/Packages >"$machine/status.new"
     mv "$machine/status.new" "$machine/dpkg/status"
 }
+install_fake() { change_fakes <<<"$1 $2"; } # NAME VERSION
 has_fake() { dpkg-query --admindir="$machine/dpkg" -W -f '${Version}' "$1" 2>/dev/null; }
 
-# new_machine SUITE: a machine with one source, package lists and no packages.
+# new_machine SUITE: a machine with one source, package lists and no packages. Machines begin with the same lists until the archive changes.
 new_machine() {
+    local known=$folder/known_lists/$1
     rm -rf "$machine"
     mkdir -p "$machine"/{apt/sources.list.d,apt/preferences.d,dpkg/{info,updates},lists,cache,dev/dri,proc,vulkan,record}
     : >"$machine/dpkg/status"
@@ -75,7 +78,12 @@ Dir::State::Lists "$machine/lists";
 Dir::Cache "$machine/cache";
 $(print_machine_settings)
 CONF
-    fake_apt apt-get update >/dev/null 2>&1
+    if [[ ! -d $known ]]; then
+        fake_apt apt-get update >/dev/null 2>&1
+        mkdir -p "$folder/known_lists" && cp -a "$machine/lists" "$known"
+    else
+        cp -a "$known/." "$machine/lists/"
+    fi
 }
 # What the scripts' own copies need to be told, too.
 print_machine_settings() {
@@ -89,20 +97,20 @@ APT::Sandbox::User "";
 Acquire::AllowInsecureRepositories "true";
 APT::Get::AllowUnauthenticated "true";
 Debug::NoLocking "true";
+#clear APT::Update::Pre-Invoke;
+#clear APT::Update::Post-Invoke;
+#clear APT::Update::Post-Invoke-Success;
 CONF
 }
 fake_apt() { LC_ALL=C "$1" -q -c "$machine/apt.conf" "${@:2}"; }
 
 # In place of the real `apt-get update` and `install` of the scripts: what apt would do is done to the list of what is installed.
 play_apt() {
-    local kind name version
     echo "$*" >>"$machine/calls"
     if [[ $1 == update ]]; then
         fake_apt apt-get update
         return
     fi
     fake_apt apt-get -s "$@" >"$machine/simulation" || return 1
-    while read -r kind name version _; do
-        if [[ $kind == remove ]]; then remove_fake "$name"; else install_fake "$name" "$version"; fi
-    done < <(read_simulation <"$machine/simulation")
+    read_simulation <"$machine/simulation" | awk '{ print $2, $1 == "remove" ? "" : $3 }' | change_fakes
 }

@@ -4,7 +4,7 @@
 #   gallery_test.sh BUILD_DIR      exit status 77: there is no engine with gl3 here
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/../.." && pwd)
-export VKPT_BUILD_DIR=$1
+export VKPT_BUILD_DIR=$1 VKPT_CACHE_DIR=$1/tests/engine/cache # which the player's user may write to
 . "$root/scripts/lib/common.sh"
 . "$root/scripts/lib/engine.sh"
 engine=$(find_engine)

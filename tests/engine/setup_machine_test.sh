@@ -110,17 +110,20 @@ release_number() { [[ $suite_of_machine == trixie ]] && echo 13 || echo 12; }
 
 # start_machine SUITE PACKAGE...: a machine of that release with these packages, NAME or NAME=VERSION.
 start_machine() {
-    local package version
+    local package
+    local -a newest=() named=()
     suite_of_machine=$1
     new_machine "$1"
     apt_extra_settings=$(print_machine_settings)
     rm -rf "$log_dir"
     answer_yes=yes
     for package in libc6 systemd libudev1 udev "${@:2}"; do
-        version=${package#*=}
-        [[ $package == *=* ]] || version=$(fake_apt apt-cache policy "$package" | sed -n 's/^ *Candidate: //p')
-        install_fake "${package%%=*}" "$version"
+        if [[ $package == *=* ]]; then named+=("${package/=/ }"); else newest+=("$package"); fi
     done
+    {
+        fake_apt apt-cache policy "${newest[@]}" | awk '/^[^ ]/ { sub(/:$/, ""); name = $0 } $1 == "Candidate:" { print name, $2 }'
+        ((${#named[@]} == 0)) || printf '%s\n' "${named[@]}"
+    } | change_fakes
 }
 set_up() { (set_up_machine) >"$folder/output" 2>&1; }
 # The last run's changes, but for the many packages of the list without dependencies: how many, and what else.
@@ -203,9 +206,11 @@ expect_equal "a GPU: no backports" 'Suites: bookworm Components: contrib' "$(pri
 start_machine bookworm
 echo "deb file:$archive bookworm-backports main" >>"$machine/apt/sources.list"
 fake_apt apt-get update >/dev/null 2>&1
-for name in libdrm2 libdrm-common libdrm-amdgpu1 libdrm-intel1 libdrm-nouveau2 libdrm-radeon1; do install_fake "$name" 2.4.123-1~bpo12+1; done
-for name in libgbm1 libgl1-mesa-dri mesa-vulkan-drivers; do install_fake "$name" 25.0.7-2~bpo12+1; done
-install_fake libwayland-client0 1.23.0-1~bpo12+1
+{
+    printf '%s 2.4.123-1~bpo12+1\n' libdrm2 libdrm-common libdrm-amdgpu1 libdrm-intel1 libdrm-nouveau2 libdrm-radeon1
+    printf '%s 25.0.7-2~bpo12+1\n' libgbm1 libgl1-mesa-dri mesa-vulkan-drivers
+    echo libwayland-client0 1.23.0-1~bpo12+1
+} | change_fakes
 gpu
 set_up || expect_equal "a GPU with drivers from backports: status" 0 "$(cat "$folder/output")"
 expect_equal "a GPU with drivers from backports: what is built with them goes with them" "new libc6-dev 2.36-9+deb12u13

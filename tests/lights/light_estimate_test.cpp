@@ -168,7 +168,7 @@ std::vector<EstimateSetup> all_setups()
         if (all_samplers()[sampler].has(shared::SAMPLER_BIASED))
             continue; // see BiasedSamplersFailTheTest
         for (const size_t count : { 1, 7, 8, 9, 64, 1000 })
-            for (const uint32_t subset_length : { 1, 8, 64 })
+            for (const uint32_t subset_length : subset_lengths(all_samplers()[sampler]))
                 setups.push_back({ sampler, count, subset_length });
     }
     return setups;

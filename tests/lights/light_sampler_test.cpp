@@ -26,7 +26,7 @@ std::vector<SamplerSetup> make_setups(bool with_biased)
     std::vector<SamplerSetup> setups;
     for (size_t sampler = 0; sampler < all_samplers().size(); sampler++)
         for (const size_t count : { 1, 7, 8, 9, 64, 1000 })
-            for (const uint32_t subset_length : { 1, 8, 64 })
+            for (const uint32_t subset_length : subset_lengths(all_samplers()[sampler]))
                 for (const double zero_share : { 0.0, 0.5 })
                     if (with_biased || !all_samplers()[sampler].has(shared::SAMPLER_BIASED))
                         setups.push_back({ sampler, count, subset_length, zero_share });
@@ -153,8 +153,9 @@ TEST_P(UnbiasedLightSampler, ContributionsOfEachGroupAreFound)
     const ListCase lights = list();
     const std::map<uint32_t, size_t> groups = find_groups(lights);
     std::vector<double> wanted(group_count(lights));
+    std::vector<double> contributions(lights.emitters.size());
     for (const auto& [emitter, group] : groups)
-        wanted[group] += double(sampler().contribution(lights, emitter, options()));
+        wanted[group] += contributions[emitter] = double(sampler().contribution(lights, emitter, options()));
     struct Sums {
         double values = 0, squares = 0;
     };
@@ -166,7 +167,7 @@ TEST_P(UnbiasedLightSampler, ContributionsOfEachGroupAreFound)
         if (picked.emitter < 0)
             continue;
         const uint32_t emitter = uint32_t(picked.emitter);
-        const double value = double(sampler().contribution(lights, emitter, options())) / double(picked.probability);
+        const double value = contributions[emitter] / double(picked.probability);
         Sums& sum = sums[groups.at(emitter)];
         sum.values += value;
         sum.squares += value * value;
@@ -273,6 +274,36 @@ std::string name_setup(const testing::TestParamInfo<SamplerSetup>& info)
 
 INSTANTIATE_TEST_SUITE_P(All, LightSampler, testing::ValuesIn(make_setups(true)), name_setup);
 INSTANTIATE_TEST_SUITE_P(All, UnbiasedLightSampler, testing::ValuesIn(make_setups(false)), name_setup);
+
+// So that one length stands for all in the tests above.
+TEST(LightSamplers, WithoutSubsetsTakeNoNoticeOfTheirLength)
+{
+    int seen = 0;
+    for (const Sampler& sampler : all_samplers()) {
+        if (sampler.has(shared::SAMPLER_USES_SUBSET))
+            continue;
+        seen++;
+        for (const size_t count : { 1, 7, 8, 9, 64, 1000 }) {
+            const ListCase lights = make_random_list(count, 0.5, 11);
+            std::mt19937 rng(3);
+            for (int i = 0; i < 200; i++) {
+                const Draw draw = make_draw(rng);
+                const PickedLight one = sampler.pick(lights, draw, { 1 });
+                const uint32_t asked = lights.light_at(size_t(i) % lights.light_count());
+                for (const uint32_t length : { 8, 64 }) {
+                    const PickedLight other = sampler.pick(lights, draw, { length });
+                    EXPECT_EQ(one.emitter, other.emitter) << sampler.name;
+                    EXPECT_EQ(one.probability, other.probability) << sampler.name;
+                    EXPECT_EQ(one.point, other.point) << sampler.name;
+                    EXPECT_EQ(sampler.probability(lights, asked, draw, { 1 }),
+                        sampler.probability(lights, asked, draw, { length }))
+                        << sampler.name;
+                }
+            }
+        }
+    }
+    EXPECT_GT(seen, 0);
+}
 
 TEST(LightSamplers, EmptyAndDarkListsGiveNothing)
 {

@@ -185,4 +185,11 @@ bool has_fixed_probabilities(const Sampler& sampler)
     return true;
 }
 
+std::vector<uint32_t> subset_lengths(const Sampler& sampler)
+{
+    if (sampler.has(shared::SAMPLER_USES_SUBSET))
+        return { 1, 8, 64 };
+    return { 8 };
+}
+
 } // namespace vkpt::test

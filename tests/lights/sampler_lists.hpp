@@ -24,4 +24,7 @@ ListCase make_uneven_list();
 // Whether light_probability does not depend on random numbers.
 bool has_fixed_probabilities(const Sampler& sampler);
 
+// The values of pt_light_subset that a sampler's tests go through: one where it means nothing.
+std::vector<uint32_t> subset_lengths(const Sampler& sampler);
+
 } // namespace vkpt::test

@@ -66,6 +66,7 @@ TEST_F(FrameTimes, AreCollectedByTurns)
 {
     CvarList cvars = filters;
     cvars.emplace_back("pt_times", "1");
+    Session::end_idle(); // once all have been asked for, there are no turns
     Session session(folder, cvars);
     begin(session);
     session.draw(4);

@@ -83,7 +83,6 @@ TEST_F(NormalMaps, FlatOnesChangeNothing)
 {
     Radiance plain;
     for (const bool mapped : { false, true }) {
-        Session::end_idle();
         if (mapped)
             add_normals("textures/floor_n.tga", [](int, int) { return glm::vec3(0, 0, 1); });
         Session session = open();
@@ -112,7 +111,6 @@ TEST_F(NormalMaps, TiltAlongTheTexturesAxes)
         flat = see(session);
     }
     for (const auto& one : cases) {
-        Session::end_idle();
         add_tilt(one.in_texture);
         Session session = open();
         session.load_map("floor");
@@ -126,7 +124,6 @@ TEST_F(NormalMaps, AreScaledByMaterialAndCvar)
 {
     add_tilt({ 0.6f, 0, 0.8f });
     add_text("maps/floor.mat", "floor:\n    bump_scale 0.5\n");
-    Session::end_idle();
     Session session = open();
     session.load_map("floor");
     look(session);
@@ -141,7 +138,6 @@ TEST_F(NormalMaps, AreScaledByMaterialAndCvar)
 TEST_F(NormalMaps, AreBentToTheViewer)
 {
     add_tilt({ 0.95f, 0, 0.31f });
-    Session::end_idle();
     Session session = open();
     session.load_map("floor");
     for (const float height : { 4.0f, 20.0f }) {
@@ -167,7 +163,6 @@ TEST_F(NormalMaps, NeverAddLight)
     map.add_room({ -512, -512, -1 }, { 512, 512, 511 }, map.add_material("sky", formats::SURF_SKY));
     map.add(rectangle({ 0, 0, 0 }, { 64, 0, 0 }, { 0, 64, 0 }), map.add_material("floor"));
     folder_.add_map("open", map.finish());
-    Session::end_idle();
     Session session = open();
     session.load_map("open");
     session.look({ 0, 0, 40 }, { 0, 1, 400 }, 20);
@@ -188,10 +183,12 @@ TEST_F(NormalMaps, NeverAddLight)
 
 TEST_F(NormalMaps, TellMetalnessAndTheTextureRoughness)
 {
+    const struct EndOfModule {
+        ~EndOfModule() { Session::end_idle(); }
+    } edits_last_as_long_as_the_module;
     add_tilt({ 0, 0, 1 }, 128);
     formats::Image picture { side, side, std::vector<formats::Rgba8>(side * side, { 255, 255, 255, 102 }) };
     folder_.add("textures/floor.tga", formats::write_tga(picture));
-    Session::end_idle();
     Session session = open();
     session.load_map("floor");
     look(session);
@@ -206,7 +203,6 @@ TEST_F(NormalMaps, TellMetalnessAndTheTextureRoughness)
 TEST_F(NormalMaps, BecomeRoughnessInTheDistance)
 {
     add_normals("textures/floor_n.tga", [](int x, int) { return glm::vec3(x % 2 ? 0.3f : -0.3f, 0, 1); });
-    Session::end_idle();
     Session session = open();
     session.set("pt_roughness_default", 0.2);
     session.load_map("floor");
@@ -227,7 +223,6 @@ TEST_F(NormalMaps, AreNamedByMaterials)
     add_text(
         "materials/baseq2.mat", "textures/floor:\n    texture_normals bumps/steep.tga\n    texture_base bumps/green\n");
     add_text("maps/next.mat", "floor:\n    texture_normals bumps/none\n");
-    Session::end_idle();
     Session session = open();
     session.load_map("floor");
     look(session);
@@ -243,7 +238,6 @@ TEST_F(NormalMaps, AreNamedByMaterials)
 TEST_F(NormalMaps, DamagedOnesAreNamedAndLeftOut)
 {
     add_text("textures/floor_n.png", "\x89PNG no more");
-    Session::end_idle();
     Session session = open();
     session.load_map("floor");
     EXPECT_TRUE(session.has_line("textures/floor_n.png is damaged at byte"));
@@ -256,7 +250,6 @@ TEST_F(NormalMaps, TiltModels)
 {
     const std::string cube = folder_.add_cube("cube", 8, white_index);
     add_normals("models/cube_n.tga", [](int, int) { return glm::vec3(0.6f, 0, 0.8f); });
-    Session::end_idle();
     Session session = open();
     session.load_map("floor");
     engine::Entity entity = make_entity(session.module().register_model(cube.c_str()), { 0, 0, 30 });

@@ -22,11 +22,11 @@ std::unique_ptr<Session::Running> Session::idle_;
 
 namespace {
 
-// Of the module's settings, those that it reads once, and the environment that it starts in.
-std::vector<std::string> start_settings(const CvarList& cvars, glm::ivec2 size)
+// Of the module's settings, those that it reads once, and of the environment that it starts in what tests change.
+std::vector<std::string> start_settings(const CvarList& cvars)
 {
-    std::vector<std::string> key { fmt::format("{}x{}", size.x, size.y) };
-    for (const char* variable : { "VKPT_CACHE_DIR", "VKPT_FILL_MEMORY", "LP_NATIVE_VECTOR_WIDTH" })
+    std::vector<std::string> key;
+    for (const char* variable : { "VKPT_CACHE_DIR", "VKPT_FILL_MEMORY" })
         if (const char* value = std::getenv(variable))
             key.push_back(std::string(variable) + "=" + value);
     for (const auto& [name, value] : cvars)
@@ -67,9 +67,9 @@ Session::Session(const std::filesystem::path& base_folder, const CvarList& cvars
     CvarList all { { "pt_validation", "1" }, { "pt_seed", "1" }, { "pt_exposure", "1" }, { "flt_denoiser", "off" },
         { "flt_taa", "off" } };
     all.insert(all.end(), cvars.begin(), cvars.end());
-    std::vector<std::string> key = start_settings(all, size);
+    std::vector<std::string> key = start_settings(all);
     if (idle_ && idle_->key == key)
-        take_over(all);
+        take_over(all, size);
     else
         start(all, size, std::move(key));
     for (size_t style = 0; style < lightstyles_.size(); style++)
@@ -100,10 +100,12 @@ void Session::start(const CvarList& cvars, glm::ivec2 size, std::vector<std::str
     running_->host = std::make_unique<client::Host>(options, &files_);
 }
 
-void Session::take_over(const CvarList& cvars)
+void Session::take_over(const CvarList& cvars, glm::ivec2 size)
 {
     running_ = std::move(idle_);
     client::HostImports::use_files(host(), &files_);
+    if (size != glm::ivec2(host().width(), host().height()))
+        client::HostImports::resize(host(), size.x, size.y);
     // All but the window's, which the host has set.
     constexpr std::string_view kept[] = { "r_mode", "r_customwidth", "r_customheight", "vid_fullscreen", "r_vsync" };
     for (const CvarRow& row : cvar_rows)

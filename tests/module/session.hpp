@@ -2,7 +2,8 @@
 // One run of the real module: started with validation, a map registered, frames drawn, pictures taken.
 // Any line of the validation layers fails the running test.
 // A start takes seconds, nearly all of them for shaders. So a module that a session has left is taken over by the next
-// one that wants the same settings, without its map, every cvar at its default, the console empty.
+// one that wants the same settings, without its map, every cvar at its default, the console empty, in a size of its
+// own.
 #pragma once
 
 #include "client/host/host.hpp"
@@ -62,7 +63,7 @@ private:
     static std::unique_ptr<Running> idle_;
 
     void start(const CvarList& cvars, glm::ivec2 size, std::vector<std::string> key);
-    void take_over(const CvarList& cvars);
+    void take_over(const CvarList& cvars, glm::ivec2 size);
 
     std::vector<std::string> lines_;
     client::FileSystem files_;
