@@ -16,7 +16,7 @@ namespace {
 using formats::Bsp;
 
 constexpr size_t max_bytes = 990'000;
-constexpr uint16_t wall = 0, lamp = 1;
+constexpr uint32_t wall = 0, lamp = 1;
 
 formats::BspTexinfo make_texinfo(const std::string& texture, uint32_t flags, int value)
 {
@@ -53,7 +53,7 @@ void finish_world(Bsp& bsp) { bsp.models[0].face_count = int32_t(bsp.faces.size(
 void add_edges(Bsp& bsp, size_t first_vertex, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        bsp.edges.push_back({ { uint16_t(first_vertex + i), uint16_t(first_vertex + (i + 1) % count) } });
+        bsp.edges.push_back({ { uint32_t(first_vertex + i), uint32_t(first_vertex + (i + 1) % count) } });
 }
 
 // Corners on a circle, clockwise as on disk; returns the first of its edges, which faces share.
@@ -68,11 +68,11 @@ size_t add_polygon(Bsp& bsp, size_t corners, float radius, glm::vec3 centre = gl
     return first_edge;
 }
 
-void add_face(Bsp& bsp, size_t first_edge, size_t corners, uint16_t texinfo)
+void add_face(Bsp& bsp, size_t first_edge, size_t corners, uint32_t texinfo)
 {
     formats::BspFace face {};
     face.first_edge = int32_t(bsp.surface_edges.size());
-    face.edge_count = uint16_t(corners);
+    face.edge_count = uint32_t(corners);
     face.texinfo = texinfo;
     face.light_offset = -1;
     for (size_t i = 0; i < corners; i++)
@@ -81,7 +81,7 @@ void add_face(Bsp& bsp, size_t first_edge, size_t corners, uint16_t texinfo)
 }
 
 // As many alike as fit.
-void add_faces(Bsp& bsp, size_t corners, float radius, uint16_t texinfo, size_t bytes = max_bytes)
+void add_faces(Bsp& bsp, size_t corners, float radius, uint32_t texinfo, size_t bytes = max_bytes)
 {
     const size_t edge = add_polygon(bsp, corners, radius);
     for (size_t used = 5000; used + 20 + 4 * corners < bytes && bsp.faces.size() < 60000; used += 20 + 4 * corners)
@@ -107,7 +107,7 @@ void add_tree(Bsp& bsp, size_t nodes, size_t clusters)
     bsp.leaves.clear();
     for (size_t i = 0; i <= nodes; i++) {
         formats::BspLeaf leaf {};
-        leaf.cluster = clusters > 0 ? int16_t(i % clusters) : int16_t(-1);
+        leaf.cluster = clusters > 0 ? int32_t(i % clusters) : -1;
         for (int axis = 0; axis < 3; axis++) {
             leaf.mins[axis] = -4096;
             leaf.maxs[axis] = 4096;
@@ -162,7 +162,7 @@ Bsp make_stretched(glm::vec3 s_axis, float s_offset)
     return bsp;
 }
 
-Bsp make_polygons(size_t corners, float radius, uint16_t texinfo, size_t bytes = max_bytes)
+Bsp make_polygons(size_t corners, float radius, uint32_t texinfo, size_t bytes = max_bytes)
 {
     Bsp bsp = make_base();
     add_faces(bsp, corners, radius, texinfo, bytes);
@@ -233,8 +233,8 @@ Bsp make_shared_leaf_faces(size_t entries)
     for (size_t first = 0; first < entries; first += 8192) {
         formats::BspLeaf leaf {};
         leaf.cluster = 0;
-        leaf.first_leaf_face = uint16_t(first);
-        leaf.leaf_face_count = uint16_t(std::min<size_t>(8192, entries - first));
+        leaf.first_leaf_face = uint32_t(first);
+        leaf.leaf_face_count = uint32_t(std::min<size_t>(8192, entries - first));
         for (int axis = 0; axis < 3; axis++) {
             leaf.mins[axis] = -4096;
             leaf.maxs[axis] = 4096;
