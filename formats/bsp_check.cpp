@@ -19,8 +19,8 @@ constexpr size_t max_animation_frames = 256;
 // Of the faces that leaves show, each counted in every leaf: some 60,000 in large maps of 16-bit indices. Larger files
 // may have one for each of their bytes, which is more than the records of faces, edges and leaves leave room for.
 constexpr size_t max_leaf_face_edges = size_t(1) << 20;
-// What the clusters' numbers in leaves can be, and what Q2RTX takes.
-constexpr size_t max_ibsp_clusters = size_t(INT16_MAX) + 1, max_qbsp_clusters = size_t(1) << 16;
+// What an IBSP's leaves have room for. Sets of clusters for each cluster, a bit for each pair, take 128 MB then.
+constexpr size_t max_clusters = size_t(INT16_MAX) + 1;
 
 bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -201,7 +201,7 @@ private:
             check_index(LeafBrushes, bsp_.leaf_brushes, brush, brush, bsp_.brushes.size(), "brush");
         // Without visibility the clusters' numbers are whatever the compiler left; they only must not be negative
         // indices.
-        const size_t clusters = bsp_.visibility.empty() ? max_clusters() : size_t(std::max(bsp_.cluster_count, 0));
+        const size_t clusters = bsp_.visibility.empty() ? max_clusters : size_t(std::max(bsp_.cluster_count, 0));
         const size_t max_edges = std::max(max_leaf_face_edges, bsp_.file_size);
         size_t faces = 0, brushes = 0, edges = 0;
         for (const BspLeaf& leaf : bsp_.leaves) {
@@ -220,8 +220,6 @@ private:
                 check_index(Leaves, bsp_.leaves, leaf, leaf.area, std::max<size_t>(bsp_.areas.size(), 1), "area");
         }
     }
-
-    size_t max_clusters() const { return bsp_.format == BspFormat::qbsp ? max_qbsp_clusters : max_ibsp_clusters; }
 
     size_t count_edges(const BspLeaf& leaf) const
     {
@@ -319,9 +317,13 @@ private:
             return;
         constexpr size_t row_size = 2 * sizeof(int32_t); // offsets of the PVS and the PHS row
         const size_t room = (bsp_.visibility.size() - sizeof(int32_t)) / row_size;
-        if (bsp_.cluster_count < 0 || size_t(bsp_.cluster_count) > std::min(room, max_clusters()))
+        if (bsp_.cluster_count < 0 || size_t(bsp_.cluster_count) > room)
             throw FormatError(file_, directory_[Visibility].offset,
                 "lump visibility: " + std::to_string(bsp_.cluster_count) + " clusters do not fit");
+        if (size_t(bsp_.cluster_count) > max_clusters)
+            throw FormatError(file_, directory_[Visibility].offset,
+                "lump visibility: " + std::to_string(bsp_.cluster_count) + " clusters, more than the "
+                    + std::to_string(max_clusters) + " that a map may have; make small brushes detail");
         for (size_t i = 0; i < size_t(bsp_.cluster_count); i++) {
             int32_t offset;
             const size_t at = sizeof(int32_t) + i * row_size;

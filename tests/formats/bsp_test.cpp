@@ -469,8 +469,9 @@ const std::vector<std::pair<const char*, std::function<void(Bsp&)>>> wide_faults
     { "brush sides", [](Bsp& b) { b.brush_sides[0].texinfo = -2; } },
     { "visibility",
         [](Bsp& b) {
-            b.visibility.assign(4 + 8 * 65'537 + 1, 0);
-            b.visibility[2] = b.visibility[0] = 1;
+            b.visibility.assign(4 + 8 * 32'769 + 1, 0);
+            b.visibility[1] = 0x80;
+            b.visibility[0] = 1;
         } },
 };
 
