@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Quake II's compiled map, BSP version 38: read whole, every index checked once, so that users need not check again.
-// Space: Quake units (inches, roughly), x east, y north, z up.
+// Quake II's compiled map, BSP version 38, and its extended form with wider fields, QBSP: read whole, every index
+// checked once, so that users need not check again. In memory both have the wide fields. Space: Quake units (inches,
+// roughly), x east, y north, z up.
 #pragma once
 
 #include "formats/byte_reader.hpp"
@@ -46,7 +47,12 @@ enum ContentFlags : uint32_t {
     CONTENTS_LADDER = 0x20000000,
 };
 
-// On-disk records whose layout we use as it is (little-endian, packed).
+enum class BspFormat {
+    ibsp, // Quake II's own: most indices and counts have 16 bits, so that no list is longer than 65,536
+    qbsp, // the same lumps and version with 32 bits instead, and bounds that are floats: ericw-tools' -qbism, Q2RTX
+};
+
+// Records as they lie on disk in a QBSP (little-endian, packed).
 struct BspPlane {
     glm::vec3 normal;
     float dist;
@@ -55,28 +61,28 @@ struct BspPlane {
 struct BspNode {
     int32_t plane;
     int32_t children[2]; // >= 0 node, < 0 leaf -(index + 1)
-    int16_t mins[3], maxs[3];
-    uint16_t first_face, face_count;
+    float mins[3], maxs[3];
+    uint32_t first_face, face_count;
 };
 struct BspLeaf {
     uint32_t contents;
-    int16_t cluster; // -1: solid, no PVS row
-    int16_t area;
-    int16_t mins[3], maxs[3];
-    uint16_t first_leaf_face, leaf_face_count;
-    uint16_t first_leaf_brush, leaf_brush_count;
+    int32_t cluster; // -1: solid, no PVS row
+    int32_t area;
+    float mins[3], maxs[3];
+    uint32_t first_leaf_face, leaf_face_count;
+    uint32_t first_leaf_brush, leaf_brush_count;
 };
 struct BspFace {
-    uint16_t plane;
-    uint16_t side; // 1: the face looks against its plane's normal
+    uint32_t plane;
+    uint32_t side; // 1: the face looks against its plane's normal
     int32_t first_edge;
-    uint16_t edge_count;
-    uint16_t texinfo;
+    uint32_t edge_count;
+    uint32_t texinfo;
     uint8_t styles[4]; // lightstyle per lightmap, 255 none
     int32_t light_offset; // bytes into `lighting`, -1 none
 };
 struct BspEdge {
-    uint16_t vertices[2];
+    uint32_t vertices[2];
 };
 struct BspModel { // 0 is the world; the rest are brush models "*1", "*2", ...
     glm::vec3 mins, maxs, origin;
@@ -88,8 +94,8 @@ struct BspBrush {
     uint32_t contents;
 };
 struct BspBrushSide {
-    uint16_t plane;
-    int16_t texinfo; // -1 none
+    uint32_t plane;
+    int32_t texinfo; // -1 none
 };
 struct BspArea {
     int32_t area_portal_count, first_area_portal;
@@ -97,8 +103,8 @@ struct BspArea {
 struct BspAreaPortal {
     int32_t portal, other_area;
 };
-static_assert(sizeof(BspPlane) == 20 && sizeof(BspNode) == 28 && sizeof(BspLeaf) == 28 && sizeof(BspFace) == 20);
-static_assert(sizeof(BspModel) == 48 && sizeof(BspBrush) == 12 && sizeof(BspBrushSide) == 4);
+static_assert(sizeof(BspPlane) == 20 && sizeof(BspNode) == 44 && sizeof(BspLeaf) == 52 && sizeof(BspFace) == 28);
+static_assert(sizeof(BspEdge) == 8 && sizeof(BspModel) == 48 && sizeof(BspBrush) == 12 && sizeof(BspBrushSide) == 8);
 
 struct BspTexinfo {
     glm::vec3 s_axis;
@@ -141,6 +147,7 @@ private:
 
 struct Bsp {
     std::string name; // for messages
+    BspFormat format = BspFormat::ibsp; // of the file that it was read from, or is written to
     size_t file_size = 0; // bytes that it was read from; 0: made in memory
     std::string entity_text;
     std::vector<BspPlane> planes;
@@ -151,7 +158,7 @@ struct Bsp {
     std::vector<BspFace> faces;
     std::vector<uint8_t> lighting; // RGB8 lightmap samples
     std::vector<BspLeaf> leaves;
-    std::vector<uint16_t> leaf_faces, leaf_brushes;
+    std::vector<uint32_t> leaf_faces, leaf_brushes;
     std::vector<BspEdge> edges;
     std::vector<int32_t> surface_edges; // < 0: edge -n reversed
     std::vector<BspModel> models;
@@ -184,7 +191,8 @@ struct Bsp {
 // refused, though they could be read. Two things are mended instead: a face whose light samples are not in the file
 // gets light_offset -1, and a texinfo chain that never returns to its start is cut where it enters the ring.
 Bsp read_bsp(Bytes file, std::string_view name);
-// The inverse, for the map compiler and the tests. `visibility` and `lighting` are written as they stand.
+// The inverse, for the map compiler and the tests, in the map's own format. `visibility` and `lighting` are written as
+// they stand. Throws std::invalid_argument with lump and record where a number does not fit into the format's field.
 std::vector<std::byte> write_bsp(const Bsp& bsp);
 
 } // namespace formats

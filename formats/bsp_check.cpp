@@ -16,8 +16,11 @@ constexpr int max_tree_depth = 4096;
 // Compilers cut faces at 20 to 64 corners; pictures take turns by the dozen at most.
 constexpr size_t max_face_edges = 64;
 constexpr size_t max_animation_frames = 256;
-// Of the faces that leaves show, each counted in every leaf: some 60,000 in large maps.
+// Of the faces that leaves show, each counted in every leaf: some 60,000 in large maps of 16-bit indices. Larger files
+// may have one for each of their bytes, which is more than the records of faces, edges and leaves leave room for.
 constexpr size_t max_leaf_face_edges = size_t(1) << 20;
+// What an IBSP's leaves have room for. Sets of clusters for each cluster, a bit for each pair, take 128 MB then.
+constexpr size_t max_clusters = size_t(INT16_MAX) + 1;
 
 bool is_finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -26,6 +29,7 @@ public:
     Checker(Bsp& bsp, const Directory& directory, std::string_view file)
         : bsp_(bsp)
         , directory_(directory)
+        , record_sizes_(record_sizes(bsp.format))
         , file_(file)
     {
     }
@@ -47,9 +51,9 @@ public:
     }
 
 private:
-    [[noreturn]] void fail(Lump lump, size_t record, size_t record_size, const std::string& reason) const
+    [[noreturn]] void fail(Lump lump, size_t record, const std::string& reason) const
     {
-        throw FormatError(file_, directory_[lump].offset + record * record_size,
+        throw FormatError(file_, directory_[lump].offset + record * record_sizes_[lump],
             std::string("lump ") + lump_names[lump] + ", record " + std::to_string(record) + ": " + reason);
     }
 
@@ -59,7 +63,7 @@ private:
         const char* what) const
     {
         if (first < 0 || count < 0 || first + count > int64_t(size))
-            fail(lump, size_t(&record - records.data()), sizeof(T),
+            fail(lump, size_t(&record - records.data()),
                 std::string(what) + " " + std::to_string(first) + " + " + std::to_string(count) + " of "
                     + std::to_string(size));
     }
@@ -71,7 +75,7 @@ private:
     {
         total += count;
         if (total > size)
-            fail(lump, size_t(&record - records.data()), sizeof(T),
+            fail(lump, size_t(&record - records.data()),
                 std::string("with it there are ") + std::to_string(total) + " " + what + ", more than the "
                     + std::to_string(size) + " that may be: the same are used again and again");
     }
@@ -81,32 +85,39 @@ private:
         Lump lump, const std::vector<T>& records, const T& record, int64_t index, size_t size, const char* what) const
     {
         if (index < 0 || index >= int64_t(size))
-            fail(lump, size_t(&record - records.data()), sizeof(T),
+            fail(lump, size_t(&record - records.data()),
                 std::string(what) + " " + std::to_string(index) + " of " + std::to_string(size));
+    }
+
+    template <class T> void check_bounds(Lump lump, const std::vector<T>& records, const T& record) const
+    {
+        const auto is_number = [](float x) { return std::isfinite(x); };
+        if (!std::ranges::all_of(record.mins, is_number) || !std::ranges::all_of(record.maxs, is_number))
+            fail(lump, size_t(&record - records.data()), "bounds are not finite");
     }
 
     void check_presence() const
     {
         if (bsp_.models.empty())
-            fail(Models, 0, 0, "the map has no world model");
+            fail(Models, 0, "the map has no world model");
         if (bsp_.leaves.empty())
-            fail(Leaves, 0, 0, "the map has no leaves");
+            fail(Leaves, 0, "the map has no leaves");
     }
 
     void check_geometry() const
     {
         for (size_t i = 0; i < bsp_.vertices.size(); i++)
             if (!is_finite(bsp_.vertices[i]))
-                fail(Vertices, i, sizeof(glm::vec3), "not a finite position");
+                fail(Vertices, i, "not a finite position");
         for (size_t i = 0; i < bsp_.planes.size(); i++) {
             const BspPlane& plane = bsp_.planes[i];
             const float squared
                 = plane.normal.x * plane.normal.x + plane.normal.y * plane.normal.y + plane.normal.z * plane.normal.z;
             if (!std::isfinite(plane.dist) || !(squared > 0.9f && squared < 1.1f))
-                fail(Planes, i, sizeof(BspPlane), "not a plane with a unit normal");
+                fail(Planes, i, "not a plane with a unit normal");
         }
         for (const BspEdge& edge : bsp_.edges)
-            for (const uint16_t vertex : edge.vertices)
+            for (const uint32_t vertex : edge.vertices)
                 check_index(Edges, bsp_.edges, edge, vertex, bsp_.vertices.size(), "vertex");
         for (const int32_t& edge : bsp_.surface_edges)
             check_index(SurfaceEdges, bsp_.surface_edges, edge, std::abs(int64_t(edge)), bsp_.edges.size(), "edge");
@@ -118,9 +129,9 @@ private:
             const BspTexinfo& t = bsp_.texinfos[i];
             if (!is_finite(t.s_axis) || !is_finite(t.t_axis) || !std::isfinite(t.s_offset)
                 || !std::isfinite(t.t_offset))
-                fail(Texinfos, i, sizeof(TexinfoRecord), "texture axes are not finite");
+                fail(Texinfos, i, "texture axes are not finite");
             if (t.next < -1 || t.next >= int32_t(bsp_.texinfos.size()))
-                fail(Texinfos, i, sizeof(TexinfoRecord), "next frame " + std::to_string(t.next) + " does not exist");
+                fail(Texinfos, i, "next frame " + std::to_string(t.next) + " does not exist");
         }
         cut_animation_chains();
         check_animation_lengths();
@@ -158,7 +169,7 @@ private:
             for (int32_t at = bsp_.texinfos[start].next; at >= 0 && at != int32_t(start);
                  at = bsp_.texinfos[size_t(at)].next)
                 if (++frames > max_animation_frames)
-                    fail(Texinfos, start, sizeof(TexinfoRecord),
+                    fail(Texinfos, start,
                         "an animation of more than " + std::to_string(max_animation_frames) + " frames");
         }
     }
@@ -172,9 +183,9 @@ private:
             check_run(
                 Faces, bsp_.faces, face, face.first_edge, face.edge_count, bsp_.surface_edges.size(), "surface edges");
             if (face.edge_count < 3)
-                fail(Faces, size_t(&face - bsp_.faces.data()), sizeof(BspFace), "fewer than three edges");
+                fail(Faces, size_t(&face - bsp_.faces.data()), "fewer than three edges");
             if (face.edge_count > max_face_edges)
-                fail(Faces, size_t(&face - bsp_.faces.data()), sizeof(BspFace),
+                fail(Faces, size_t(&face - bsp_.faces.data()),
                     std::to_string(face.edge_count) + " edges, more than the " + std::to_string(max_face_edges)
                         + " that a face may have");
             check_total(
@@ -184,14 +195,14 @@ private:
 
     void check_leaves() const
     {
-        for (const uint16_t& face : bsp_.leaf_faces)
+        for (const uint32_t& face : bsp_.leaf_faces)
             check_index(LeafFaces, bsp_.leaf_faces, face, face, bsp_.faces.size(), "face");
-        for (const uint16_t& brush : bsp_.leaf_brushes)
+        for (const uint32_t& brush : bsp_.leaf_brushes)
             check_index(LeafBrushes, bsp_.leaf_brushes, brush, brush, bsp_.brushes.size(), "brush");
         // Without visibility the clusters' numbers are whatever the compiler left; they only must not be negative
         // indices.
-        const size_t clusters
-            = bsp_.visibility.empty() ? size_t(INT16_MAX) + 1 : size_t(std::max(bsp_.cluster_count, 0));
+        const size_t clusters = bsp_.visibility.empty() ? max_clusters : size_t(std::max(bsp_.cluster_count, 0));
+        const size_t max_edges = std::max(max_leaf_face_edges, bsp_.file_size);
         size_t faces = 0, brushes = 0, edges = 0;
         for (const BspLeaf& leaf : bsp_.leaves) {
             check_run(Leaves, bsp_.leaves, leaf, leaf.first_leaf_face, leaf.leaf_face_count, bsp_.leaf_faces.size(),
@@ -201,8 +212,8 @@ private:
             check_total(Leaves, bsp_.leaves, leaf, faces, leaf.leaf_face_count, bsp_.leaf_faces.size(), "leaf faces");
             check_total(
                 Leaves, bsp_.leaves, leaf, brushes, leaf.leaf_brush_count, bsp_.leaf_brushes.size(), "leaf brushes");
-            check_total(
-                Leaves, bsp_.leaves, leaf, edges, count_edges(leaf), max_leaf_face_edges, "edges of leaves' faces");
+            check_total(Leaves, bsp_.leaves, leaf, edges, count_edges(leaf), max_edges, "edges of leaves' faces");
+            check_bounds(Leaves, bsp_.leaves, leaf);
             if (leaf.cluster != -1)
                 check_index(Leaves, bsp_.leaves, leaf, leaf.cluster, clusters, "cluster");
             if (leaf.area != -1)
@@ -222,6 +233,7 @@ private:
     {
         for (const BspNode& node : bsp_.nodes) {
             check_index(Nodes, bsp_.nodes, node, node.plane, bsp_.planes.size(), "plane");
+            check_bounds(Nodes, bsp_.nodes, node);
             check_run(Nodes, bsp_.nodes, node, node.first_face, node.face_count, bsp_.faces.size(), "faces");
             for (const int32_t child : node.children)
                 check_child(Nodes, bsp_.nodes, node, child);
@@ -243,8 +255,7 @@ private:
         for (size_t i = 0; i < bsp_.nodes.size(); i++)
             for (const int32_t child : bsp_.nodes[i].children)
                 if (child >= 0 && std::exchange(has_parent[size_t(child)], uint8_t(1)))
-                    fail(Nodes, i, sizeof(BspNode),
-                        "its child " + std::to_string(child) + " has another parent already");
+                    fail(Nodes, i, "its child " + std::to_string(child) + " has another parent already");
         size_t visited = 0;
         std::vector<std::pair<int32_t, int>> open; // node, depth
         for (size_t root = 0; root < bsp_.nodes.size(); root++) {
@@ -256,15 +267,14 @@ private:
                 open.pop_back();
                 visited++;
                 if (depth > max_tree_depth)
-                    fail(Nodes, size_t(node), sizeof(BspNode),
-                        "the tree is deeper than " + std::to_string(max_tree_depth));
+                    fail(Nodes, size_t(node), "the tree is deeper than " + std::to_string(max_tree_depth));
                 for (const int32_t child : bsp_.nodes[size_t(node)].children)
                     if (child >= 0)
                         open.emplace_back(child, depth + 1);
             }
         }
         if (visited != bsp_.nodes.size())
-            fail(Nodes, 0, 0, "some nodes form a cycle");
+            fail(Nodes, 0, "some nodes form a cycle");
     }
 
     void check_models() const
@@ -276,7 +286,7 @@ private:
                 Models, bsp_.models, model, faces, size_t(model.face_count), bsp_.faces.size(), "faces of models");
             check_child(Models, bsp_.models, model, model.head_node);
             if (!is_finite(model.mins) || !is_finite(model.maxs) || !is_finite(model.origin))
-                fail(Models, size_t(&model - bsp_.models.data()), sizeof(BspModel), "bounds or origin are not finite");
+                fail(Models, size_t(&model - bsp_.models.data()), "bounds or origin are not finite");
         }
     }
 
@@ -307,9 +317,13 @@ private:
             return;
         constexpr size_t row_size = 2 * sizeof(int32_t); // offsets of the PVS and the PHS row
         const size_t room = (bsp_.visibility.size() - sizeof(int32_t)) / row_size;
-        if (bsp_.cluster_count < 0 || size_t(bsp_.cluster_count) > std::min<size_t>(room, size_t(INT16_MAX) + 1))
+        if (bsp_.cluster_count < 0 || size_t(bsp_.cluster_count) > room)
             throw FormatError(file_, directory_[Visibility].offset,
                 "lump visibility: " + std::to_string(bsp_.cluster_count) + " clusters do not fit");
+        if (size_t(bsp_.cluster_count) > max_clusters)
+            throw FormatError(file_, directory_[Visibility].offset,
+                "lump visibility: " + std::to_string(bsp_.cluster_count) + " clusters, more than the "
+                    + std::to_string(max_clusters) + " that a map may have; make small brushes detail");
         for (size_t i = 0; i < size_t(bsp_.cluster_count); i++) {
             int32_t offset;
             const size_t at = sizeof(int32_t) + i * row_size;
@@ -336,10 +350,24 @@ private:
 
     Bsp& bsp_;
     const Directory& directory_;
+    const RecordSizes record_sizes_;
     std::string_view file_;
 };
 
 } // namespace
+
+RecordSizes record_sizes(BspFormat format)
+{
+    RecordSizes sizes;
+    sizes.fill(1);
+    const Bsp none;
+    with_format(format, [&](auto constant) {
+        for_each_lump(none, [&]<class T>(Lump lump, const std::vector<T>&) {
+            sizes[lump] = sizeof(typename OnDisk<constant.value, T>::Record);
+        });
+    });
+    return sizes;
+}
 
 void check(Bsp& bsp, const Directory& directory, std::string_view file) { Checker(bsp, directory, file).check_all(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "formats/bsp_disk.hpp"
+#include "formats/bsp_convert.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -10,24 +10,30 @@ using namespace bsp_disk;
 
 namespace {
 
-Directory read_directory(ByteReader& reader)
+BspFormat read_format(ByteReader& reader)
 {
-    if (reader.read<std::array<char, 4>>() != ident)
-        reader.fail_at(0, "not a BSP file (no \"IBSP\")");
+    const auto found_ident = reader.read<Ident>();
+    if (found_ident != ident && found_ident != extended_ident)
+        reader.fail_at(0, "not a BSP file (no \"IBSP\" or \"QBSP\")");
     if (const auto found = reader.read<int32_t>(); found != version)
         reader.fail_at(4, "BSP version " + std::to_string(found) + "; Quake II's maps have version 38");
+    return found_ident == extended_ident ? BspFormat::qbsp : BspFormat::ibsp;
+}
+
+Directory read_directory(ByteReader& reader)
+{
     const auto directory = reader.read<Directory>();
     size_t total = 0;
     for (size_t lump = 0; lump < LumpCount; lump++) {
         const auto [offset, size] = directory[lump];
         if (size > 0 && (offset > reader.size() || size > reader.size() - offset))
-            reader.fail_at(header_size - sizeof(Directory) + lump * sizeof(LumpEntry),
+            reader.fail_at(directory_at + lump * sizeof(LumpEntry),
                 std::string("lump ") + lump_names[lump] + " reaches past the end of the file");
         total += size;
     }
     if (total > reader.size())
-        reader.fail_at(header_size - sizeof(Directory),
-            "its lumps hold " + std::to_string(total) + " bytes, more than the file: they overlap");
+        reader.fail_at(
+            directory_at, "its lumps hold " + std::to_string(total) + " bytes, more than the file: they overlap");
     return directory;
 }
 
@@ -48,14 +54,19 @@ std::string text_until_zero(const char* data, size_t size)
     return std::string(data, std::find(data, data + size, '\0'));
 }
 
-std::vector<BspTexinfo> convert_texinfos(const std::vector<TexinfoRecord>& records)
+template <BspFormat format> void read_records(ByteReader& reader, const Directory& directory, Bsp& bsp)
 {
-    std::vector<BspTexinfo> texinfos;
-    texinfos.reserve(records.size());
-    for (const TexinfoRecord& r : records)
-        texinfos.push_back({ r.s_axis, r.s_offset, r.t_axis, r.t_offset, r.flags, r.value,
-            text_until_zero(r.texture.data(), r.texture.size()), r.next });
-    return texinfos;
+    for_each_lump(bsp, [&]<class T>(Lump lump, std::vector<T>& records) {
+        using Record = typename OnDisk<format, T>::Record;
+        if constexpr (std::is_same_v<Record, T>) {
+            records = read_lump<T>(reader, directory, lump);
+        } else {
+            const std::vector<Record> stored = read_lump<Record>(reader, directory, lump);
+            records.resize(stored.size());
+            for (size_t i = 0; i < stored.size(); i++)
+                convert_record(stored[i], records[i]);
+        }
+    });
 }
 
 } // namespace
@@ -63,29 +74,14 @@ std::vector<BspTexinfo> convert_texinfos(const std::vector<TexinfoRecord>& recor
 Bsp read_bsp(Bytes file, std::string_view name)
 {
     ByteReader reader(file, name);
-    const Directory directory = read_directory(reader);
     Bsp bsp;
     bsp.name = name;
     bsp.file_size = file.size();
+    bsp.format = read_format(reader);
+    const Directory directory = read_directory(reader);
     const auto entity_text = read_lump<char>(reader, directory, Entities);
     bsp.entity_text = text_until_zero(entity_text.data(), entity_text.size());
-    bsp.planes = read_lump<BspPlane>(reader, directory, Planes);
-    bsp.vertices = read_lump<glm::vec3>(reader, directory, Vertices);
-    bsp.visibility = read_lump<uint8_t>(reader, directory, Visibility);
-    bsp.nodes = read_lump<BspNode>(reader, directory, Nodes);
-    bsp.texinfos = convert_texinfos(read_lump<TexinfoRecord>(reader, directory, Texinfos));
-    bsp.faces = read_lump<BspFace>(reader, directory, Faces);
-    bsp.lighting = read_lump<uint8_t>(reader, directory, Lighting);
-    bsp.leaves = read_lump<BspLeaf>(reader, directory, Leaves);
-    bsp.leaf_faces = read_lump<uint16_t>(reader, directory, LeafFaces);
-    bsp.leaf_brushes = read_lump<uint16_t>(reader, directory, LeafBrushes);
-    bsp.edges = read_lump<BspEdge>(reader, directory, Edges);
-    bsp.surface_edges = read_lump<int32_t>(reader, directory, SurfaceEdges);
-    bsp.models = read_lump<BspModel>(reader, directory, Models);
-    bsp.brushes = read_lump<BspBrush>(reader, directory, Brushes);
-    bsp.brush_sides = read_lump<BspBrushSide>(reader, directory, BrushSides);
-    bsp.areas = read_lump<BspArea>(reader, directory, Areas);
-    bsp.area_portals = read_lump<BspAreaPortal>(reader, directory, AreaPortals);
+    with_format(bsp.format, [&](auto format) { read_records<format.value>(reader, directory, bsp); });
     if (!bsp.visibility.empty()) {
         if (bsp.visibility.size() < sizeof(int32_t))
             reader.fail_at(directory[Visibility].offset, "lump visibility: too short for its cluster count");

@@ -33,7 +33,7 @@ std::vector<glm::vec3> Bsp::face_polygon(size_t face) const
     std::vector<glm::vec3> polygon(f.edge_count);
     for (size_t i = 0; i < polygon.size(); i++) {
         const int32_t edge = surface_edges[size_t(f.first_edge) + i];
-        const uint16_t vertex = edge >= 0 ? edges[size_t(edge)].vertices[0] : edges[size_t(-edge)].vertices[1];
+        const uint32_t vertex = edge >= 0 ? edges[size_t(edge)].vertices[0] : edges[size_t(-edge)].vertices[1];
         polygon[polygon.size() - 1 - i] = vertices[vertex]; // on disk clockwise
     }
     return polygon;

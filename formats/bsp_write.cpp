@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "formats/bsp_disk.hpp"
+#include "formats/bsp_convert.hpp"
 #include "formats/byte_writer.hpp"
 
 namespace formats {
@@ -8,21 +8,11 @@ using namespace bsp_disk;
 
 namespace {
 
-TexinfoRecord to_record(const BspTexinfo& texinfo)
-{
-    if (texinfo.texture.size() >= texture_name_size)
-        throw std::invalid_argument("texture name \"" + texinfo.texture + "\" is longer than 31 bytes");
-    TexinfoRecord record { texinfo.s_axis, texinfo.s_offset, texinfo.t_axis, texinfo.t_offset, texinfo.flags,
-        texinfo.value, {}, texinfo.next };
-    std::copy(texinfo.texture.begin(), texinfo.texture.end(), record.texture.begin());
-    return record;
-}
-
 class LumpWriter {
 public:
-    LumpWriter()
+    explicit LumpWriter(BspFormat format)
     {
-        file_.write(ident);
+        file_.write(format == BspFormat::qbsp ? extended_ident : ident);
         file_.write(version);
         file_.write(directory_);
     }
@@ -37,7 +27,7 @@ public:
     std::vector<std::byte> finish()
     {
         file_.align(4);
-        file_.patch(header_size - sizeof(Directory), directory_);
+        file_.patch(directory_at, directory_);
         return file_.take();
     }
 
@@ -46,36 +36,39 @@ private:
     Directory directory_ {};
 };
 
+template <class Record, class T> std::vector<Record> convert_lump(Lump lump, const std::vector<T>& records)
+{
+    std::vector<Record> stored(records.size());
+    for (size_t i = 0; i < records.size(); i++)
+        try {
+            convert_record(records[i], stored[i]);
+        } catch (const DoesNotFit& number) {
+            throw std::invalid_argument(std::string("lump ") + lump_names[lump] + ", record " + std::to_string(i) + ": "
+                + number.what() + " does not fit into 16 bits; write the map as QBSP");
+        }
+    return stored;
+}
+
+template <BspFormat format> void write_records(LumpWriter& writer, const Bsp& bsp)
+{
+    for_each_lump(bsp, [&]<class T>(Lump lump, const std::vector<T>& records) {
+        using Record = typename OnDisk<format, T>::Record;
+        if constexpr (std::is_same_v<Record, T>)
+            writer.add(lump, records);
+        else
+            writer.add(lump, convert_lump<Record>(lump, records));
+    });
+}
+
 } // namespace
 
 std::vector<std::byte> write_bsp(const Bsp& bsp)
 {
     std::vector<char> entity_text(bsp.entity_text.begin(), bsp.entity_text.end());
     entity_text.push_back('\0');
-    std::vector<TexinfoRecord> texinfos;
-    texinfos.reserve(bsp.texinfos.size());
-    for (const BspTexinfo& texinfo : bsp.texinfos)
-        texinfos.push_back(to_record(texinfo));
-
-    LumpWriter writer;
+    LumpWriter writer(bsp.format);
     writer.add(Entities, entity_text);
-    writer.add(Planes, bsp.planes);
-    writer.add(Vertices, bsp.vertices);
-    writer.add(Visibility, bsp.visibility);
-    writer.add(Nodes, bsp.nodes);
-    writer.add(Texinfos, texinfos);
-    writer.add(Faces, bsp.faces);
-    writer.add(Lighting, bsp.lighting);
-    writer.add(Leaves, bsp.leaves);
-    writer.add(LeafFaces, bsp.leaf_faces);
-    writer.add(LeafBrushes, bsp.leaf_brushes);
-    writer.add(Edges, bsp.edges);
-    writer.add(SurfaceEdges, bsp.surface_edges);
-    writer.add(Models, bsp.models);
-    writer.add(Brushes, bsp.brushes);
-    writer.add(BrushSides, bsp.brush_sides);
-    writer.add(Areas, bsp.areas);
-    writer.add(AreaPortals, bsp.area_portals);
+    with_format(bsp.format, [&](auto format) { write_records<format.value>(writer, bsp); });
     return writer.finish();
 }
 

@@ -30,7 +30,12 @@ public:
         write_bytes(std::as_bytes(items));
     }
 
-    void write_bytes(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+    void write_bytes(std::span<const std::byte> bytes)
+    {
+        const size_t start = bytes_.size();
+        bytes_.resize(start + bytes.size());
+        std::copy(bytes.begin(), bytes.end(), bytes_.begin() + std::ptrdiff_t(start));
+    }
 
     // A fixed-size, zero-filled field. Throws std::invalid_argument if the text does not fit with its final zero.
     void write_string(std::string_view text, size_t field_size)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// MD2 and MD3 (key-framed triangle meshes), and SP2 (sprites).
+// MD2 and MD3 (key-framed triangle meshes), IQM (meshes on a skeleton), and SP2 (sprites).
 #pragma once
 
 #include "formats/byte_reader.hpp"
@@ -13,8 +13,8 @@
 
 namespace formats {
 
-// One mesh, of an MD2 or a surface of an MD3: corners are (position index, texture coordinate) pairs made unique, so
-// one index buffer serves all frames.
+// One mesh, of an MD2, a surface of an MD3 or a mesh of an IQM: corners are (position index, texture coordinate) pairs
+// made unique, so one index buffer serves all frames.
 struct Md2Model {
     struct Frame {
         std::string name;
@@ -44,11 +44,13 @@ struct Sp2Sprite {
 Md2Model read_md2(Bytes file, std::string_view name);
 // A mesh for each surface; all have the same frames. Tags and flags are left out.
 std::vector<Md2Model> read_md3(Bytes file, std::string_view name);
-// Either, by the name's ending.
+// A mesh for each of the file's; the skeleton has been applied to the vertices of every frame. formats/model_iqm.hpp
+std::vector<Md2Model> read_iqm(Bytes file, std::string_view name);
+// Any of them. An IQM is known by its content, as Q2RTX does, an MD3 by its name's ending.
 std::vector<Md2Model> read_mesh(Bytes file, std::string_view name);
-// What is shown in place of NAME.md2 where the folder has it, as in other renderers: NAME.md3. Empty: the name is not
-// that of an MD2.
-std::string replacement_of_mesh(std::string_view name);
+// What is shown in place of NAME.md2 where the folder has it, best first: NAME.md3, as in other renderers, and
+// NAME.iqm. Empty: the name is not that of an MD2.
+std::vector<std::string> replacements_of_mesh(std::string_view name);
 Sp2Sprite read_sp2(Bytes file, std::string_view name);
 std::vector<std::byte> write_md2(const Md2Model& model);
 std::vector<std::byte> write_md3(std::span<const Md2Model> surfaces);

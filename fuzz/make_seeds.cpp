@@ -58,13 +58,20 @@ std::string room_text()
             tests::box_brush({ { 16, 16, 0 }, { 32, 32, 48 } }, "door"));
 }
 
+void add_map(const std::string& name, formats::Bsp bsp)
+{
+    add("bsp", name, formats::write_bsp(bsp));
+    bsp.format = formats::BspFormat::qbsp;
+    add("bsp", name + "-wide", formats::write_bsp(bsp));
+}
+
 void add_maps()
 {
-    add("bsp", "sample", formats::write_bsp(samples::make_bsp()));
-    add("bsp", "cells", formats::write_bsp(test::make_cell_map(3, std::vector<bool>(9, true))));
-    add("bsp", "random_cells", formats::write_bsp(test::make_cell_map(5, test::make_random_cells(5, 0.6, 1))));
-    add("bsp", "room", formats::write_bsp(compile(room_text())));
-    add("bsp", "rooms", formats::write_bsp(compile(tests::two_rooms::text())));
+    add_map("sample", samples::make_bsp());
+    add_map("cells", test::make_cell_map(3, std::vector<bool>(9, true)));
+    add_map("random_cells", test::make_cell_map(5, test::make_random_cells(5, 0.6, 1)));
+    add_map("room", compile(room_text()));
+    add_map("rooms", compile(tests::two_rooms::text()));
     for (const char* first : { "0", "1", "2", "3" }) { // which steps are made, see map_source_fuzzer.cpp
         add_text("map_source", fmt::format("room{}", first), first + room_text());
         add_text("map_source", fmt::format("open_room{}", first), first + tests::open_room_text());
@@ -136,6 +143,12 @@ void add_models()
     add("md2", "larger", formats::write_md2(many));
     add("md3", "tetrahedra", formats::write_md3(samples::make_md3()));
     add("md3", "larger", formats::write_md3(std::vector(3, many)));
+    formats::IqmModel arm = samples::make_iqm();
+    add("iqm", "arm", formats::write_iqm(arm));
+    arm.frames.clear();
+    add("iqm", "bound", formats::write_iqm(arm));
+    arm.joints.clear();
+    add("iqm", "still", formats::write_iqm(arm));
     add("sp2", "sprite", formats::write_sp2(samples::make_sp2()));
     formats::Sp2Sprite long_one = samples::make_sp2();
     while (long_one.frames.size() < 32)

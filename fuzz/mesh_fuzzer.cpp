@@ -35,6 +35,8 @@ std::vector<formats::Md2Model> read(formats::Bytes bytes)
     constexpr std::string_view kind = VKPT_MODEL;
     if (kind == "md3")
         return formats::read_md3(bytes, "input.md3");
+    if (kind == "iqm")
+        return formats::read_iqm(bytes, "models/input.iqm");
     return { formats::read_md2(bytes, "input.md2") };
 }
 
@@ -46,6 +48,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size)
         for (const formats::Md2Model& model : read(fuzz::bytes_of(data, size))) {
             for (const uint32_t index : model.indices)
                 fuzz::require(index < model.vertex_count(), "a model's indices are below its number of vertices");
+            for (const formats::Md2Model::Frame& frame : model.frames)
+                fuzz::require(
+                    frame.positions.size() == model.vertex_count() && frame.normals.size() == model.vertex_count(),
+                    "a frame has all vertices");
             pose(std::make_shared<Md2Mesh>(model));
         }
     } catch (const formats::FormatError&) {

@@ -52,11 +52,15 @@ Counts mutate_often(const File& seed, File (*mutate)(const File&, size_t, Random
 
 TEST(Mutators, MapsStayReadable)
 {
-    const Counts counts = mutate_often(to_file(formats::write_bsp(samples::make_bsp())), mutate_bsp,
-        [](const File& file) { formats::read_bsp(to_bytes(file), "map"); });
-    EXPECT_GT(counts.accepted, tries / 5);
-    EXPECT_LT(counts.accepted, tries * 9 / 10);
-    EXPECT_GT(counts.different.size(), size_t(tries / 2));
+    for (const formats::BspFormat format : { formats::BspFormat::ibsp, formats::BspFormat::qbsp }) {
+        formats::Bsp bsp = samples::make_bsp();
+        bsp.format = format;
+        const Counts counts = mutate_often(to_file(formats::write_bsp(bsp)), mutate_bsp,
+            [](const File& file) { formats::read_bsp(to_bytes(file), "map"); });
+        EXPECT_GT(counts.accepted, tries / 5);
+        EXPECT_LT(counts.accepted, tries * 9 / 10);
+        EXPECT_GT(counts.different.size(), size_t(tries / 2));
+    }
 }
 
 TEST(Mutators, ModelsStayReadable)

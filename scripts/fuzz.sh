@@ -48,7 +48,7 @@ max_kept=160000 # bytes of fuzz/corpus for each harness
 limits_of() {
     case $1 in
     bsp) echo "12 16384 1" ;;
-    md2 | md3) echo "6 8192 1" ;;
+    md2 | md3 | iqm) echo "6 8192 1" ;;
     trace) echo "8 8192 1" ;;
     frames) echo "8 4096 1" ;;
     map_source) echo "8 4096 0" ;;

@@ -178,18 +178,20 @@ void Recorder::number_skins(const std::vector<formats::Md2Model>& surfaces)
 // What stands for the model in a replay, as it does in the game. False: nothing that can be read.
 bool Recorder::note_replacement(const std::string& name)
 {
-    const std::string path = formats::replacement_of_mesh(name);
-    if (path.empty() || !retexturing_)
+    if (!retexturing_)
         return false;
-    const auto file = load_file(path);
-    if (!file)
-        return false;
-    try {
-        number_skins(formats::read_mesh(*file, path));
-        return true;
-    } catch (const formats::FormatError&) {
-        return false; // the module says why
+    for (const std::string& path : formats::replacements_of_mesh(name)) {
+        const auto file = load_file(path);
+        if (!file)
+            continue;
+        try {
+            number_skins(formats::read_mesh(*file, path));
+            return true;
+        } catch (const formats::FormatError&) {
+            return false; // the module says why
+        }
     }
+    return false;
 }
 
 void* Recorder::register_model(std::string_view name)

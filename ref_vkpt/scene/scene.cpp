@@ -139,23 +139,25 @@ Model::Mesh make_mesh(std::vector<formats::Md2Model>&& surfaces)
     return mesh;
 }
 
-// False: there is none that can be read.
+// False: there is none, or it cannot be read.
 bool load_replacement(Model& model)
 {
-    const std::string path = formats::replacement_of_mesh(model.name);
-    if (path.empty() || cvars::values().r_retexturing == 0)
+    if (cvars::values().r_retexturing == 0)
         return false;
-    const std::optional<engine::FileData> file = engine::load_file(path);
-    if (!file)
-        return false;
-    try {
-        model.shape = make_mesh(formats::read_mesh(file->bytes(), path));
-        model.file = path;
-        return true;
-    } catch (const formats::FormatError& error) {
-        engine::print("vkpt: {}; {} is shown in its place", error.what(), model.name);
-        return false;
+    for (const std::string& path : formats::replacements_of_mesh(model.name)) {
+        const std::optional<engine::FileData> file = engine::load_file(path);
+        if (!file)
+            continue;
+        try {
+            model.shape = make_mesh(formats::read_mesh(file->bytes(), path));
+            model.file = path;
+            return true;
+        } catch (const formats::FormatError& error) {
+            engine::print("vkpt: {}; {} is shown in its place", error.what(), model.name);
+            return false;
+        }
     }
+    return false;
 }
 
 FaceTexture describe(const Texture& texture, const MaterialSettings* material)

@@ -16,7 +16,7 @@ namespace {
 using formats::Bsp;
 
 constexpr size_t max_bytes = 990'000;
-constexpr uint16_t wall = 0, lamp = 1;
+constexpr uint32_t wall = 0, lamp = 1;
 
 formats::BspTexinfo make_texinfo(const std::string& texture, uint32_t flags, int value)
 {
@@ -53,7 +53,7 @@ void finish_world(Bsp& bsp) { bsp.models[0].face_count = int32_t(bsp.faces.size(
 void add_edges(Bsp& bsp, size_t first_vertex, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        bsp.edges.push_back({ { uint16_t(first_vertex + i), uint16_t(first_vertex + (i + 1) % count) } });
+        bsp.edges.push_back({ { uint32_t(first_vertex + i), uint32_t(first_vertex + (i + 1) % count) } });
 }
 
 // Corners on a circle, clockwise as on disk; returns the first of its edges, which faces share.
@@ -68,11 +68,11 @@ size_t add_polygon(Bsp& bsp, size_t corners, float radius, glm::vec3 centre = gl
     return first_edge;
 }
 
-void add_face(Bsp& bsp, size_t first_edge, size_t corners, uint16_t texinfo)
+void add_face(Bsp& bsp, size_t first_edge, size_t corners, uint32_t texinfo)
 {
     formats::BspFace face {};
     face.first_edge = int32_t(bsp.surface_edges.size());
-    face.edge_count = uint16_t(corners);
+    face.edge_count = uint32_t(corners);
     face.texinfo = texinfo;
     face.light_offset = -1;
     for (size_t i = 0; i < corners; i++)
@@ -81,7 +81,7 @@ void add_face(Bsp& bsp, size_t first_edge, size_t corners, uint16_t texinfo)
 }
 
 // As many alike as fit.
-void add_faces(Bsp& bsp, size_t corners, float radius, uint16_t texinfo, size_t bytes = max_bytes)
+void add_faces(Bsp& bsp, size_t corners, float radius, uint32_t texinfo, size_t bytes = max_bytes)
 {
     const size_t edge = add_polygon(bsp, corners, radius);
     for (size_t used = 5000; used + 20 + 4 * corners < bytes && bsp.faces.size() < 60000; used += 20 + 4 * corners)
@@ -107,7 +107,7 @@ void add_tree(Bsp& bsp, size_t nodes, size_t clusters)
     bsp.leaves.clear();
     for (size_t i = 0; i <= nodes; i++) {
         formats::BspLeaf leaf {};
-        leaf.cluster = clusters > 0 ? int16_t(i % clusters) : int16_t(-1);
+        leaf.cluster = clusters > 0 ? int32_t(i % clusters) : -1;
         for (int axis = 0; axis < 3; axis++) {
             leaf.mins[axis] = -4096;
             leaf.maxs[axis] = 4096;
@@ -162,7 +162,7 @@ Bsp make_stretched(glm::vec3 s_axis, float s_offset)
     return bsp;
 }
 
-Bsp make_polygons(size_t corners, float radius, uint16_t texinfo, size_t bytes = max_bytes)
+Bsp make_polygons(size_t corners, float radius, uint32_t texinfo, size_t bytes = max_bytes)
 {
     Bsp bsp = make_base();
     add_faces(bsp, corners, radius, texinfo, bytes);
@@ -179,6 +179,15 @@ Bsp make_lights_in_clusters(size_t light_bytes, size_t clusters, size_t nodes)
     else
         bsp.leaves[0].cluster = 0;
     add_lights(bsp, light_bytes);
+    return bsp;
+}
+
+// Without visibility a leaf's number is what makes clusters.
+Bsp make_unseen_clusters()
+{
+    Bsp bsp = make_base();
+    bsp.leaves[0].cluster = 32767;
+    add_lights(bsp, 1800);
     return bsp;
 }
 
@@ -233,8 +242,8 @@ Bsp make_shared_leaf_faces(size_t entries)
     for (size_t first = 0; first < entries; first += 8192) {
         formats::BspLeaf leaf {};
         leaf.cluster = 0;
-        leaf.first_leaf_face = uint16_t(first);
-        leaf.leaf_face_count = uint16_t(std::min<size_t>(8192, entries - first));
+        leaf.first_leaf_face = uint32_t(first);
+        leaf.leaf_face_count = uint32_t(std::min<size_t>(8192, entries - first));
         for (int axis = 0; axis < 3; axis++) {
             leaf.mins[axis] = -4096;
             leaf.maxs[axis] = 4096;
@@ -348,12 +357,23 @@ std::vector<HostileMap> make_hostile_maps()
     add("halved triangles", make_nested(0.5f, 1), loads);
     add("equal triangles", make_polygons(3, 100, wall), loads);
     // Records that are used again and again.
-    add("leaf faces", make_shared_leaf_faces(65536 + 8192), refused);
+    add("leaf faces", make_shared_leaf_faces(65536), refused);
     add("fewer leaf faces", make_shared_leaf_faces(16384), loads);
     add("a ring of texinfos", make_rings(12000, 12000), refused);
     add("rings of texinfos", make_rings(6000, 256), loads);
     add("models", make_many_models(), loads);
     add("models of the same faces", make_shared_model_faces(), refused);
+    // As QBSP.
+    const auto add_wide = [&](const char* name, Bsp bsp, bool is_refused) {
+        bsp.format = formats::BspFormat::qbsp;
+        add(name, bsp, is_refused);
+    };
+    add_wide("QBSP: too many clusters", make_lights_in_clusters(1800, 65536, 0), refused);
+    add_wide("QBSP: few lights, clusters without leaves", make_lights_in_clusters(1800, 32768, 0), loads);
+    add_wide("QBSP: no visibility, clusters without leaves", make_unseen_clusters(), loads);
+    add_wide("QBSP: lights, clusters", make_lights_in_clusters(300'000, 6000, 6000), refused);
+    add_wide("QBSP: few lamps, clusters", make_lamps_in_clusters(10'000, 6000, 6000), loads);
+    add_wide("QBSP: leaf faces", make_shared_leaf_faces(65536 + 8192), refused);
     maps.push_back({ "overlapping lumps", make_overlapping_lumps(), refused });
     return maps;
 }

@@ -161,11 +161,13 @@ TEST(Record, NotesWhatStandsForAModel)
             module.engine.files[name] = to_text(formats::write_md2(samples::make_md2()));
         for (const char* name : { "models/both.md3", "models/alone.md3" })
             module.engine.files[name] = to_text(formats::write_md3(samples::make_md3()));
+        for (const char* name : { "models/arm.iqm", "models/both.iqm" })
+            module.engine.files[name] = to_text(formats::write_iqm(samples::make_iqm()));
         module.engine.files["models/damaged.md3"] = "IDP3 and no more";
         ASSERT_TRUE(module.api.init());
         module.api.begin_registration("sample");
         void* both = module.api.register_model("models/both.md2");
-        for (const char* name : { "models/both.md2", "models/alone.md2", "models/damaged.md2" })
+        for (const char* name : { "models/both.md2", "models/alone.md2", "models/arm.md2", "models/damaged.md2" })
             EXPECT_NE(module.api.register_model(name), nullptr) << name;
         module.api.end_registration();
         module.draw(1, both, nullptr);
@@ -176,8 +178,10 @@ TEST(Record, NotesWhatStandsForAModel)
     for (const trace::Call& call : reader.facts())
         if (call.kind == CallKind::file)
             files.insert(call.name);
-    for (const char* name : { "models/both.md2", "models/both.md3", "models/alone.md3", "models/damaged.md2" })
+    for (const char* name :
+        { "models/both.md2", "models/both.md3", "models/alone.md3", "models/arm.iqm", "models/damaged.md2" })
         EXPECT_TRUE(files.contains(name)) << name;
+    EXPECT_FALSE(files.contains("models/both.iqm")) << "the MD3 is shown";
 }
 
 // What comes before the first 3D view: whole frames of 2D show the engine's console and are left out, what is drawn in

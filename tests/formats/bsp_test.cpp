@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "formats/bsp.hpp"
+#include "formats/byte_writer.hpp"
 #include "formats/entities.hpp"
 #include "tests/formats/samples.hpp"
 
+#include <array>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -56,14 +59,145 @@ void expect_same(const Bsp& a, const Bsp& b)
     }
 }
 
+constexpr BspFormat both_formats[] { BspFormat::ibsp, BspFormat::qbsp };
+
 TEST(Bsp, RoundTrip)
 {
-    const Bsp bsp = make_bsp();
+    for (const BspFormat format : both_formats) {
+        Bsp bsp = make_bsp();
+        bsp.format = format;
+        const auto file = write_bsp(bsp);
+        const Bsp again = read_bsp(file, bsp.name);
+        EXPECT_EQ(again.name, bsp.name);
+        EXPECT_EQ(again.format, format);
+        expect_same(bsp, again);
+        EXPECT_EQ(write_bsp(again), file);
+    }
+}
+
+size_t lump_offset(const std::vector<std::byte>& file, size_t lump)
+{
+    uint32_t offset;
+    std::memcpy(&offset, file.data() + 8 + 8 * lump, sizeof offset);
+    return offset;
+}
+
+// What lies at `at` bytes from a lump's start.
+template <class T> T number_in(const std::vector<std::byte>& file, size_t lump, size_t at)
+{
+    T value;
+    std::memcpy(&value, file.data() + lump_offset(file, lump) + at, sizeof value);
+    return value;
+}
+
+template <class T>
+void expect_numbers(const std::vector<std::byte>& file, size_t lump, size_t at, std::vector<T> numbers)
+{
+    for (size_t i = 0; i < numbers.size(); i++)
+        EXPECT_EQ(number_in<T>(file, lump, at + i * sizeof(T)), numbers[i]) << "lump " << lump << ", number " << i;
+}
+
+// The second record of each lump whose records are wider than in an IBSP; lumps by their numbers in the directory.
+TEST(Bsp, WideFieldsLieWhereQbspHasThem)
+{
+    Bsp bsp = make_bsp();
+    bsp.format = BspFormat::qbsp;
+    bsp.brush_sides = { { 0, -1 }, { 2, 1 } };
     const auto file = write_bsp(bsp);
-    const Bsp again = read_bsp(file, bsp.name);
-    EXPECT_EQ(again.name, bsp.name);
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(file.data()), 4), "QBSP");
+    EXPECT_EQ(number_in<int32_t>(file, 4, 44 + 0), 1); // node: plane, children
+    expect_numbers<int32_t>(file, 4, 44 + 4, { -3, -2 });
+    expect_numbers<float>(file, 4, 44 + 12, { -64, -64, 0, 64, 64, 64 });
+    expect_numbers<uint32_t>(file, 4, 36, { 0, 2 }); // of the first node
+    expect_numbers<int32_t>(file, 6, 28, { 2, 1, 4, 4, 1 }); // face: plane, side, edges, texinfo
+    expect_numbers<uint8_t>(file, 6, 28 + 20, { 0, 255, 255, 255 });
+    EXPECT_EQ(number_in<int32_t>(file, 6, 28 + 24), -1);
+    expect_numbers<int32_t>(file, 8, 104, { 0, 1, 1 }); // leaf: contents, cluster, area
+    expect_numbers<float>(file, 8, 104 + 12, { 0, -64, 0, 64, 64, 64 });
+    expect_numbers<uint32_t>(file, 8, 104 + 36, { 1, 1, 0, 0 });
+    EXPECT_EQ(number_in<int32_t>(file, 8, 4), -1); // the first leaf's cluster
+    expect_numbers<uint32_t>(file, 9, 0, { 0, 1 });
+    expect_numbers<uint32_t>(file, 11, 8, { 0, 5, 5, 4 });
+    expect_numbers<int32_t>(file, 15, 0, { 0, -1, 2, 1 });
+}
+
+// One square 70,000 times, with vertices, edges and a place in leaves of its own each time.
+Bsp make_large_bsp()
+{
+    constexpr uint32_t more = 70'000;
+    Bsp bsp = make_bsp();
+    for (uint32_t i = 0; i < more; i++) {
+        const uint32_t first = uint32_t(bsp.vertices.size());
+        const int32_t edge = int32_t(bsp.edges.size());
+        BspFace face = bsp.faces[1];
+        face.first_edge = int32_t(bsp.surface_edges.size());
+        bsp.leaf_faces.push_back(uint32_t(bsp.faces.size()));
+        bsp.faces.push_back(face);
+        for (uint32_t corner = 0; corner < 4; corner++) {
+            bsp.vertices.push_back(bsp.vertices[std::array { 1, 4, 3, 2 }[corner]] + glm::vec3(0, 0, float(i)));
+            bsp.edges.push_back({ { first + corner, first + (corner + 1) % 4 } });
+            bsp.surface_edges.push_back(edge + int32_t(corner));
+        }
+    }
+    bsp.leaves[2].leaf_face_count += more;
+    return bsp;
+}
+
+TEST(Bsp, QbspHoldsMoreThan16BitsCount)
+{
+    Bsp bsp = make_large_bsp();
+    bsp.format = BspFormat::qbsp;
+    const Bsp again = read_bsp(write_bsp(bsp), bsp.name);
     expect_same(bsp, again);
-    EXPECT_EQ(write_bsp(again), file);
+    EXPECT_EQ(again.face_polygon(70'001)[0], glm::vec3(64, -64, 69'999));
+    EXPECT_EQ(again.leaf_faces.back(), 70'001u);
+}
+
+TEST(Bsp, WriterRefusesWhatDoesNotFitInto16Bits)
+{
+    const auto refusal = [](const Bsp& bsp) {
+        try {
+            write_bsp(bsp);
+        } catch (const std::invalid_argument& error) {
+            return std::string(error.what());
+        }
+        return std::string("written");
+    };
+    EXPECT_EQ(refusal(make_bsp()), "written");
+    EXPECT_EQ(
+        refusal(make_large_bsp()), "lump leaves, record 2: 70001 does not fit into 16 bits; write the map as QBSP");
+    Bsp bsp = make_bsp();
+    bsp.edges[3].vertices[1] = 65'536;
+    EXPECT_EQ(refusal(bsp), "lump edges, record 3: 65536 does not fit into 16 bits; write the map as QBSP");
+    bsp = make_bsp();
+    bsp.leaves[1].cluster = 32'768;
+    EXPECT_EQ(refusal(bsp), "lump leaves, record 1: 32768 does not fit into 16 bits; write the map as QBSP");
+    for (const float bound : { 0.5f, 40'000.0f, -INFINITY, NAN }) {
+        bsp = make_bsp();
+        bsp.nodes[1].mins[2] = bound;
+        EXPECT_TRUE(refusal(bsp).starts_with("lump nodes, record 1: ")) << refusal(bsp);
+        bsp.format = BspFormat::qbsp;
+        EXPECT_EQ(refusal(bsp), "written");
+    }
+}
+
+// Compilers put more lumps behind those of the directory: decoupled lightmaps, normals. They are not read.
+TEST(Bsp, LumpsOfBspxAreLeftAlone)
+{
+    for (const BspFormat format : both_formats) {
+        Bsp bsp = make_bsp();
+        bsp.format = format;
+        auto file = write_bsp(bsp);
+        ByteWriter more;
+        more.write_bytes(file);
+        more.write_bytes(std::as_bytes(std::span("BSPX", 4)));
+        more.write(uint32_t(1));
+        more.write_string("DECOUPLED_LM", 24);
+        more.write(uint32_t(file.size() + 40));
+        more.write(uint32_t(80));
+        more.write_string("", 80);
+        expect_same(read_bsp(more.take(), bsp.name), bsp);
+    }
 }
 
 TEST(Bsp, FacesAreCounterClockwiseAndHaveTheirNormals)
@@ -219,9 +353,9 @@ void fill_with_leaf_faces(Bsp& bsp, size_t count)
     bsp.faces[1].edge_count = 9;
     bsp.leaf_faces.assign(count, 1);
     bsp.leaves[1].first_leaf_face = 0;
-    bsp.leaves[1].leaf_face_count = uint16_t(count / 2);
-    bsp.leaves[2].first_leaf_face = uint16_t(count / 2);
-    bsp.leaves[2].leaf_face_count = uint16_t(count / 2);
+    bsp.leaves[1].leaf_face_count = uint32_t(count / 2);
+    bsp.leaves[2].first_leaf_face = uint32_t(count / 2);
+    bsp.leaves[2].leaf_face_count = uint32_t(count / 2);
 }
 
 TEST(Bsp, LongAnimationsAndLargeFacesAreRead)
@@ -311,17 +445,73 @@ const std::vector<std::pair<const char*, std::function<void(Bsp&)>>> faults {
     { "visibility", [](Bsp& b) { b.visibility.resize(3); } },
 };
 
-TEST(Bsp, RefusesIndicesOutOfRange)
+// What only 32 bits can say.
+const std::vector<std::pair<const char*, std::function<void(Bsp&)>>> wide_faults {
+    { "edges", [](Bsp& b) { b.edges[2].vertices[1] = 0x10001; } },
+    { "faces", [](Bsp& b) { b.faces[0].plane = UINT32_MAX; } },
+    { "faces", [](Bsp& b) { b.faces[0].texinfo = 0x10000; } },
+    { "faces", [](Bsp& b) { b.faces[1].edge_count = UINT32_MAX; } },
+    { "leaf faces", [](Bsp& b) { b.leaf_faces[1] = 0x10000; } },
+    { "leaf brushes", [](Bsp& b) { b.leaf_brushes[0] = UINT32_MAX; } },
+    { "leaves", [](Bsp& b) { b.leaves[1].cluster = 0x10000; } },
+    { "leaves", [](Bsp& b) { b.leaves[1].cluster = INT32_MIN; } },
+    { "leaves", [](Bsp& b) { b.leaves[1].area = 0x10001; } },
+    { "leaves",
+        [](Bsp& b) {
+            std::tie(b.leaves[1].first_leaf_face, b.leaves[1].leaf_face_count) = std::pair(2u, UINT32_MAX);
+        } },
+    { "leaves", [](Bsp& b) { b.leaves[1].leaf_brush_count = UINT32_MAX; } },
+    { "leaves", [](Bsp& b) { b.leaves[2].mins[1] = NAN; } },
+    { "leaves", [](Bsp& b) { b.leaves[2].maxs[0] = INFINITY; } },
+    { "nodes", [](Bsp& b) { b.nodes[1].mins[2] = NAN; } },
+    { "nodes", [](Bsp& b) { b.nodes[1].face_count = UINT32_MAX; } },
+    { "brush sides", [](Bsp& b) { b.brush_sides[0].plane = 0x10000; } },
+    { "brush sides", [](Bsp& b) { b.brush_sides[0].texinfo = -2; } },
+    { "visibility",
+        [](Bsp& b) {
+            b.visibility.assign(4 + 8 * 32'769 + 1, 0);
+            b.visibility[1] = 0x80;
+            b.visibility[0] = 1;
+        } },
+};
+
+void expect_faults_found(const std::vector<std::pair<const char*, std::function<void(Bsp&)>>>& list, BspFormat format)
 {
-    for (size_t i = 0; i < faults.size(); i++) {
+    for (size_t i = 0; i < list.size(); i++) {
         Bsp bsp = make_bsp();
-        faults[i].second(bsp);
+        bsp.format = format;
+        list[i].second(bsp);
         try {
             read_bsp(write_bsp(bsp), "maps/broken.bsp");
-            ADD_FAILURE() << "fault " << i << " in " << faults[i].first << " was not found";
+            ADD_FAILURE() << "fault " << i << " in " << list[i].first << " was not found";
         } catch (const FormatError& error) {
-            EXPECT_NE(error.reason().find(std::string("lump ") + faults[i].first), std::string::npos)
+            EXPECT_NE(error.reason().find(std::string("lump ") + list[i].first), std::string::npos)
                 << i << ": " << error.what();
+        }
+    }
+}
+
+TEST(Bsp, RefusesIndicesOutOfRange)
+{
+    for (const BspFormat format : both_formats)
+        expect_faults_found(faults, format);
+    expect_faults_found(wide_faults, BspFormat::qbsp);
+}
+
+TEST(Bsp, RefusalsSayWhereTheRecordLies)
+{
+    for (const BspFormat format : both_formats) {
+        Bsp bsp = make_bsp();
+        bsp.format = format;
+        bsp.leaves[2].area = 7;
+        const auto file = write_bsp(bsp);
+        const size_t start = lump_offset(file, 8);
+        try {
+            read_bsp(file, "maps/broken.bsp");
+            ADD_FAILURE();
+        } catch (const FormatError& error) {
+            EXPECT_EQ(error.offset(), start + 2 * (format == BspFormat::qbsp ? 52 : 28));
+            EXPECT_EQ(error.reason(), "lump leaves, record 2: area 7 of 2");
         }
     }
 }
@@ -329,6 +519,13 @@ TEST(Bsp, RefusesIndicesOutOfRange)
 TEST(Bsp, RefusesOtherFiles)
 {
     auto file = write_bsp(make_bsp());
+    Bsp extended = make_bsp();
+    extended.format = BspFormat::qbsp;
+    const auto wide_file = write_bsp(extended);
+    EXPECT_THROW(read_bsp(Bytes(wide_file).first(wide_file.size() - 64), "cut"), FormatError);
+    file[0] = std::byte { 'Q' }; // an IBSP that says it is a QBSP
+    EXPECT_THROW(read_bsp(file, "narrow records"), FormatError);
+    file[0] = std::byte { 'I' };
     EXPECT_THROW(read_bsp({}, "empty"), FormatError);
     EXPECT_THROW(read_bsp(Bytes(file).first(100), "cut"), FormatError);
     EXPECT_THROW(read_bsp(Bytes(file).first(file.size() - 64), "cut"), FormatError);

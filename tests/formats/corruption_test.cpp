@@ -161,6 +161,13 @@ TEST(Corruption, Bsp)
     try_mutations(write_bsp(samples::make_bsp()), [](Bytes file) { use_bsp(read_bsp(file, "m.bsp")); });
 }
 
+TEST(Corruption, Qbsp)
+{
+    Bsp bsp = samples::make_bsp();
+    bsp.format = BspFormat::qbsp;
+    try_mutations(write_bsp(bsp), [](Bytes file) { use_bsp(read_bsp(file, "m.bsp")); });
+}
+
 TEST(Corruption, RealMaps)
 {
     const char* folder = std::getenv("VKPT_TEST_MAPS");
@@ -253,6 +260,14 @@ TEST(Corruption, ProgressiveJpg)
 TEST(Corruption, Md2)
 {
     try_mutations(write_md2(samples::make_md2()), [](Bytes file) { use_md2(read_md2(file, "m.md2")); });
+}
+
+TEST(Corruption, Iqm)
+{
+    try_mutations(write_iqm(samples::make_iqm()), [](Bytes file) {
+        for (const Md2Model& mesh : read_iqm(file, "m.iqm"))
+            use_md2(mesh);
+    });
 }
 
 TEST(Corruption, Md3)

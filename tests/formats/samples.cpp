@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -122,6 +124,32 @@ std::vector<Md2Model> make_md3()
         for (glm::vec3& position : frame.positions)
             position.z -= 40;
     return surfaces;
+}
+
+IqmModel make_iqm()
+{
+    constexpr uint8_t shoulder = 0, elbow = 1;
+    const auto vertex = [](glm::vec3 position, glm::vec3 normal, glm::vec2 coordinate, std::array<uint8_t, 4> weights) {
+        return IqmModel::Vertex { position, normal, coordinate, { shoulder, elbow, 0, 0 }, weights };
+    };
+    constexpr std::array<uint8_t, 4> upper { 255, 0, 0, 0 }, lower { 0, 255, 0, 0 }, both { 51, 204, 0, 0 };
+    IqmModel model;
+    IqmModel::Mesh arm { "arm", "Red", {}, { 0, 1, 2, 0, 2, 3, 3, 2, 4 } };
+    arm.vertices = { vertex({ 0, -4, 0 }, { 0, -1, 0 }, { 0, 0 }, upper),
+        vertex({ 4, 0, 0 }, { 1, 0, 0 }, { 1, 0 }, upper), vertex({ 4, 0, 20 }, { 1, 0, 0 }, { 1, 0.5f }, both),
+        vertex({ 0, -4, 20 }, { 0, -1, 0 }, { 0, 0.5f }, both), vertex({ 0, 0, 40 }, { 0, 0, 1 }, { 0.5f, 1 }, lower) };
+    IqmModel::Mesh hand { "hand", "blue", {}, { 0, 1, 2 } };
+    hand.vertices = { vertex({ 0, 0, 40 }, { 1, 0, 0 }, { 0, 0 }, lower),
+        vertex({ 0, 6, 50 }, { 1, 0, 0 }, { 1, 0 }, lower), vertex({ 0, -6, 50 }, { 1, 0, 0 }, { 0, 1 }, lower) };
+    model.meshes = { arm, hand };
+    IqmModel::Joint lower_arm { "elbow", shoulder, {} };
+    lower_arm.bind.translation = { 0, 0, 20 };
+    model.joints = { { "shoulder", -1, {} }, lower_arm };
+    IqmModel::Placing bent = lower_arm.bind, lifted;
+    bent.rotation = glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 1, 0)); // z turns to x
+    lifted.translation = { 0, 0, 8 };
+    model.frames = { { {}, lower_arm.bind }, { lifted, bent } };
+    return model;
 }
 
 Sp2Sprite make_sp2()

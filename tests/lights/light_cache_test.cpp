@@ -22,9 +22,9 @@ struct Map {
         , emitters(std::move(emitters_))
     {
         for (size_t face = 0; face < bsp.faces.size(); face++)
-            bsp.leaf_faces.push_back(uint16_t(face));
+            bsp.leaf_faces.push_back(uint32_t(face));
         for (formats::BspLeaf& leaf : bsp.leaves)
-            leaf.leaf_face_count = leaf.cluster >= 0 ? uint16_t(bsp.faces.size()) : uint16_t(0);
+            leaf.leaf_face_count = leaf.cluster >= 0 ? uint32_t(bsp.faces.size()) : uint32_t(0);
         lists.build(bsp, emitters);
     }
     LightCacheLayout lay_out() const { return lay_out_light_cache(bsp, lists, emitters); }

@@ -103,18 +103,18 @@ private:
         if (!open_[cell])
             return -1;
         formats::BspLeaf leaf {};
-        leaf.cluster = int16_t(bsp_.cluster_count++);
+        leaf.cluster = bsp_.cluster_count++;
         const int mins[3] = { x, y, 0 };
         for (int axis = 0; axis < 3; axis++) {
-            leaf.mins[axis] = int16_t(mins[axis] * int(cell_size));
-            leaf.maxs[axis] = int16_t((mins[axis] + 1) * int(cell_size));
+            leaf.mins[axis] = float(mins[axis] * int(cell_size));
+            leaf.maxs[axis] = float((mins[axis] + 1) * int(cell_size));
         }
         leaf_of_cell_[cell] = bsp_.leaves.size();
         bsp_.leaves.push_back(leaf);
         const glm::vec3 corner(float(x) * cell_size, float(y) * cell_size, 0);
         const glm::vec3 across_x(cell_size, 0, 0), across_y(0, cell_size, 0);
         add_face(bsp_, { corner, corner + across_x, corner + across_x + across_y, corner + across_y },
-            glm::vec3(0, 0, 1), uint16_t(leaf.cluster % 4));
+            glm::vec3(0, 0, 1), uint32_t(leaf.cluster % 4));
         return -int32_t(bsp_.leaves.size());
     }
 
@@ -225,20 +225,20 @@ std::vector<bool> make_random_cells(int size, double open_share, uint32_t seed)
     return open;
 }
 
-size_t add_face(Bsp& bsp, const std::vector<glm::vec3>& outline, glm::vec3 normal, uint16_t texinfo)
+size_t add_face(Bsp& bsp, const std::vector<glm::vec3>& outline, glm::vec3 normal, uint32_t texinfo)
 {
     formats::BspFace face {};
-    face.plane = uint16_t(bsp.planes.size());
+    face.plane = uint32_t(bsp.planes.size());
     bsp.planes.push_back({ normal, glm::dot(normal, outline[0]), 3 });
     face.first_edge = int32_t(bsp.surface_edges.size());
-    face.edge_count = uint16_t(outline.size());
+    face.edge_count = uint32_t(outline.size());
     face.texinfo = texinfo;
     face.light_offset = -1;
     const size_t first_vertex = bsp.vertices.size();
     for (size_t i = 0; i < outline.size(); i++) {
         bsp.vertices.push_back(outline[outline.size() - 1 - i]); // clockwise on disk
         bsp.surface_edges.push_back(int32_t(bsp.edges.size()));
-        bsp.edges.push_back({ { uint16_t(first_vertex + i), uint16_t(first_vertex + (i + 1) % outline.size()) } });
+        bsp.edges.push_back({ { uint32_t(first_vertex + i), uint32_t(first_vertex + (i + 1) % outline.size()) } });
     }
     bsp.faces.push_back(face);
     return bsp.faces.size() - 1;

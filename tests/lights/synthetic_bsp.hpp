@@ -20,7 +20,7 @@ formats::Bsp make_cell_map(int size, const std::vector<bool>& open);
 std::vector<bool> make_random_cells(int size, double open_share, uint32_t seed);
 
 // Adds a face with this outline (in face_polygon's order) and returns its index.
-size_t add_face(formats::Bsp& bsp, const std::vector<glm::vec3>& outline, glm::vec3 normal, uint16_t texinfo);
+size_t add_face(formats::Bsp& bsp, const std::vector<glm::vec3>& outline, glm::vec3 normal, uint32_t texinfo);
 
 // True if the straight line from a to b meets no solid leaf and does not cross the surface of an opaque liquid.
 bool is_line_clear(const formats::Bsp& bsp, glm::vec3 a, glm::vec3 b);

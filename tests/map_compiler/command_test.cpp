@@ -54,6 +54,22 @@ TEST_F(Command, CompilesAMap)
     EXPECT_FALSE(bsp.lighting.empty());
 }
 
+TEST_F(Command, WritesQbspWhenAsked)
+{
+    write_text(path("two.map"), two_rooms::text());
+    const std::string arguments = path("two.map") + " --textures " + folder_.textures().string() + " -o ";
+    ASSERT_EQ(run(arguments + path("narrow.bsp")).status, 0);
+    const Result result = run(arguments + path("wide.bsp") + " --qbsp");
+    EXPECT_EQ(result.status, 0) << result.messages;
+    const std::string narrow_file = read_text(path("narrow.bsp")), wide_file = read_text(path("wide.bsp"));
+    EXPECT_TRUE(wide_file.starts_with("QBSP"));
+    formats::Bsp narrow = formats::read_bsp(std::as_bytes(std::span(narrow_file)), "two.bsp");
+    EXPECT_EQ(narrow.format, formats::BspFormat::ibsp);
+    narrow.format = formats::BspFormat::qbsp;
+    const std::vector<std::byte> widened = formats::write_bsp(narrow);
+    EXPECT_EQ(wide_file, std::string(reinterpret_cast<const char*>(widened.data()), widened.size()));
+}
+
 TEST_F(Command, LeavesOutLightAndVisibilityWhenAsked)
 {
     write_text(path("two.map"), two_rooms::text());

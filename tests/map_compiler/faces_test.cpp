@@ -124,7 +124,7 @@ TEST_F(Faces, HaveNoTJunctions)
 TEST_F(Faces, LieInTheLeavesAndNodesThatShowThem)
 {
     std::vector<int> in_leaves(bsp_->faces.size()), in_nodes(bsp_->faces.size());
-    for (const uint16_t face : bsp_->leaf_faces)
+    for (const uint32_t face : bsp_->leaf_faces)
         in_leaves[face]++;
     for (const BspNode& node : bsp_->nodes)
         for (int i = 0; i < node.face_count; i++) {

@@ -142,6 +142,18 @@ TEST_F(BadInput, DamagedReplacementLeavesTheModelItself)
     EXPECT_TRUE(session.has_line("models/item.md2 is shown in its place"));
 }
 
+TEST_F(BadInput, DamagedIqmIsNamedAndLeavesTheModelItself)
+{
+    folder_.add("models/arm.md2", formats::write_md2(samples::make_md2()));
+    folder_.add("models/arm.iqm", cut(formats::write_iqm(samples::make_iqm()), 0.6));
+    Session& session = start();
+    expect_good_map_works();
+    EXPECT_TRUE(session.module().register_model("models/arm.md2"));
+    EXPECT_TRUE(session.has_line("models/arm.iqm: at byte"));
+    EXPECT_TRUE(session.has_line("models/arm.md2 is shown in its place"));
+    EXPECT_FALSE(session.module().register_model("models/arm.iqm"));
+}
+
 TEST_F(BadInput, BrushModelsThatTheMapLacksAreRefused)
 {
     MapBuilder map;

@@ -20,8 +20,8 @@ MapBuilder::MapBuilder()
     constexpr float bound = 4096;
     bsp_.edges.push_back({});
     formats::BspLeaf leaf {};
-    std::ranges::fill(leaf.mins, int16_t(-bound));
-    std::ranges::fill(leaf.maxs, int16_t(bound));
+    std::ranges::fill(leaf.mins, -bound);
+    std::ranges::fill(leaf.maxs, bound);
     bsp_.leaves.push_back(leaf);
     bsp_.models.push_back({ glm::vec3(-bound), glm::vec3(bound), glm::vec3(0), -1, 0, 0 });
     add_entity({ { "classname", "worldspawn" } });
@@ -104,8 +104,8 @@ formats::Bsp MapBuilder::finish()
 {
     formats::Bsp bsp = bsp_;
     for (size_t face = 0; face < size_t(bsp.models[0].face_count); face++)
-        bsp.leaf_faces.push_back(uint16_t(face));
-    bsp.leaves[0].leaf_face_count = uint16_t(bsp.leaf_faces.size());
+        bsp.leaf_faces.push_back(uint32_t(face));
+    bsp.leaves[0].leaf_face_count = uint32_t(bsp.leaf_faces.size());
     return bsp;
 }
 

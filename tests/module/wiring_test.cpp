@@ -3,6 +3,7 @@
 // emitters that are traced. Read back from the module; no picture is looked at.
 #include "formats/model.hpp"
 #include "shaders/shared/scene.h"
+#include "tests/formats/samples.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
@@ -59,6 +60,23 @@ std::vector<formats::Md2Model> make_surfaces()
     return surfaces;
 }
 
+// The surfaces' first frame on one joint, which nothing moves; a skin's name has neither folder nor ending.
+formats::IqmModel as_iqm(const std::vector<formats::Md2Model>& surfaces)
+{
+    formats::IqmModel model;
+    model.joints.push_back({ "root", -1, {} });
+    model.frames.resize(2, { {} });
+    for (const formats::Md2Model& surface : surfaces) {
+        formats::IqmModel::Mesh mesh { "", surface.skins[0].substr(7, surface.skins[0].size() - 11), {},
+            surface.indices };
+        for (size_t i = 0; i < surface.vertex_count(); i++)
+            mesh.vertices.push_back({ surface.frames[0].positions[i], surface.frames[0].normals[i],
+                surface.texture_coordinates[i], {}, { 255, 0, 0, 0 } });
+        model.meshes.push_back(mesh);
+    }
+    return model;
+}
+
 // What a view is made of beside the map.
 struct Shown {
     std::vector<SceneTriangle> triangles;
@@ -104,6 +122,9 @@ protected:
         folder_->add("models/fine.md2", formats::write_md2(make_model()));
         folder_->add("models/fine.md3", formats::write_md3(make_surfaces()));
         folder_->add("models/alone.md3", formats::write_md3(make_surfaces()));
+        folder_->add("models/arm.iqm", formats::write_iqm(samples::make_iqm()));
+        folder_->add("models/arm.md2", formats::write_md2(make_model()));
+        folder_->add("models/same.iqm", formats::write_iqm(as_iqm(make_surfaces())));
         formats::Sp2Sprite sprite;
         sprite.frames = { { 16, 8, 8, 4, "sprites/small.pcx" }, { 32, 24, 0, 0, "sprites/large.pcx" } };
         folder_->add("sprites/flame.sp2", formats::write_sp2(sprite));
@@ -276,6 +297,54 @@ TEST_F(Wiring, Md3CanBeAskedForItself)
         show({ make_entity(session_->module().register_model("models/alone.md3"), { 20, 0, 8 }) }).triangles.size(),
         2u);
     EXPECT_FALSE(session_->module().register_model("models/none.md3"));
+}
+
+TEST_F(Wiring, IqmLooksLikeTheSameModelAsMd3)
+{
+    const auto show_model = [&](const char* name) {
+        engine::Entity entity = make_entity(session_->module().register_model(name), { 20, 0, 8 });
+        EXPECT_TRUE(entity.model) << name;
+        entity.angles[1] = 30;
+        return show({ entity });
+    };
+    const Shown iqm = show_model("models/same.iqm"), md3 = show_model("models/alone.md3");
+    ASSERT_EQ(iqm.triangles.size(), 2u);
+    ASSERT_EQ(md3.triangles.size(), 2u);
+    for (size_t i = 0; i < 2; i++) {
+        EXPECT_EQ(iqm.picture(i), md3.picture(i));
+        for (size_t corner = 0; corner < 3; corner++) {
+            expect_near(to_vec3(iqm.triangles[i].positions[corner]), to_vec3(md3.triangles[i].positions[corner]),
+                1.0f / 64, "position");
+            for (size_t k = 0; k < 2; k++)
+                EXPECT_NEAR(iqm.triangles[i].uvs[corner][k], md3.triangles[i].uvs[corner][k], 1e-6f);
+        }
+    }
+}
+
+// The wrist of the sample: at (0, 0, 40), and (20, 0, 28) with the elbow bent.
+TEST_F(Wiring, IqmStandsForAnMd2AndMovesWithItsSkeleton)
+{
+    engine::Entity entity = make_entity(session_->module().register_model("models/arm.md2"), { 20, 0, 8 });
+    ASSERT_TRUE(entity.model);
+    const auto expect_wrist = [&](glm::vec3 wrist) {
+        const Shown shown = show({ entity });
+        ASSERT_EQ(shown.triangles.size(), 4u);
+        float nearest = INFINITY;
+        for (const SceneTriangle& triangle : shown.triangles)
+            for (const auto& corner : triangle.positions)
+                nearest = std::min(nearest, glm::distance(to_vec3(corner), wrist + glm::vec3(20, 0, 8)));
+        EXPECT_LT(nearest, 0.01f) << wrist.x << " " << wrist.z;
+    };
+    expect_wrist({ 0, 0, 40 });
+    entity.frame = 1;
+    expect_wrist({ 20, 0, 28 });
+    entity.backlerp = 0.25f; // a quarter of the way back to the straight arm
+    expect_wrist({ 15, 0, 31 });
+    const Shown shown = show({ entity });
+    EXPECT_NE(shown.picture(0).find("models/red"), std::string::npos) << shown.picture(0);
+    EXPECT_NE(shown.picture(3).find("models/blue"), std::string::npos) << shown.picture(3);
+    entity.skin = session_->module().register_skin("models/green.pcx");
+    EXPECT_NE(show({ entity }).picture(0).find("models/green"), std::string::npos);
 }
 
 TEST_F(Wiring, ModelsTurnByTheirAngles)

@@ -3,6 +3,7 @@
 #include "tests/lights/synthetic_bsp.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <gtest/gtest.h>
 
 namespace vkpt::test {
@@ -37,6 +38,36 @@ TEST(WorldFaces, TrianglesAreTheirEmitters)
     EXPECT_GT(counts.size(), 8u);
     EXPECT_TRUE(std::ranges::all_of(counts, [](int count) { return count == 1; }));
     EXPECT_GT(apart, 8u) << "what is dark of a lamp";
+}
+
+template <class T> bool same_bytes(const std::vector<T>& a, const std::vector<T>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+// All that is made of a map is the same, whichever format it lies in.
+TEST(WorldOfQbsp, IsThatOfTheSameMapAsIbsp)
+{
+    formats::Bsp bsp = make_cell_map(6, make_random_cells(6, 0.7, 5));
+    const auto narrow = load_world(write_bsp(bsp), "maps/cells.bsp", make_panel, {});
+    bsp.format = formats::BspFormat::qbsp;
+    const auto wide = load_world(write_bsp(bsp), "maps/cells.bsp", make_panel, {});
+    ASSERT_EQ(wide->bsp.format, formats::BspFormat::qbsp);
+    const LightLists &a = narrow->light_lists, &b = wide->light_lists;
+    EXPECT_GT(a.cluster_count(), 10u);
+    EXPECT_GT(a.static_indices().size(), 100u);
+    EXPECT_EQ(a.cluster_count(), b.cluster_count());
+    EXPECT_TRUE(same_bytes(a.lists(), b.lists()));
+    EXPECT_EQ(a.static_indices(), b.static_indices());
+    for (size_t cluster = 0; cluster < a.cluster_count(); cluster++) {
+        EXPECT_EQ(a.visible_from(cluster).bytes(), b.visible_from(cluster).bytes());
+        EXPECT_EQ(a.cluster_bounds(cluster).mins, b.cluster_bounds(cluster).mins);
+        EXPECT_EQ(a.cluster_bounds(cluster).maxs, b.cluster_bounds(cluster).maxs);
+    }
+    EXPECT_TRUE(same_bytes(narrow->models[0].triangles, wide->models[0].triangles));
+    EXPECT_TRUE(same_bytes(narrow->models[0].emitters, wide->models[0].emitters));
+    EXPECT_EQ(narrow->bvh().nodes, wide->bvh().nodes);
+    EXPECT_EQ(narrow->bvh().triangles, wide->bvh().triangles);
 }
 
 // A texture may be on faces that nobody sees, too, and those may come first.

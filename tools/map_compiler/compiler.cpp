@@ -84,7 +84,7 @@ formats::Bsp compile_map(std::string_view text, std::string_view file, const Com
     for (const std::string& name : textures.missing())
         options.warn(fmt::format(
             "{}: texture {} is not in {}; it is compiled without flags", file, name, options.textures.string()));
-    BspWriter writer(world);
+    BspWriter writer(world, options.format);
     AreaRecords areas;
     Compiled compiled = compile_world(world, areas, options);
     // The cluster portals replace the leaf portals, which the file's leaves need: work on a copy.

@@ -16,6 +16,7 @@ namespace vkpt::tools {
 struct CompileOptions {
     std::filesystem::path textures; // folder with .wal files; empty: none
     bool light = true, visibility = true;
+    formats::BspFormat format = formats::BspFormat::ibsp;
     int threads = 0; // 0: as many as the machine has
     WarningSink warn = [](const std::string&) {};
     WarningSink progress = [](const std::string&) {};

@@ -11,11 +11,12 @@ using namespace formats;
 
 namespace {
 
-void store_bounds(const Bounds& bounds, int16_t (&mins)[3], int16_t (&maxs)[3])
+// Whole numbers that IBSP has room for, in either format.
+void store_bounds(const Bounds& bounds, float (&mins)[3], float (&maxs)[3])
 {
     for (int axis = 0; axis < 3; axis++) {
-        mins[axis] = int16_t(std::clamp(std::floor(bounds.mins[axis]), -32768.0, 32767.0));
-        maxs[axis] = int16_t(std::clamp(std::ceil(bounds.maxs[axis]), -32768.0, 32767.0));
+        mins[axis] = float(std::clamp(std::floor(bounds.mins[axis]), -32768.0, 32767.0));
+        maxs[axis] = float(std::clamp(std::ceil(bounds.maxs[axis]), -32768.0, 32767.0));
     }
 }
 
@@ -28,9 +29,10 @@ size_t cell_key(const dvec3& p, const glm::ivec3& step)
 
 } // namespace
 
-BspWriter::BspWriter(SourceMap& world)
+BspWriter::BspWriter(SourceMap& world, BspFormat format)
     : world_(world)
 {
+    bsp_.format = format;
     bsp_.name = world.source.file;
     // The engine takes leaf 0 for everything solid, and an edge's sign for its direction: edge 0 cannot be used.
     BspLeaf solid {};
@@ -44,8 +46,9 @@ void BspWriter::check_limit(size_t count, size_t limit, std::string_view what) c
 {
     if (count > limit)
         world_.source.fail(0,
-            fmt::format(
-                "{} {} exceed the format's limit of {}; simplify the map or make brushes detail", count, what, limit));
+            fmt::format("{} {} exceed the format's limit of {}; simplify the map, make brushes detail, or write a QBSP "
+                        "(--qbsp)",
+                count, what, limit));
 }
 
 void BspWriter::add_model(const Tree& tree, const FaceSet& faces, const BrushModel& model)
@@ -77,7 +80,7 @@ void BspWriter::emit_brushes(const BrushModel& model)
         brush_numbers_[i] = int(bsp_.brushes.size());
         bsp_.brushes.push_back({ int(bsp_.brush_sides.size()), int(brush.sides.size()), brush.contents });
         for (const BrushSide& side : brush.sides)
-            bsp_.brush_sides.push_back({ uint16_t(side.plane), int16_t(side.texinfo) });
+            bsp_.brush_sides.push_back({ uint32_t(side.plane), side.texinfo });
     }
 }
 
@@ -91,12 +94,12 @@ int BspWriter::emit_node(const Tree& tree, int index)
     BspNode record {};
     record.plane = node.plane;
     store_bounds(node.bounds, record.mins, record.maxs);
-    record.first_face = uint16_t(bsp_.faces.size());
+    record.first_face = uint32_t(bsp_.faces.size());
     for (const int face : node.faces) {
         face_numbers_[size_t(face)] = int(bsp_.faces.size());
         emit_face(faces_->faces[size_t(face)]);
     }
-    record.face_count = uint16_t(bsp_.faces.size() - record.first_face);
+    record.face_count = uint32_t(bsp_.faces.size() - record.first_face);
     for (int side = 0; side < 2; side++)
         record.children[side] = emit_node(tree, node.children[side]);
     bsp_.nodes[number] = record;
@@ -107,10 +110,10 @@ int BspWriter::emit_leaf(const Tree& tree, const Node& node)
 {
     BspLeaf leaf {};
     leaf.contents = node.contents;
-    leaf.cluster = int16_t(node.cluster);
-    leaf.area = int16_t(node.area);
+    leaf.cluster = node.cluster;
+    leaf.area = node.area;
     store_bounds(node.bounds, leaf.mins, leaf.maxs);
-    leaf.first_leaf_face = uint16_t(bsp_.leaf_faces.size());
+    leaf.first_leaf_face = uint32_t(bsp_.leaf_faces.size());
     std::vector<int> seen;
     const int self = int(&node - tree.nodes.data());
     for (const int p : node.portals) {
@@ -122,13 +125,13 @@ int BspWriter::emit_leaf(const Tree& tree, const Node& node)
     seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
     for (const int face : seen)
         if (face_numbers_[size_t(face)] >= 0)
-            bsp_.leaf_faces.push_back(uint16_t(face_numbers_[size_t(face)]));
-    leaf.leaf_face_count = uint16_t(bsp_.leaf_faces.size() - leaf.first_leaf_face);
-    leaf.first_leaf_brush = uint16_t(bsp_.leaf_brushes.size());
+            bsp_.leaf_faces.push_back(uint32_t(face_numbers_[size_t(face)]));
+    leaf.leaf_face_count = uint32_t(bsp_.leaf_faces.size() - leaf.first_leaf_face);
+    leaf.first_leaf_brush = uint32_t(bsp_.leaf_brushes.size());
     for (const int brush : node.brushes)
         if (brush_numbers_[size_t(brush)] >= 0)
-            bsp_.leaf_brushes.push_back(uint16_t(brush_numbers_[size_t(brush)]));
-    leaf.leaf_brush_count = uint16_t(bsp_.leaf_brushes.size() - leaf.first_leaf_brush);
+            bsp_.leaf_brushes.push_back(uint32_t(brush_numbers_[size_t(brush)]));
+    leaf.leaf_brush_count = uint32_t(bsp_.leaf_brushes.size() - leaf.first_leaf_brush);
     bsp_.leaves.push_back(leaf);
     return int(bsp_.leaves.size()) - 1;
 }
@@ -144,11 +147,11 @@ void BspWriter::emit_face(const Face& face)
     if (corners.size() < 3)
         return;
     BspFace record {};
-    record.plane = uint16_t(face.plane & ~1); // as the nodes: the positive one of the pair
-    record.side = uint16_t(face.plane & 1);
-    record.texinfo = uint16_t(face.texinfo);
+    record.plane = uint32_t(face.plane & ~1); // as the nodes: the positive one of the pair
+    record.side = uint32_t(face.plane & 1);
+    record.texinfo = uint32_t(face.texinfo);
     record.first_edge = int(bsp_.surface_edges.size());
-    record.edge_count = uint16_t(corners.size());
+    record.edge_count = uint32_t(corners.size());
     std::ranges::fill(record.styles, uint8_t(255));
     record.light_offset = -1;
     for (size_t i = 0; i < corners.size(); i++)
@@ -164,7 +167,7 @@ int32_t BspWriter::surface_edge(int from, int to)
         return -it->second.edge;
     }
     const int edge = int(bsp_.edges.size());
-    bsp_.edges.push_back({ { uint16_t(from), uint16_t(to) } });
+    bsp_.edges.push_back({ { uint32_t(from), uint32_t(to) } });
     edges_.insert_or_assign(uint64_t(uint32_t(from)) << 32 | uint32_t(to), OpenEdge { edge, false });
     return edge;
 }
@@ -190,19 +193,9 @@ int BspWriter::vertex(const dvec3& p)
     return index;
 }
 
-Bsp BspWriter::finish(AreaRecords areas, std::vector<uint8_t> visibility, int cluster_count)
+// 16-bit fields; the engine's own arrays are no larger.
+void BspWriter::check_limits() const
 {
-    bsp_.entity_text = world_.entity_text();
-    for (const Plane& plane : world_.planes.all())
-        bsp_.planes.push_back({ glm::vec3(plane.normal), float(plane.dist), plane.type });
-    bsp_.texinfos = world_.texinfos;
-    bsp_.areas = std::move(areas.areas);
-    bsp_.area_portals = std::move(areas.portals);
-    bsp_.visibility = std::move(visibility);
-    bsp_.cluster_count = bsp_.visibility.empty() ? 0 : cluster_count;
-    if (bsp_.vertices.empty())
-        bsp_.vertices.push_back({}); // of edge 0, where nothing is drawn
-    // 16-bit fields; the engine's own arrays are no larger.
     check_limit(bsp_.planes.size(), 65536, "planes");
     check_limit(bsp_.vertices.size(), 65536, "vertices");
     check_limit(bsp_.faces.size(), 65535, "faces");
@@ -217,6 +210,22 @@ Bsp BspWriter::finish(AreaRecords areas, std::vector<uint8_t> visibility, int cl
     check_limit(bsp_.surface_edges.size(), 256000, "surface edges");
     check_limit(bsp_.models.size(), 1024, "brush models");
     check_limit(bsp_.entity_text.size(), 0x40000, "bytes of entity text");
+}
+
+Bsp BspWriter::finish(AreaRecords areas, std::vector<uint8_t> visibility, int cluster_count)
+{
+    bsp_.entity_text = world_.entity_text();
+    for (const Plane& plane : world_.planes.all())
+        bsp_.planes.push_back({ glm::vec3(plane.normal), float(plane.dist), plane.type });
+    bsp_.texinfos = world_.texinfos;
+    bsp_.areas = std::move(areas.areas);
+    bsp_.area_portals = std::move(areas.portals);
+    bsp_.visibility = std::move(visibility);
+    bsp_.cluster_count = bsp_.visibility.empty() ? 0 : cluster_count;
+    if (bsp_.vertices.empty())
+        bsp_.vertices.push_back({}); // of edge 0, where nothing is drawn
+    if (bsp_.format == BspFormat::ibsp)
+        check_limits();
     return std::move(bsp_);
 }
 

@@ -10,7 +10,7 @@ namespace vkpt::tools {
 
 class BspWriter {
 public:
-    explicit BspWriter(SourceMap& world);
+    BspWriter(SourceMap& world, formats::BspFormat format);
 
     // In the models' order, world first. Throws MapError when a limit of the format is passed.
     void add_model(const Tree& tree, const FaceSet& faces, const BrushModel& model);
@@ -23,6 +23,7 @@ private:
     int32_t surface_edge(int from, int to);
     int vertex(const dvec3& p);
     void emit_brushes(const BrushModel& model);
+    void check_limits() const;
     void check_limit(size_t count, size_t limit, std::string_view what) const;
 
     SourceMap& world_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// vkpt_map: compiles a map source to BSP version 38. Exit status: 0 done, 1 failed, 2 wrong use.
+// vkpt_map: compiles a map source to BSP version 38, or to QBSP. Exit status: 0 done, 1 failed, 2 wrong use.
 #include "tools/map_compiler/compiler.hpp"
 #include "tools/map_compiler/textures.hpp"
 
@@ -15,7 +15,7 @@ using namespace vkpt::tools;
 
 struct Arguments {
     fs::path source, output, textures;
-    bool no_light = false, no_visibility = false;
+    bool no_light = false, no_visibility = false, extended = false;
     int threads = 0;
 };
 
@@ -48,6 +48,7 @@ void compile(const Arguments& arguments)
     options.textures = arguments.textures;
     options.light = !arguments.no_light;
     options.visibility = !arguments.no_visibility;
+    options.format = arguments.extended ? formats::BspFormat::qbsp : formats::BspFormat::ibsp;
     options.threads = arguments.threads;
     options.warn = [](const std::string& text) { fmt::print(stderr, "warning: {}\n", text); };
     options.progress = [](const std::string& text) { fmt::print("  {}\n", text); };
@@ -72,6 +73,8 @@ int main(int argc, char** argv)
     app.add_option("--textures", arguments.textures, "folder of the .wal files (their flags and colours)");
     app.add_flag("--no-light", arguments.no_light, "bake no lightmaps");
     app.add_flag("--no-vis", arguments.no_visibility, "write no visible sets: everything sees everything");
+    app.add_flag("--qbsp", arguments.extended,
+        "write the extended format (QBSP), for maps too large for Quake II's own; Yamagi Quake II does not load it");
     app.add_option("--light-threads", arguments.threads, "threads for visibility and light; 0: all")
         ->check(CLI::Range(0, 256));
     try {
