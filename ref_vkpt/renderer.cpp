@@ -367,12 +367,19 @@ static bool wants_settled_frames()
     return cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
 }
 
+// Whether a material may be a screen that shows a camera's picture.
+static bool may_have_screens(const Module& m)
+{
+    return cvars::values().pt_cameras != 0 && m.scene.world() && !m.scene.world()->cameras.empty();
+}
+
 // Shaders that are edited are compiled often enough.
 static void fix_choices(Module& m)
 {
     const shared::ShaderCvars cvars = cvars::shader_values();
     if (m.graphics.device.traits.specializes_pipelines && !m.shader_reload.is_on())
-        m.graphics.pipelines.fix({ cvars.pt_light_weight, cvars.pt_light_point, cvars.pt_bounces, cvars.pt_indirect },
+        m.graphics.pipelines.fix({ cvars.pt_light_weight, cvars.pt_light_point, cvars.pt_bounces, cvars.pt_indirect,
+                                     may_have_screens(m) ? 1 : 0 },
             wants_settled_frames());
 }
 

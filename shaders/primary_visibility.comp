@@ -246,6 +246,8 @@ bool meet_screen(inout Path path, Sight sight, RawHit raw, HitSurface hit)
     return true;
 }
 
+layout(constant_id = SCREENS_CONSTANT) const int fixed_screens = NOT_FIXED;
+
 // Follows the path over one segment. False: it has ended.
 bool follow_path(inout Path path, Sight sight, inout Random random)
 {
@@ -260,7 +262,7 @@ bool follow_path(inout Path path, Sight sight, inout Random random)
         path.emitted += path.throughput * sky_radiance(path.ray.direction);
         return false;
     }
-    path.path_length += raw.t * path.stretch;
+    path.path_length += fixed_screens != 0 ? raw.t * path.stretch : raw.t;
     HitSurface hit = fetch_surface(raw, path.ray, path.path_length * sight.cone_spread, TEXTURE_SMOOTH);
     Surface s = hit.surface;
     if ((hit.flags & MATERIAL_SKY) != 0u) {
@@ -295,7 +297,7 @@ bool follow_path(inout Path path, Sight sight, inout Random random)
         path.unlit_depth = DEPTH_UNLIT;
         return false;
     }
-    if ((hit.flags & MATERIAL_SCREEN) != 0u && hit.front > 0.0 && path.screen_depth == 0.0
+    if (fixed_screens != 0 && (hit.flags & MATERIAL_SCREEN) != 0u && hit.front > 0.0 && path.screen_depth == 0.0
         && meet_screen(path, sight, raw, hit))
         return true;
     path.emitted += path.throughput * hit.emission;
@@ -317,7 +319,7 @@ void store_reprojection(Sight sight, Path path)
     const float sky_distance = 1e5;
     float distance = path.reached_surface || path.unlit_depth == DEPTH_UNLIT ? path.path_length : sky_distance;
     vec3 seen = sight.direction * distance;
-    bool is_on_screen = path.screen_depth != 0.0;
+    bool is_on_screen = fixed_screens != 0 && path.screen_depth != 0.0;
     float depth = is_on_screen ? path.screen_depth : dot(seen, frame.camera.forward);
     Surface s = path.hit.surface;
     store_features(sight.index,
