@@ -84,6 +84,9 @@ void add_maps()
         "# a comment\ntextures/e1u1/floor.wal,\nmodels/x/skin:\n    roughness_override 0.3\n    texture_normals "
         "overrides/floor_n.tga\n"
         "    kind CHROME\n");
+    add_text("cameras", "sample",
+        "# a comment\n(100, -250.5, 64) (0.7, 0.7, -0.1)\n(0, 0, 128) (1, 0, -0.5) 60 # the door\n(1, 2) "
+        "(3)\n(1, 2, 3) (0, 0, 0)\n");
     add_text("game_text", "lights",
         "l# vkpt lights of sample\nlight 0 0 64 0 0 #ff8040 450 2 pulse\nlight 8 8 64 30 90 red 200 1 spot 40 # a "
         "comment\nlight 0 0 0 0 0 orbit 64 4\n");

@@ -23,6 +23,7 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <utility>
 
@@ -218,6 +219,17 @@ void measure_trace_backends(Module& m)
 
 void toggle_flashlight() { cvars::set("pt_flashlight", cvars::values().pt_flashlight != 0 ? "0" : "1"); }
 
+// Where the view is, as a line for maps/cameras/NAME.txt.
+void print_camera(const Module& m)
+{
+    if (!m.last_camera)
+        return engine::print("camera: start a map, and look as a camera of it should");
+    formats::SecurityCamera camera;
+    camera.eye = m.last_camera->eye;
+    camera.forward = glm::normalize(m.last_camera->forward);
+    engine::print("{}", formats::write_camera(camera));
+}
+
 struct Command {
     const char* name;
     void (*function)();
@@ -232,6 +244,7 @@ constexpr Command commands[] = {
     { "pt_photo", [] { run_command([] { module() ? run_photo_command(*module()) : void(); }); } },
     { "pt_replay", [] { run_command([] { module() ? run_replay_command(*module()) : void(); }); } },
     { "mat", [] { run_command([] { module() ? run_material_command(*module()) : void(); }); } },
+    { "camera", [] { run_command([] { module() ? print_camera(*module()) : void(); }); } },
     { "flashlight", [] { run_command(toggle_flashlight); } },
     { "reload_shader", [] { run_command([] { module() ? module()->shader_reload.look() : void(); }); } },
     { "pt_times_print", [] { run_command([] { module() ? print_pass_statistics(*module()) : void(); }); } },
@@ -354,12 +367,19 @@ static bool wants_settled_frames()
     return cvars.pt_seed != 0 || cvars.pt_accumulate != 0 || cvars.pt_times != 0;
 }
 
+// Whether a material may be a screen that shows a camera's picture.
+static bool may_have_screens(const Module& m)
+{
+    return cvars::values().pt_cameras != 0 && m.scene.world() && !m.scene.world()->cameras.empty();
+}
+
 // Shaders that are edited are compiled often enough.
 static void fix_choices(Module& m)
 {
     const shared::ShaderCvars cvars = cvars::shader_values();
     if (m.graphics.device.traits.specializes_pipelines && !m.shader_reload.is_on())
-        m.graphics.pipelines.fix({ cvars.pt_light_weight, cvars.pt_light_point, cvars.pt_bounces, cvars.pt_indirect },
+        m.graphics.pipelines.fix({ cvars.pt_light_weight, cvars.pt_light_point, cvars.pt_bounces, cvars.pt_indirect,
+                                     may_have_screens(m) ? 1 : 0 },
             wants_settled_frames());
 }
 

@@ -55,7 +55,7 @@ limits_of() {
     jpg | png | tga | pcx) echo "4 4096 1" ;;
     wal | m8 | m32) echo "2 4096 1" ;;
     sp2) echo "4 2048 1" ;;
-    cvars | paths | options | entities | materials | game_text) echo "5 512 1" ;;
+    cvars | paths | options | entities | cameras | materials | game_text) echo "5 512 1" ;;
     *) echo "2 4096 1" ;;
     esac
 }

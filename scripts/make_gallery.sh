@@ -23,6 +23,11 @@ make_data() {
     "$build/tools/map_compiler/vkpt_map" docs/gallery/looks.map -o "$work/baseq2/maps/looks.bsp" \
         --textures "$build/game/baseq2/textures"
     cp docs/gallery/looks.lights docs/gallery/looks.mat "$work/baseq2/maps/"
+    # Our map once more, with a camera.
+    cp "$work/baseq2/maps/vkpt1.bsp" "$work/baseq2/maps/screens.bsp"
+    cp docs/gallery/screens.mat "$work/baseq2/maps/"
+    mkdir -p "$work/baseq2/maps/cameras"
+    cp docs/gallery/screens.txt "$work/baseq2/maps/cameras/"
 }
 
 # entities MAP X Y Z: what is in the map, as vkpt shows it (without items and monsters), with the player's
@@ -119,4 +124,5 @@ picture fog maps/looks.bsp@60,-480,150,15,90 "${frames[@]}" --set pt_fog=0.002 -
 picture physical_sky maps/vkpt1.bsp@0,520,200,-5,90 "${frames[@]}" --set pt_sky=physical --set pt_sky_azimuth=120
 picture flashlight maps/vkpt1.bsp@-440,100,60,10,-135 "${frames[@]}" --set pt_flashlight=1 --set pt_emission_scale=0.02
 [ "$renderer" = gl3 ] || picture wipe maps/vkpt1.bsp "${frames[@]}" --set pt_wipe=0.5 # its left half is what gl3 has
+[ "$renderer" = gl3 ] || picture screens maps/screens.bsp@690,520,150,3,-30 "${frames[@]}" # gl3 has no cameras
 picture lens maps/vkpt1.bsp@0,-384,46,0,90 "${samples[@]}" --set pt_aperture=10 --set pt_focus=190

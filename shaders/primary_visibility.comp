@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Camera rays through mirrors, glass and water to the first surface that is shaded, written to the G-buffer.
+// Camera rays through mirrors, glass and water, and on from a security camera where they meet a screen, to the first
+// surface that is shaded, written to the G-buffer.
 #define VKPT_NORMAL_MAPS
 #include "lib/frame.glsl"
 #include "lib/fog.glsl"
@@ -74,7 +75,8 @@ struct Path {
     Ray ray;
     vec3 throughput;
     vec3 emitted;
-    float path_length;
+    float path_length; // from the eye, or as far as it had to be for the pixel to cover as much
+    float stretch; // how much that grows over a unit
     uint mask;
     uint medium; // MEDIUM_*
     float unlit_depth; // DEPTH_*: what the path ended on without a surface
@@ -83,7 +85,16 @@ struct Path {
     HitSurface hit;
     vec3 mirror; // normal of the last mirror, 0: none
     vec3 moved; // from where the surface's point was in the last view
+    float screen_depth; // along the camera's axis, of the screen that the path has met; 0: none
     Layers layers;
+};
+
+// A place of the image: what the camera's ray through it is called.
+struct Sight {
+    vec3 direction; // unit, as it leaves the eye
+    uint index; // of the pixel in the screen buffers
+    vec2 offset; // of the ray from the pixel's corner
+    float cone_spread; // how much wider the pixel gets over a unit
 };
 
 void reflect_path(inout Path path, Surface s, vec3 normal)
@@ -181,8 +192,64 @@ float unlit_scale(uint flags)
     return adapts ? clamp(exposure_of_unlit / exposure.v.exposure, 1.0 / max_scale, max_scale) : 1.0;
 }
 
+// The direction as it looks in the mirror.
+vec3 mirrored(Path path, vec3 direction) { return direction - path.mirror * (2.0 * dot(path.mirror, direction)); }
+
+// Where `seen`, from the eye, was in the last view; the mirror shows that it has `moved` since.
+void store_place(Sight sight, Path path, vec3 seen, vec3 moved)
+{
+    ScreenPoint before
+        = project(frame.previous_camera, frame.camera.eye + seen - mirrored(path, moved), frame.previous_size);
+    store_reprojected(sight.index, vec3(place_in_last_view(before, sight.offset), before.depth));
+}
+
+// How depth changes over the image, of the plane there.
+void store_slope(Sight sight, Path path, vec3 seen, vec3 normal)
+{
+    vec3 plane = mirrored(path, normal);
+    vec2 slope = vec2(dot(plane, frame.camera.right), -dot(plane, frame.camera.up)) * 2.0 / vec2(frame.size)
+        * dot(seen, frame.camera.forward) / dot(plane, seen);
+    store_depth_gradient(sight.index, pack_upper_halves(clamp(slope, -8.0, 8.0)));
+}
+
+// Units of the surface for one of its texture's coordinates.
+float texture_scale(Triangle t)
+{
+    vec2 u = t.uvs[1] - t.uvs[0], v = t.uvs[2] - t.uvs[0];
+    float covered = length(cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]));
+    return sqrt(covered / quick_max(abs(u.x * v.y - u.y * v.x), 1e-12));
+}
+
+// The front of a screen. False: its rim, which is a surface as any other. True: the path goes on from the camera. To
+// the filters the picture lies where the screen is, and moves with it.
+bool meet_screen(inout Path path, Sight sight, RawHit raw, HitSurface hit)
+{
+    Screen screen = frame.scene.screens[hit.flags >> MATERIAL_SCREEN_SHIFT];
+    Triangle triangle = fetch_Triangle(frame.scene.triangles, raw.triangle);
+    vec2 place = (fract(interpolate_uv(triangle, raw.barycentrics)) - screen.area_mins) / screen.area_size;
+    if (any(lessThan(place, vec2(0.0))) || any(greaterThan(place, vec2(1.0))))
+        return false;
+    vec3 seen = sight.direction * path.path_length;
+    path.screen_depth = dot(seen, frame.camera.forward);
+    if ((frame.flags & FRAME_REPROJECTED) != 0u) {
+        store_place(sight, path, seen, movement(raw, hit.surface.position));
+        store_slope(sight, path, seen, hit.surface.geometric_normal);
+    }
+    vec3 way = screen.corner + screen.across * place.x + screen.down * place.y;
+    path.ray = Ray(screen.eye, normalize(way), 0.0, ray_far);
+    path.mask = mask_reflected;
+    path.medium = screen.medium;
+    path.mirror = vec3(0.0);
+    float picture_width = texture_scale(triangle) * screen.area_size.x;
+    path.stretch = path.path_length * length(screen.across) / (picture_width * length(way));
+    path.path_length = 0.0;
+    return true;
+}
+
+layout(constant_id = SCREENS_CONSTANT) const int fixed_screens = NOT_FIXED;
+
 // Follows the path over one segment. False: it has ended.
-bool follow_path(inout Path path, float cone_spread, inout Random random)
+bool follow_path(inout Path path, Sight sight, inout Random random)
 {
     RawHit raw = trace_nearest(path.ray, path.mask);
     path.throughput *= medium_transmittance(path.medium, raw.t);
@@ -195,8 +262,8 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
         path.emitted += path.throughput * sky_radiance(path.ray.direction);
         return false;
     }
-    path.path_length += raw.t;
-    HitSurface hit = fetch_surface(raw, path.ray, path.path_length * cone_spread, TEXTURE_SMOOTH);
+    path.path_length += fixed_screens != 0 ? raw.t * path.stretch : raw.t;
+    HitSurface hit = fetch_surface(raw, path.ray, path.path_length * sight.cone_spread, TEXTURE_SMOOTH);
     Surface s = hit.surface;
     if ((hit.flags & MATERIAL_SKY) != 0u) {
         path.emitted += path.throughput * sky_radiance(path.ray.direction);
@@ -230,6 +297,9 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
         path.unlit_depth = DEPTH_UNLIT;
         return false;
     }
+    if (fixed_screens != 0 && (hit.flags & MATERIAL_SCREEN) != 0u && hit.front > 0.0 && path.screen_depth == 0.0
+        && meet_screen(path, sight, raw, hit))
+        return true;
     path.emitted += path.throughput * hit.emission;
     if (s.metallic > 0.5 && s.roughness < mirror_roughness) {
         path.throughput *= s.albedo + (1.0 - s.albedo) * schlick_power(dot(s.normal, s.view));
@@ -242,32 +312,26 @@ bool follow_path(inout Path path, float cone_spread, inout Random random)
     return false;
 }
 
-// The direction as it looks in the mirror.
-vec3 mirrored(Path path, vec3 direction) { return direction - path.mirror * (2.0 * dot(path.mirror, direction)); }
-
-// What the mirror shows stands behind it, as far along the camera's ray as the path is long.
-void store_reprojection(uint index, Path path, vec3 direction, vec2 offset)
+// What the mirror shows stands behind it, as far along the camera's ray as the path is long. Of what a screen shows,
+// meet_screen has stored the place.
+void store_reprojection(Sight sight, Path path)
 {
     const float sky_distance = 1e5;
     float distance = path.reached_surface || path.unlit_depth == DEPTH_UNLIT ? path.path_length : sky_distance;
-    Camera camera = frame.camera;
-    vec3 seen = direction * distance;
-    float depth = dot(seen, camera.forward);
-    ScreenPoint before
-        = project(frame.previous_camera, camera.eye + seen - mirrored(path, path.moved), frame.previous_size);
-    store_reprojected(index, vec3(place_in_last_view(before, offset), before.depth));
+    vec3 seen = sight.direction * distance;
+    bool is_on_screen = fixed_screens != 0 && path.screen_depth != 0.0;
+    float depth = is_on_screen ? path.screen_depth : dot(seen, frame.camera.forward);
     Surface s = path.hit.surface;
-    store_features(index,
+    store_features(sight.index,
         path.reached_surface ? pack_features(mirrored(path, s.normal), material_key(s.roughness, s.metallic), depth)
                              : uvec2(0u));
-    if (!path.reached_surface) {
-        store_depth_gradient(index, 0u); // strata of such pixels ask for it, too
+    if (is_on_screen)
         return;
-    }
-    vec3 plane = mirrored(path, s.geometric_normal);
-    vec2 slope
-        = vec2(dot(plane, camera.right), -dot(plane, camera.up)) * 2.0 / vec2(frame.size) * depth / dot(plane, seen);
-    store_depth_gradient(index, pack_upper_halves(clamp(slope, -8.0, 8.0)));
+    store_place(sight, path, seen, path.moved);
+    if (path.reached_surface)
+        store_slope(sight, path, seen, s.geometric_normal);
+    else
+        store_depth_gradient(sight.index, 0u); // strata of such pixels ask for it, too
 }
 
 const uint lens_stream = 0x6c656e73u; // apart from the numbers of the pixel's other choices
@@ -301,24 +365,25 @@ void see_pixel(uvec2 pixel, uint index)
     path.throughput = vec3(1.0);
     path.emitted = vec3(0.0);
     path.path_length = 0.0;
+    path.stretch = 1.0;
     path.mirror = vec3(0.0);
     path.moved = vec3(0.0);
-    vec3 direction = path.ray.direction;
+    path.screen_depth = 0.0;
     path.mask = mask_camera;
     path.medium = frame.scene.eye_medium;
     path.reached_surface = false;
     path.unlit_depth = DEPTH_NOTHING;
     path.unlit_segments = 0u;
     path.layers = (frame.flags & FRAME_LAYERED) != 0u ? share_layers(pixel) : unshared_layers;
-    float cone_spread = 2.0 * length(frame.camera.right) / float(frame.size.x);
+    Sight sight = Sight(path.ray.direction, index, offset, 2.0 * length(frame.camera.right) / float(frame.size.x));
 
     ROLLED_FOR (uint segment = 0u; segment < max_specular_segments + path.unlit_segments; segment++)
-        if (!follow_path(path, cone_spread, random))
+        if (!follow_path(path, sight, random))
             break;
     store_traced_rays(index, 0u);
 
     if ((frame.flags & FRAME_REPROJECTED) != 0u)
-        store_reprojection(index, path, direction, offset);
+        store_reprojection(sight, path);
     if ((frame.flags & FRAME_REPLAYED) != 0u)
         store_random_seed(index, uvec2(join_halves(pixel), frame.frame_index));
     store_emitted(index, path.emitted);

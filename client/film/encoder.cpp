@@ -72,6 +72,15 @@ std::vector<std::string> codec_options(const std::filesystem::path& folder)
     return { "-c:v", "mpeg4", "-q:v", "2" };
 }
 
+// The second input, and what is made of it.
+std::vector<std::string> sound_options(const Encoder::Sound& sound)
+{
+    if (sound.file.empty())
+        return {};
+    return { "-ss", fmt::format("{:.6f}", sound.from), "-i", sound.file.string(), "-map", "0:v:0", "-map", "1:a:0",
+        "-af", "apad", "-t", fmt::format("{:.6f}", sound.seconds), "-c:a", "aac", "-b:a", "192k" };
+}
+
 } // namespace
 
 void check_ffmpeg()
@@ -82,14 +91,15 @@ void check_ffmpeg()
     waitpid(process, nullptr, 0);
 }
 
-Encoder::Encoder(
-    const std::filesystem::path& film, const std::filesystem::path& folder, int width, int height, double rate)
+Encoder::Encoder(const std::filesystem::path& film, const std::filesystem::path& folder, int width, int height,
+    double rate, const Sound& sound)
     : messages_(folder / "ffmpeg.txt")
 {
     std::vector<std::string> words { "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo",
         "-pixel_format", "rgba", "-video_size", fmt::format("{}x{}", width, height), "-framerate",
         fmt::format("{}", rate), "-i", "pipe:0" };
-    const std::vector<std::string> codec = codec_options(folder);
+    const std::vector<std::string> codec = codec_options(folder), sound_words = sound_options(sound);
+    words.insert(words.end(), sound_words.begin(), sound_words.end());
     words.insert(words.end(), codec.begin(), codec.end());
     words.insert(words.end(), { "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4", film.string() });
     int ends[2];

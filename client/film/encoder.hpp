@@ -12,8 +12,14 @@ namespace vkpt::client {
 
 class Encoder {
 public:
+    struct Sound {
+        std::filesystem::path file; // any that ffmpeg reads; empty: none
+        double from = 0; // seconds of it that come before the film
+        double seconds = 0; // of the film: silence where the file ends earlier
+    };
     // Throws Failure where ffmpeg is not installed. `folder`: for its messages.
-    Encoder(const std::filesystem::path& film, const std::filesystem::path& folder, int width, int height, double rate);
+    Encoder(const std::filesystem::path& film, const std::filesystem::path& folder, int width, int height, double rate,
+        const Sound& sound);
     ~Encoder();
     Encoder(const Encoder&) = delete;
     Encoder& operator=(const Encoder&) = delete;

@@ -8,6 +8,7 @@
 #include "client/options.hpp"
 #include "client/progress.hpp"
 #include "client/record/record.hpp"
+#include "client/record/sound.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -25,7 +26,8 @@ namespace {
 struct FilmOptions {
     ModuleOptions module;
     SceneOptions scene;
-    std::string output, engine;
+    std::string output, engine, sound;
+    bool is_silent = false;
     int samples = 64;
     double rate = 24, shutter = 0.5, from = 0, seconds = 0, aperture = 0, focus = 256;
 };
@@ -59,14 +61,44 @@ formats::Image read_picture(const Extension& extension)
     return image;
 }
 
-// Where the pictures go: into a film, or into a folder.
+// What the film is made of: a trace, and what the engine mixed while it was recorded, if it did.
+struct Recorded {
+    std::filesystem::path trace, sound;
+};
+
+// `folder`: where a sound is put that is made here.
+Encoder::Sound find_sound(
+    const FilmOptions& options, const Recorded& recorded, const std::filesystem::path& folder, double seconds)
+{
+    if (options.is_silent)
+        return {};
+    if (!options.sound.empty()) {
+        if (!std::filesystem::is_regular_file(options.sound))
+            throw Failure(fmt::format("--sound {}: there is no such file", options.sound));
+        return { std::filesystem::absolute(options.sound), options.from, seconds };
+    }
+    if (recorded.sound.empty())
+        return {};
+    const std::filesystem::path wav = folder / "sound.wav";
+    const std::string silence
+        = write_sound(recorded.sound, trace::TraceReader(recorded.trace), options.from, seconds, wav);
+    if (silence.empty())
+        return { wav, 0, seconds };
+    std::fprintf(stderr, "vkpt: the film has no sound: %s\n", silence.c_str());
+    return {};
+}
+
+// Where the pictures go: into a film, or into a folder. So does the sound, which has the same length.
 class Pictures {
 public:
-    Pictures(const FilmOptions& options, Size size)
+    Pictures(const FilmOptions& options, const Recorded& recorded, Size size, double seconds)
     {
         if (options.output.ends_with('/')) {
             folder_ = options.output;
+            if (!options.sound.empty())
+                throw WrongUse("--sound goes into a FILE.mp4, not to pictures in a folder");
             std::filesystem::create_directories(folder_);
+            has_sound_ = !find_sound(options, recorded, folder_, seconds).file.empty();
             return;
         }
         if (!options.output.ends_with(".mp4"))
@@ -77,7 +109,9 @@ public:
         check_ffmpeg();
         file_.emplace(options.output);
         temporary_.emplace("vkpt-film-");
-        encoder_.emplace(film(), temporary_->path(), size.width, size.height, options.rate);
+        const Encoder::Sound sound = find_sound(options, recorded, temporary_->path(), seconds);
+        has_sound_ = !sound.file.empty();
+        encoder_.emplace(film(), temporary_->path(), size.width, size.height, options.rate, sound);
     }
 
     void add(const formats::Image& picture)
@@ -89,6 +123,8 @@ public:
         file.write(formats::write_png(picture));
         file.commit();
     }
+
+    bool has_sound() const { return has_sound_; }
 
     void finish()
     {
@@ -107,6 +143,7 @@ private:
     std::optional<SessionFolder> temporary_;
     std::optional<Encoder> encoder_;
     int count_ = 0;
+    bool has_sound_ = false;
 };
 
 // Time left is said where stderr is no terminal, too: films take hours.
@@ -163,12 +200,13 @@ void expose(const FilmOptions& options, TraceFrames& trace, Host& host, int fram
         trace.draw_moment(host, open + time * (sample + 0.5) / options.samples, sample > 0);
 }
 
-void make_film(const FilmOptions& options, FileSystem& files, const std::string& trace_path)
+void make_film(const FilmOptions& options, FileSystem& files, const Recorded& recorded)
 {
     const Size size = parse_size(options.scene.size);
-    TraceFrames trace(files, trace_path, 0);
+    TraceFrames trace(files, recorded.trace.string(), 0);
     const int frames = count_frames(options, trace);
-    Pictures pictures(options, size);
+    const double seconds = frames / options.rate;
+    Pictures pictures(options, recorded, size, seconds);
     Host host(make_film_host(options, size), &files);
     trace.register_with(host);
     for (const std::string& note : trace.notes())
@@ -183,8 +221,8 @@ void make_film(const FilmOptions& options, FileSystem& files, const std::string&
     }
     clock.finish();
     pictures.finish();
-    fmt::print(
-        "{}: {} frames of {} x {}, {:.1f} s\n", options.output, frames, size.width, size.height, frames / options.rate);
+    fmt::print("{}: {} frames of {} x {}, {:.1f} s, {}\n", options.output, frames, size.width, size.height, seconds,
+        pictures.has_sound() ? "with sound" : "without sound");
 }
 
 void run_film(const FilmOptions& options)
@@ -192,7 +230,7 @@ void run_film(const FilmOptions& options)
     FileSystem files(options.scene.base_folder, options.scene.game);
     const std::string& scene = options.scene.scene;
     if (scene.ends_with(".rtrace"))
-        return make_film(options, files, scene);
+        return make_film(options, files, { scene, {} });
     if (scene.ends_with(".bsp") || scene.find('@') != std::string::npos)
         throw WrongUse(fmt::format("\"{}\" is no recorded game: name a FILE.rtrace or a demo (.dm2)", scene));
     RecordOptions record;
@@ -200,8 +238,9 @@ void run_film(const FilmOptions& options)
     record.engine = options.engine;
     record.game = options.scene.game;
     record.size = options.scene.size;
+    record.with_sound = !options.is_silent && options.sound.empty();
     const std::unique_ptr<EngineRun> run = record_demo(record, files);
-    make_film(options, files, run->trace().string());
+    make_film(options, files, { run->trace(), record.with_sound ? run->sound() : std::filesystem::path() });
 }
 
 } // namespace
@@ -210,7 +249,8 @@ void add_film_command(CLI::App& program)
 {
     const auto options = std::make_shared<FilmOptions>();
     CLI::App* command = program.add_subcommand("film",
-        "Make a film of a trace or a demo, with motion blur and depth of field, by averaging many samples a frame");
+        "Make a film of a trace or a demo, with motion blur and depth of field, by averaging many samples a frame; a "
+        "demo's sound goes with it");
     add_scene_options(*command, options->scene);
     command->add_option("-o,--output", options->output, "FILE.mp4, written by ffmpeg; or FOLDER/ for PNG pictures")
         ->required()
@@ -245,6 +285,13 @@ void add_film_command(CLI::App& program)
         ->type_name("UNITS")
         ->check(CLI::Range(1.0, 100000.0))
         ->capture_default_str();
+    CLI::Option* sound
+        = command
+              ->add_option("--sound", options->sound,
+                  "What is heard, as long as the trace: of vkpt record --sound, or any sound that ffmpeg "
+                  "reads (default: a demo's own; none for traces)")
+              ->type_name("FILE");
+    command->add_flag("--no-sound", options->is_silent, "A silent film")->excludes(sound);
     command
         ->add_option("--engine", options->engine,
             "For demos: the Yamagi Quake II executable (default: $VKPT_ENGINE, then the usual places)")
@@ -252,6 +299,7 @@ void add_film_command(CLI::App& program)
     add_module_options(*command, options->module);
     add_examples(*command,
         { "vkpt film game.rtrace -o game.mp4", "vkpt film vkpt1.dm2 --size 1920x1080 --spp 256 -o tour.mp4",
+            "vkpt film game.rtrace --sound game.wav -o game.mp4",
             "vkpt film game.rtrace --from 12 --seconds 4 --aperture 6 --focus 180 -o out/frames/" });
     command->callback([options] { run_film(*options); });
 }

@@ -51,7 +51,8 @@ fs::path find_engine(const fs::path& wanted)
 }
 
 // What the engine runs with.
-constexpr const char *record_module = "ref_record.so", *clock_library = "recording_clock.so";
+constexpr const char *record_module = "ref_record.so", *clock_library = "recording_clock.so",
+                     *sound_library = "recording_sound.so";
 
 std::string read_text(const fs::path& path)
 {
@@ -177,9 +178,10 @@ void EngineRun::make_folder(const EngineRunOptions& options)
             user_.id, folder_.string()));
     home_ = folder_ / "home";
     trace_ = home_ / "out.rtrace";
+    sound_ = home_ / "out.sound";
     fs::copy_file(engine_, folder_ / "quake2");
     fs::permissions(folder_ / "quake2", fs::perms(0755));
-    for (const char* file : { record_module, clock_library })
+    for (const char* file : { record_module, clock_library, sound_library })
         fs::copy_file(find_companion(file, "Build the target vkpt, or reinstall."), folder_ / file);
     for (const std::string& game : { std::string("baseq2"), options.game }) {
         if (game.empty() || fs::exists(folder_ / game))
@@ -245,7 +247,10 @@ int EngineRun::start(const EngineRunOptions& options) const
     setenv("SDL_VIDEO_DRIVER", "dummy", 1); // SDL3's name for it
     setenv("SDL_AUDIODRIVER", "dummy", 1);
     setenv("VKPT_TRACE", trace_.c_str(), 1);
-    setenv("LD_PRELOAD", (folder_ / clock_library).c_str(), 1);
+    setenv("VKPT_SOUND", sound_.c_str(), 1);
+    const std::string clock = folder_ / clock_library, sound = folder_ / sound_library;
+    const std::string libraries = options.with_sound ? fmt::format("{}:{}", clock, sound) : clock;
+    setenv("LD_PRELOAD", libraries.c_str(), 1);
     if ((changes_user_ && !become(user_.id, user_.group)) || chdir(folder_.c_str()) != 0)
         _exit(127);
     prctl(PR_SET_PDEATHSIG, SIGKILL); // after the change of the user, which resets it

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Runs Yamagi Quake II with the recording module, without display and sound, in a folder of its own that vanishes
-// afterwards.
+// Runs Yamagi Quake II with the recording module, without a display, in a folder of its own that vanishes afterwards.
+// Nothing is played; with `with_sound` what would be heard is written.
 #pragma once
 
 #include "client/host/session_folder.hpp"
@@ -20,6 +20,7 @@ struct EngineRunOptions {
     std::string demo; // name in the game's demos/, with ending
     std::vector<std::byte> demo_file; // where it is not in the game data; else empty
     std::vector<std::pair<std::string, std::string>> settings; // console variables
+    bool with_sound = false;
     std::function<void(const std::filesystem::path& trace)> on_progress; // now and then
 };
 
@@ -32,6 +33,8 @@ public:
     EngineRun& operator=(const EngineRun&) = delete;
 
     const std::filesystem::path& trace() const { return trace_; }
+    // For write_sound (sound.hpp).
+    const std::filesystem::path& sound() const { return sound_; }
 
 private:
     struct User {
@@ -46,7 +49,7 @@ private:
     [[noreturn]] void fail(const std::string& reason) const;
 
     SessionFolder temporary_folder_;
-    std::filesystem::path folder_, home_, data_, trace_, engine_;
+    std::filesystem::path folder_, home_, data_, trace_, sound_, engine_;
     User user_;
     bool changes_user_ = false;
 };

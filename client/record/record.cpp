@@ -6,6 +6,7 @@
 #include "client/host/output_file.hpp"
 #include "client/options.hpp"
 #include "client/progress.hpp"
+#include "client/record/sound.hpp"
 #include "common/trace/trace_reader.hpp"
 
 #include <chrono>
@@ -73,6 +74,16 @@ Demo find_demo(const FileSystem& files, const std::string& wanted)
     return demo;
 }
 
+// The same sound from everybody's configuration. The engine mixes ahead of what is heard, here by little more than a
+// frame (`step` in microseconds): a sound that starts with a frame is heard with it.
+void add_sound_settings(EngineRunOptions& run, int step)
+{
+    constexpr double mixed_ahead = 1.25; // frames
+    run.settings.insert(run.settings.end(),
+        { { "s_mixahead", fmt::format("{:.6f}", step * 1e-6 * mixed_ahead) }, { "s_khz", "44" }, { "sndbits", "16" },
+            { "sndchannels", "2" }, { "s_volume", "0.7" } });
+}
+
 EngineRunOptions make_run(const RecordOptions& options, const FileSystem& files, Demo demo)
 {
     const Size size = parse_size(options.size);
@@ -88,8 +99,12 @@ EngineRunOptions make_run(const RecordOptions& options, const FileSystem& files,
     set("r_customheight", size.height);
     set("timedemo", options.timedemo);
     // Microseconds a frame. With timedemo, too: else the clock on the wall decides about a millisecond now and then.
-    set("fixedtime",
-        options.timedemo ? 1000000 / server_messages_per_second : (1000000 + options.rate / 2) / options.rate);
+    const int step
+        = options.timedemo ? 1000000 / server_messages_per_second : (1000000 + options.rate / 2) / options.rate;
+    set("fixedtime", step);
+    run.with_sound = options.with_sound;
+    if (options.with_sound)
+        add_sound_settings(run, step);
     for (const auto& setting : parse_settings(options.settings, "--set")) {
         if ((setting.first + setting.second).find_first_of("\"\n") != std::string::npos)
             throw WrongUse(fmt::format("--set {}: no quotation marks or line breaks", setting.first));
@@ -121,6 +136,8 @@ void run_record(const RecordOptions& options)
 {
     if (!options.output.ends_with(".rtrace"))
         throw WrongUse(fmt::format("-o {}: name a FILE.rtrace", options.output));
+    if (options.with_sound && !options.sound.ends_with(".wav"))
+        throw WrongUse(fmt::format("--sound {}: name a FILE.wav", options.sound));
     OutputFile output(options.output);
     const FileSystem files(options.base_folder, options.game);
     const auto start = std::chrono::steady_clock::now();
@@ -128,12 +145,16 @@ void run_record(const RecordOptions& options)
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const trace::TraceReader reader(run->trace());
     const size_t frames = reader.frame_count();
+    const double shown = reader.seconds(frames - 1);
+    const std::string silence
+        = options.with_sound ? write_sound(run->sound(), reader, 0, shown, options.sound) : std::string();
     output.take(run->trace());
     output.commit();
-    const double shown = reader.seconds(frames - 1);
     fmt::print("{}: {} frames, {:.1f} s, {:.0f} kB ({:.1f} kB a second), recorded in {:.1f} s\n", options.output,
         frames, shown, double(reader.file_bytes()) / 1000, double(reader.file_bytes()) / 1000 / std::max(shown, 1e-3),
         seconds);
+    if (!silence.empty())
+        std::fprintf(stderr, "vkpt: %s is not written: %s\n", options.sound.c_str(), silence.c_str());
 }
 
 } // namespace
@@ -152,6 +173,8 @@ void add_record_command(CLI::App& program)
               ->capture_default_str();
     command->add_flag("--timedemo", options->timedemo, "One frame per server message instead, ten a second")
         ->excludes(rate);
+    command->add_option("--sound", options->sound, "FILE.wav: also write what is heard, as long as the trace")
+        ->type_name("FILE");
     command->add_option("--size", options->size, "The window size that 2D is laid out for")
         ->type_name("WxH")
         ->capture_default_str();
@@ -168,7 +191,10 @@ void add_record_command(CLI::App& program)
         { "vkpt record vkpt1.dm2 -o vkpt1.rtrace",
             "vkpt record ~/demos/fight.dm2 --game xatrix --basedir ~/quake2 -o fight.rtrace",
             "vkpt record demo1 --timedemo --size 1920x1080 -o demo1.rtrace" });
-    command->callback([options] { run_record(*options); });
+    command->callback([options] {
+        options->with_sound = !options->sound.empty();
+        run_record(*options);
+    });
 }
 
 } // namespace vkpt::client

@@ -12,9 +12,9 @@
 namespace vkpt::client {
 
 struct RecordOptions {
-    std::string demo, output, engine, base_folder, game, size = "1280x720";
+    std::string demo, output, engine, base_folder, game, size = "1280x720", sound;
     int rate = 60;
-    bool timedemo = false;
+    bool timedemo = false, with_sound = false;
     std::vector<std::string> settings;
 };
 

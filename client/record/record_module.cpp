@@ -46,12 +46,27 @@ void write(Call call)
     with_trace([&](Recorder& r) { r.write(std::move(call)); });
 }
 
+template <class Function> Function* find_preloaded(const char* name)
+{
+    return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
 // `vkpt record` preloads recording_clock.so; without it, time is the wall's. The engine's step is whole milliseconds.
+// With sound it preloads recording_sound.so, too.
 void advance_clock()
 {
-    static auto* const advance = reinterpret_cast<void (*)(int64_t)>(dlsym(RTLD_DEFAULT, "vkpt_advance_clock"));
-    if (advance)
-        advance(int64_t(engine::get_cvar("fixedtime", "0", engine::CVAR_NONE)->number) / 1000 * 1000);
+    static auto* const advance = find_preloaded<void(int64_t)>("vkpt_advance_clock");
+    static auto* const advance_sound = find_preloaded<void(int64_t)>("vkpt_advance_sound");
+    const int64_t step = int64_t(engine::get_cvar("fixedtime", "0", engine::CVAR_NONE)->number) / 1000 * 1000;
+    for (auto* const function : { advance, advance_sound })
+        if (function)
+            function(step);
+}
+
+void call_preloaded(const char* name)
+{
+    if (auto* const function = find_preloaded<void()>(name))
+        function();
 }
 
 engine::VideoSize wanted_size()
@@ -99,6 +114,7 @@ void shutdown()
     if (!recorder)
         return;
     with_trace([](Recorder& r) { r.finish(); });
+    call_preloaded("vkpt_finish_sound");
     engine::print("ref_record: {} views in {} frames", recorder->totals().views, recorder->totals().frames);
     recorder = nullptr;
 }
@@ -146,6 +162,7 @@ void begin_frame(float camera_separation)
 void render_view(const engine::RefDef& refdef)
 {
     with_trace([&](Recorder& r) { r.write_view(refdef); });
+    call_preloaded("vkpt_note_view");
 }
 
 void end_frame()

@@ -218,6 +218,7 @@ void Frame::fill_scene(shared::FrameUniforms& uniforms, VkCommandBuffer commands
     scene_texels_ = scene_upload_.fill(uniforms.scene, scene, gpu_world, use);
     uniforms.flags |= scene.has_alpha_test ? shared::FRAME_ALPHA_TEST : 0;
     fill_air(uniforms, scene);
+    std::ranges::copy(scene.screens, uniforms.scene.screens);
     if (uniforms.cvars.pt_wipe > 0 && uniforms.scene.lightmap_faces != 0)
         uniforms.flags |= shared::FRAME_WIPE;
 }

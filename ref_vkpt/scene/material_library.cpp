@@ -4,6 +4,7 @@
 #include "common/numbers.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 namespace vkpt {
 
@@ -23,6 +24,18 @@ std::string word_of(const Attributes& attributes, std::string_view name)
     return found != attributes.end() ? found->second : std::string();
 }
 
+// Of the picture; as Q2RTX has it for its screens where the file does not say. Nothing that has no size.
+glm::vec4 screen_area_of(const Attributes& attributes)
+{
+    const glm::vec4 usual = MaterialSettings().screen_area;
+    const glm::vec4 area = glm::clamp(
+        glm::vec4(number_of(attributes, "screen_left", usual.x), number_of(attributes, "screen_top", usual.y),
+            number_of(attributes, "screen_right", usual.z), number_of(attributes, "screen_bottom", usual.w)),
+        0.0f, 1.0f);
+    constexpr float smallest = 1 / 256.0f;
+    return area.z - area.x >= smallest && area.w - area.y >= smallest ? area : usual;
+}
+
 MaterialSettings make_settings(const Attributes& attributes)
 {
     constexpr float brightest = 16, usual_threshold = 215, steepest = 4, max_emissive = 1000;
@@ -33,6 +46,8 @@ MaterialSettings make_settings(const Attributes& attributes)
         settings.roughness = settings.roughness < 0 ? 0 : settings.roughness;
         settings.metalness = settings.metalness < 0 ? 1 : settings.metalness;
     }
+    settings.is_screen = word_of(attributes, "kind") == "CAMERA";
+    settings.screen_area = screen_area_of(attributes);
     if (attributes.contains("synth_emissive"))
         settings.glow_threshold = number_of(attributes, "synth_emissive", 0) > 0
             ? int(std::clamp(number_of(attributes, "emissive_threshold", usual_threshold), 1.0f, 255.0f))

@@ -4,6 +4,7 @@
 
 #include "formats/material_file.hpp"
 
+#include <glm/vec4.hpp>
 #include <map>
 #include <string>
 #include <string_view>
@@ -18,6 +19,8 @@ struct MaterialSettings {
     float bump_scale = 1; // of the normal map's tilt
     float metalness_factor = 1; // times the alpha of the normal map
     float emissive_factor = 1; // times what glows
+    bool is_screen = false; // shows what a camera sees
+    glm::vec4 screen_area { 11 / 256.0f, 14 / 256.0f, 245 / 256.0f, 148 / 256.0f }; // left, top, right, bottom of 1
     // Files of the game; empty: not said.
     std::string base_file, normals_file, emissive_file;
     std::map<std::string, std::string, std::less<>> attributes; // all, as they are written

@@ -12,6 +12,7 @@
 #include "ref_vkpt/pass_statistics.hpp"
 #include "ref_vkpt/scene/entities.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
+#include "ref_vkpt/scene/screens.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,6 +73,25 @@ std::string load_more_entities(std::string_view map)
         return {};
     }
     return '\n' + text;
+}
+
+// maps/cameras/NAME.txt. None where there is no such file.
+std::vector<formats::SecurityCamera> load_cameras(std::string_view map)
+{
+    const std::string path = "maps/cameras/" + std::string(map) + ".txt";
+    const std::optional<engine::FileData> file = engine::load_file(path);
+    if (!file)
+        return {};
+    try {
+        const std::string_view text(reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size());
+        formats::CameraFile cameras = formats::read_cameras(text, path);
+        for (const std::string& message : cameras.messages)
+            engine::print("vkpt: {}", message);
+        return std::move(cameras.cameras);
+    } catch (const formats::FormatError& error) {
+        engine::print("vkpt: {}; the map has no cameras now", error.what());
+        return {};
+    }
 }
 
 // Nothing where there is none.
@@ -212,6 +232,7 @@ void Scene::begin_registration(std::string_view map)
     world_ = load_world(file->bytes(), path, find, scales, load_more_entities(map));
     for (const std::string& message : world_->messages)
         engine::print_developer(message);
+    world_->cameras = load_cameras(map);
     sky_ = {};
 }
 
@@ -504,6 +525,8 @@ SceneSnapshot Scene::take_snapshot(
         snapshot.has_alpha_test = world_->models[0].has_alpha_test;
         snapshot.moving = MovingGeometry(uint32_t(world_->models[0].triangles.size()));
         snapshot.materials = world_->make_materials(refdef.time, defaults);
+        if (cvars.pt_cameras != 0)
+            snapshot.screens = find_screens(*world_, materials_, refdef.time, snapshot.materials);
         snapshot.sky = make_sky(refdef.time);
         player_body = find_player_body(player ? *player : refdef);
         for (engine::Entity& part : player_body)

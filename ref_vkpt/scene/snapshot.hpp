@@ -32,6 +32,7 @@ struct SceneSnapshot {
     std::vector<shared::Emitter> emitters;
     std::vector<shared::DarkLight> dark_lights;
     std::vector<shared::Material> materials; // all: the world's first
+    std::vector<shared::Screen> screens; // that they name, at most MAX_SCREENS
     std::vector<float> lightstyles; // lightstyle_count of them, then those of animated faces
     shared::Sky sky {};
     std::vector<shared::FilterBox> filter_boxes; // of moving things, at most MAX_FILTER_BOXES

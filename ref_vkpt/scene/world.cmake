@@ -3,6 +3,7 @@
 find_package(fmt REQUIRED)
 add_library(vkpt_world STATIC
     ${CMAKE_CURRENT_LIST_DIR}/fog.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/screens.cpp
     ${CMAKE_CURRENT_LIST_DIR}/lightmaps.cpp
     ${CMAKE_CURRENT_LIST_DIR}/map_lights.cpp
     ${CMAKE_CURRENT_LIST_DIR}/material_guess.cpp

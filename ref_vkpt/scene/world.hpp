@@ -4,6 +4,7 @@
 #pragma once
 
 #include "formats/bsp.hpp"
+#include "formats/camera_file.hpp"
 #include "ref_vkpt/lights/animated_lights.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 #include "ref_vkpt/lights/light_cache.hpp"
@@ -61,6 +62,7 @@ struct World {
     std::vector<uint32_t> media; // per texinfo: MEDIUM_* that its faces bound
     std::vector<shared::FogBox> fog_boxes; // at most MAX_FOG_BOXES
     std::vector<Sun> suns;
+    std::vector<formats::SecurityCamera> cameras;
     AnimatedLights animated_lights { lightstyle_count };
     LightLists light_lists; // of the map's own emitters
     LightCacheLayout light_cache;

@@ -39,7 +39,7 @@ class Specialization {
 public:
     Specialization(const Device& device, const FixedChoices& choices)
         : values_ { device.reads_texels() ? VK_TRUE : VK_FALSE, choices.light_weight, choices.light_point,
-            choices.bounces, choices.indirect, device.traits.gpu_lanes ? VK_TRUE : VK_FALSE }
+            choices.bounces, choices.indirect, choices.screens, device.traits.gpu_lanes ? VK_TRUE : VK_FALSE }
     {
     }
     Specialization(const Specialization&) = delete;
@@ -48,7 +48,7 @@ public:
 private:
     struct Values {
         VkBool32 as_texels;
-        int32_t light_weight, light_point, bounces, indirect;
+        int32_t light_weight, light_point, bounces, indirect, screens;
         VkBool32 gpu_lanes;
     } const values_;
     static constexpr VkSpecializationMapEntry entries_[] = {
@@ -57,6 +57,7 @@ private:
         { shared::LIGHT_POINT_CONSTANT, offsetof(Values, light_point), sizeof(int32_t) },
         { shared::BOUNCES_CONSTANT, offsetof(Values, bounces), sizeof(int32_t) },
         { shared::INDIRECT_CONSTANT, offsetof(Values, indirect), sizeof(int32_t) },
+        { shared::SCREENS_CONSTANT, offsetof(Values, screens), sizeof(int32_t) },
         { shared::GPU_LANES_CONSTANT, offsetof(Values, gpu_lanes), sizeof(VkBool32) },
     };
     const VkSpecializationInfo info_ { uint32_t(std::size(entries_)), entries_, sizeof values_, &values_ };
@@ -153,7 +154,8 @@ bool Pipelines::knows_choices(std::string_view shader)
             declares_constant(code, shared::LIGHT_WEIGHT_CONSTANT)
                 || declares_constant(code, shared::LIGHT_POINT_CONSTANT)
                 || declares_constant(code, shared::BOUNCES_CONSTANT)
-                || declares_constant(code, shared::INDIRECT_CONSTANT))
+                || declares_constant(code, shared::INDIRECT_CONSTANT)
+                || declares_constant(code, shared::SCREENS_CONSTANT))
         .first->second;
 }
 
@@ -162,8 +164,8 @@ std::string Pipelines::key_of(std::string_view shader, const FixedChoices& choic
 {
     if (choices == FixedChoices {} || !knows_choices(shader))
         return std::string(shader);
-    return fmt::format(
-        "{}#{},{},{},{}", shader, choices.light_weight, choices.light_point, choices.bounces, choices.indirect);
+    return fmt::format("{}#{},{},{},{},{}", shader, choices.light_weight, choices.light_point, choices.bounces,
+        choices.indirect, choices.screens);
 }
 
 // With the lock. What goes on in the place of `key` while that is under way, which it is from here on. nullptr: it is

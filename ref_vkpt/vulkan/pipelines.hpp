@@ -30,7 +30,7 @@ struct RayPipeline {
 // Settings that shaders are compiled for (shared/specialization.h); NOT_FIXED: they read them in every frame.
 struct FixedChoices {
     int light_weight = shared::NOT_FIXED, light_point = shared::NOT_FIXED, bounces = shared::NOT_FIXED,
-        indirect = shared::NOT_FIXED;
+        indirect = shared::NOT_FIXED, screens = shared::NOT_FIXED;
     bool operator==(const FixedChoices&) const = default;
 };
 

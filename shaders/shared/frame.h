@@ -207,6 +207,7 @@ struct SceneView {
     vec3 to_sun; // where FRAME_GOD_RAYS; unit
     vec3 sun_irradiance; // on what faces it
     uint eye_medium; // MEDIUM_*
+    Screen screens[MAX_SCREENS];
 };
 
 struct FrameUniforms {

@@ -89,6 +89,10 @@ VKPT_CONST uint MATERIAL_GLASS = 128u; // a thin pane: translucent, smooth, colo
 VKPT_CONST uint MATERIAL_ROUGHNESS_IN_ALPHA = 256u; // of `texture`; `roughness` is the least
 VKPT_CONST uint MATERIAL_METALNESS_IN_ALPHA = 512u; // of the normal map; times `metallic`
 
+// A screen that shows what the map's camera sees that is entry flags >> MATERIAL_SCREEN_SHIFT of SceneView::screens.
+VKPT_CONST uint MATERIAL_SCREEN = 1024u;
+VKPT_CONST uint MATERIAL_SCREEN_SHIFT = 16u;
+
 struct Material {
     vec3 tint; // multiplies the texture
     float opacity; // 1 opaque
@@ -110,6 +114,19 @@ VKPT_ASSERT_SIZE(Material, 64);
 VKPT_CONST uint MATERIAL_BUMP_BITS = 12u, MATERIAL_MIP_BITS = 10u;
 VKPT_CONST float MATERIAL_BUMP_ONE = 256.0f;
 VKPT_CONST float MATERIAL_MIP_ONE = 32.0f;
+
+// What a part of a texture shows of a camera's picture.
+struct Screen {
+    vec2 area_mins; // of the texture, whose width and height are 1
+    vec2 area_size;
+    vec3 eye;
+    vec3 corner; // from there to what the area's upper left corner shows
+    vec3 across; // and how that changes to the upper right,
+    vec3 down; // and to the lower left corner
+    uint medium; // MEDIUM_* that the eye is in
+};
+VKPT_ASSERT_SIZE(Screen, 68);
+VKPT_CONST uint MAX_SCREENS = 16u;
 
 VKPT_CONST uint EMITTER_TRIANGLE = 0u; // one-sided, front as in Triangle
 VKPT_CONST uint EMITTER_SPHERE = 1u; // p0 centre, p1.x radius; a spot has a cone, see CONE_SLACK

@@ -18,6 +18,8 @@ VKPT_CONST uint GPU_LANES_CONSTANT = 5u; // lib/device/lanes.glsl
 
 VKPT_CONST uint INDIRECT_CONSTANT = 6u; // pt_indirect
 
+VKPT_CONST uint SCREENS_CONSTANT = 7u; // 0: no material is a MATERIAL_SCREEN
+
 VKPT_CONST int NOT_FIXED = -1; // read from the frame's settings
 
 VKPT_SHARED_END

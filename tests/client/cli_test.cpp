@@ -569,7 +569,8 @@ TEST(Installation, FindsItsModules)
     const ProgramResult info = run({ "info", "--json" });
     EXPECT_EQ(info.status, 0) << info.errors;
     EXPECT_TRUE(nlohmann::json::parse(info.output).contains("light_samplers"));
-    for (const char* file : { "lib/vkpt/ref_record.so", "lib/vkpt/recording_clock.so", "share/man/man1/vkpt.1" })
+    for (const char* file : { "lib/vkpt/ref_record.so", "lib/vkpt/recording_clock.so", "lib/vkpt/recording_sound.so",
+             "share/man/man1/vkpt.1" })
         EXPECT_TRUE(std::filesystem::exists(prefix / file)) << file;
     std::filesystem::remove(prefix / "lib/vkpt/ref_vkpt.so");
     const ProgramResult missing = run({ "info" });

@@ -119,6 +119,24 @@ TEST_F(Film, FfmpegGetsEveryPicture)
         EXPECT_NE(arguments.find(part), std::string::npos) << arguments;
 }
 
+TEST_F(Film, FfmpegGetsTheSoundOfTheFilmsTime)
+{
+    write_ffmpeg("for last; do :; done\necho \"$*\" > arguments.txt\ncat > \"$last\"\n");
+    folder.write("a.wav", "whatever ffmpeg reads");
+    const ProgramResult result
+        = film({ "--spp", "1", "--fps", "10", "--from", "0.5", "--seconds", "1", "--sound", "a.wav", "-o", "a.mp4" });
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_NE(result.output.find("with sound"), std::string::npos) << result.output;
+    const std::string arguments = folder.read("arguments.txt");
+    const std::string sound = "-i pipe:0 -ss 0.500000 -i " + (folder.path() / "a.wav").string();
+    EXPECT_NE(arguments.find(sound), std::string::npos) << arguments;
+    EXPECT_NE(arguments.find("-af apad -t 1.000000"), std::string::npos) << arguments;
+    const ProgramResult silent = film({ "--spp", "1", "--fps", "10", "--no-sound", "-o", "b.mp4" });
+    EXPECT_EQ(silent.status, 0) << silent.errors;
+    EXPECT_NE(silent.output.find("without sound"), std::string::npos) << silent.output;
+    EXPECT_EQ(folder.read("arguments.txt").find(" -ss "), std::string::npos);
+}
+
 TEST_F(Film, SaysWhatIsMissingOrWrong)
 {
     const ProgramResult none = film({ "-o", "a.mp4" }, "/nowhere");
@@ -133,6 +151,11 @@ TEST_F(Film, SaysWhatIsMissingOrWrong)
     EXPECT_EQ(film({ "--size", "7x4", "-o", "a.mp4" }).status, 2);
     EXPECT_EQ(film({ "--from", "9", "-o", "out/" }).status, 2);
     EXPECT_EQ(film({ "--shutter", "2", "-o", "out/" }).status, 2);
+    EXPECT_EQ(film({ "--sound", "a.wav", "-o", "out/" }).status, 2);
+    EXPECT_EQ(film({ "--sound", "a.wav", "--no-sound", "-o", "a.mp4" }).status, 2);
+    const ProgramResult no_sound = film({ "--sound", "none.wav", "-o", "a.mp4" });
+    EXPECT_EQ(no_sound.status, 1);
+    EXPECT_NE(no_sound.errors.find("none.wav"), std::string::npos) << no_sound.errors;
     const ProgramResult map = run_program(VKPT_PROGRAM, { "film", "maps/sample.bsp", "-o", "a.mp4" }, folder.path());
     EXPECT_EQ(map.status, 2);
     EXPECT_NE(map.errors.find("no recorded game"), std::string::npos) << map.errors;

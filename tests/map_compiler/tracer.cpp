@@ -25,8 +25,8 @@ void collect_brushes(const Bsp& bsp, int index, const TraceBox& swept, uint32_t 
     if (index < 0) {
         const BspLeaf& leaf = bsp.leaves[size_t(-(index + 1))];
         if (leaf.contents & mask)
-            for (int i = 0; i < leaf.leaf_brush_count; i++)
-                result.insert(bsp.leaf_brushes[size_t(leaf.first_leaf_brush + i)]);
+            for (uint32_t i = 0; i < leaf.leaf_brush_count; i++)
+                result.insert(bsp.leaf_brushes[size_t(leaf.first_leaf_brush) + i]);
         return;
     }
     const BspNode& node = bsp.nodes[size_t(index)];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // sound/: short synthesised effects, 22,050 Hz, 16 bit, mono.
+#include "formats/wav.hpp"
 #include "tools/asset_generator/noise.hpp"
 #include "tools/asset_generator/output.hpp"
 
@@ -35,7 +36,9 @@ float sweep(float t, float from, float to, float seconds) // sine whose frequenc
 std::vector<std::byte> make_wav(const Voice& voice, float seconds, bool loops)
 {
     const uint32_t count = uint32_t(seconds * sample_rate), data_size = count * 2, cue_size = loops ? 36 : 0;
-    std::vector<std::byte> file;
+    formats::WavFormat format;
+    format.rate = sample_rate;
+    std::vector<std::byte> file = formats::make_wav_header(format, data_size, cue_size);
     const auto text = [&](const char* four) {
         for (int i = 0; i < 4; i++)
             file.push_back(std::byte(four[i]));
@@ -44,10 +47,6 @@ std::vector<std::byte> make_wav(const Voice& voice, float seconds, bool loops)
         for (int i = 0; i < bytes; i++)
             file.push_back(std::byte(value >> (8 * i)));
     };
-    text("RIFF"), number(36 + data_size + cue_size, 4), text("WAVE");
-    text("fmt "), number(16, 4), number(1, 2), number(1, 2), number(sample_rate, 4), number(sample_rate * 2, 4);
-    number(2, 2), number(16, 2);
-    text("data"), number(data_size, 4);
     for (uint32_t i = 0; i < count; i++) {
         const float t = float(i) / sample_rate, u = float(i) / float(count);
         const float edge = loops ? 1.0f : std::min(1.0f, std::min(u, 1 - u) * 60); // no clicks
