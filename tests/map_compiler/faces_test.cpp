@@ -127,7 +127,7 @@ TEST_F(Faces, LieInTheLeavesAndNodesThatShowThem)
     for (const uint32_t face : bsp_->leaf_faces)
         in_leaves[face]++;
     for (const BspNode& node : bsp_->nodes)
-        for (int i = 0; i < node.face_count; i++) {
+        for (uint32_t i = 0; i < node.face_count; i++) {
             in_nodes[size_t(node.first_face + i)]++;
             EXPECT_EQ(bsp_->faces[size_t(node.first_face + i)].plane, node.plane);
         }
