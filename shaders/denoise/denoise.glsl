@@ -11,7 +11,8 @@
 
 // Light of a pixel with the standard deviation of its luminance, either for each of the two lobes. Where too few frames
 // tell how much the luminance varies, minus the root of its mean square: the spatial filter's first levels measure it
-// among the neighbours. The levels behind those define VKPT_DEVIATIONS_ARE_KNOWN.
+// among the neighbours. The levels behind those define VKPT_DEVIATIONS_ARE_KNOWN; there the sign only tells that it was
+// measured (is_measured).
 struct FilteredLight {
     vec3 diffuse;
     float diffuse_deviation;
@@ -47,6 +48,9 @@ FilteredLight unpack_filtered(uvec4 bits)
     return FilteredLight(vec3(unpack_light2(bits.x), unpack_light2(bits.y).x), unpack_deviation(bits.y),
         vec3(unpack_light2(bits.z), unpack_light2(bits.w).x), unpack_deviation(bits.w));
 }
+
+// Whether the deviation of either lobe is unknown, or was measured among the neighbours for want of history.
+bvec2 is_measured(uvec4 bits) { return notEqual(bits.yw & 0x10000u, uvec2(0u)); }
 
 // Colour that the specular light of this surface carries.
 vec3 specular_tint(Surface s) { return mix(vec3(1.0), quick_max(s.albedo, vec3(0.05)), s.metallic); }

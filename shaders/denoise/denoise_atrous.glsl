@@ -14,16 +14,19 @@ const float centre_weight = 1.0 / 3.0, tap_weight = 1.0 / 6.0;
 // Where too few frames tell how much the light varies, the pixels of this level and the first do, which are worth so
 // many in the average.
 const float measured_pixels = 32.0;
-float spread_deviation(Sums sums, float scale, float deviation)
+float spread_deviation(Sums sums, float scale, float deviation, bool is_measured)
 {
-    return sqrt(is_known(deviation) ? sums.variance * scale * scale : measure_variance(sums, scale, measured_pixels));
+    float root
+        = sqrt(is_known(deviation) ? sums.variance * scale * scale : measure_variance(sums, scale, measured_pixels));
+    return is_measured ? -root : root;
 }
 
 // `bits`: of the pixel, in the level's source.
 FilteredLight filter_atrous(uvec2 pixel, uint index, uvec2 features, uvec4 bits)
 {
     FilteredLight light = unpack_filtered(bits);
-    Pixel centre = make_pixel(index, features, light);
+    bvec2 measured = is_measured(bits);
+    Pixel centre = make_pixel(index, features, light, measured);
     vec2 along = vec2(push.way), across = vec2(-along.y, along.x);
     Way way_along = make_way(centre, along), way_across = make_way(centre, across);
     float fall = specular_fall(centre, dot(along, along));
@@ -40,8 +43,8 @@ FilteredLight filter_atrous(uvec2 pixel, uint index, uvec2 features, uvec4 bits)
     }
     float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;
     return FilteredLight(diffuse.light * diffuse_scale,
-        spread_deviation(diffuse, diffuse_scale, light.diffuse_deviation), specular.light * specular_scale,
-        spread_deviation(specular, specular_scale, light.specular_deviation));
+        spread_deviation(diffuse, diffuse_scale, light.diffuse_deviation, measured.x), specular.light * specular_scale,
+        spread_deviation(specular, specular_scale, light.specular_deviation, measured.y));
 }
 
 // Between the first level and the last one.

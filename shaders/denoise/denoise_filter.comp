@@ -20,7 +20,7 @@ float filtered_deviation(Sums sums, float scale, float deviation)
 // Frames of history from which on less of this level enters the light than it finds: that much / frames. The result is
 // also the next view's history, so the light of bright neighbours would come anew with every frame, and shadows of a
 // pixel's width fill up, while the average alone already has little noise.
-const float fully_filtered_frames = 4.0;
+const float fully_filtered_frames = 6.0;
 float filtered_share(float frames) { return quick_min(fully_filtered_frames / quick_max(frames, 1.0), 1.0); }
 
 void filter_pixel(uvec2 pixel, uint index)
@@ -32,7 +32,7 @@ void filter_pixel(uvec2 pixel, uint index)
         return;
     }
     FilteredLight light = unpack_filtered(bits);
-    Pixel centre = make_pixel(index, features, light);
+    Pixel centre = make_pixel(index, features, light, is_measured(bits));
     float fall = specular_fall(centre, 1.0);
 
     // Taps beyond the edge do not count; they read the pixel at the edge.

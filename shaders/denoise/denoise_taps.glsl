@@ -69,15 +69,21 @@ float min_variance(float l)
     return least * least;
 }
 
-// How much of a tap's own variance counts, for either lobe. All of it up to so many times of the pixel's luminance, and
-// beyond that as if the tap were no brighter: a tap's deviation grows with its light, so one that is twenty times
-// brighter would count as alike, and a dark line of a pixel's width (the gap under a ledge) would fill up.
-const float max_times_brighter_tap = 3.0;
-vec2 counted_variance(vec2 pixel, vec2 tap)
+// How much of a tap's own variance counts, for either lobe: all of it up to the luminance whose square is the pixel's
+// reach, and beyond that as if the tap were no brighter.
+vec2 counted_variance(vec2 reach, vec2 tap)
 {
-    vec2 reach = max_times_brighter_tap * max_times_brighter_tap * pixel * pixel + 1e-11;
     vec2 divisor = quick_max(tap * tap, reach);
     return reach * divisor.yx * (1.0 / (divisor.x * divisor.y));
+}
+
+// That square. A tap's deviation grows with its light, so one that is twenty times brighter would count as alike, and a
+// dark line of a pixel's width (the gap under a ledge) would fill up. Where there is no history to tell that the pixel
+// is dark, all counts.
+const float max_times_brighter_tap = 3.0, any_reach = 1e12;
+float tap_reach(float l, bool is_measured)
+{
+    return is_measured ? any_reach : max_times_brighter_tap * max_times_brighter_tap * l * l + 1e-11;
 }
 
 float tap_allowed_square(float deviation, float counted)
@@ -94,9 +100,11 @@ struct Pixel {
     float specular_fall; // see specular_fall
     float diffuse_luminance, specular_luminance;
     float diffuse_allowed, specular_allowed;
+    vec2 reach; // see tap_reach; diffuse, specular
 };
 
-Pixel make_pixel(uint index, uvec2 features, FilteredLight light)
+// `is_measured`: see is_measured.
+Pixel make_pixel(uint index, uvec2 features, FilteredLight light, bvec2 is_measured)
 {
     Pixel pixel;
     vec4 kind = feature_bytes(features.x);
@@ -110,6 +118,8 @@ Pixel make_pixel(uint index, uvec2 features, FilteredLight light)
     pixel.specular_luminance = luminance(light.specular);
     pixel.diffuse_allowed = allowed_square(light.diffuse_deviation) + min_variance(pixel.diffuse_luminance);
     pixel.specular_allowed = allowed_square(light.specular_deviation) + min_variance(pixel.specular_luminance);
+    pixel.reach
+        = vec2(tap_reach(pixel.diffuse_luminance, is_measured.x), tap_reach(pixel.specular_luminance, is_measured.y));
     return pixel;
 }
 
@@ -148,8 +158,7 @@ void add_neighbour(inout Sums diffuse, inout Sums specular, Pixel pixel, ScreenB
     // For either lobe 1 / (1 + luminance_fall x^2)^2, with x the difference in what is allowed; a division for both.
     float diffuse_luminance = luminance(light.diffuse), specular_luminance = luminance(light.specular);
     vec2 off = vec2(diffuse_luminance - pixel.diffuse_luminance, specular_luminance - pixel.specular_luminance);
-    vec2 counted = counted_variance(
-        vec2(pixel.diffuse_luminance, pixel.specular_luminance), vec2(diffuse_luminance, specular_luminance));
+    vec2 counted = counted_variance(pixel.reach, vec2(diffuse_luminance, specular_luminance));
     vec2 allowed = vec2(pixel.diffuse_allowed + tap_allowed_square(light.diffuse_deviation, counted.x),
         pixel.specular_allowed + tap_allowed_square(light.specular_deviation, counted.y));
     vec2 all = allowed + luminance_fall * off * off;

@@ -315,7 +315,7 @@ TEST_F(Denoiser, DarkLinesStayDark)
     const Radiance filtered = session.capture();
     const float light = light_on_dark_lines(filtered, average_frames(session, 128));
     RecordProperty("light", std::to_string(light));
-    EXPECT_LT(light, 0.05f);
+    EXPECT_LT(light, 0.05f); // .040; .070 if bright taps' deviations counted in full
     EXPECT_GT(light, -0.05f);
 }
 

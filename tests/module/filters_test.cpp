@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace vkpt::tests {
@@ -298,6 +299,8 @@ TEST_F(FiltersAndLists, ErrorStays)
         };
         const double still = error([](int) { return 4; });
         const double changing = error([](int frame) { return frame % 2 ? 9 : 1; });
+        RecordProperty(std::string(sampler) + "_still", fmt::format("{:.4g}", still));
+        RecordProperty(std::string(sampler) + "_changing", fmt::format("{:.4g}", changing));
         EXPECT_LT(changing, 1.25 * still) << sampler;
     }
 }
