@@ -75,41 +75,34 @@ std::string load_more_entities(std::string_view map)
     return '\n' + text;
 }
 
-// maps/cameras/NAME.txt. None where there is no such file.
-std::vector<formats::SecurityCamera> load_cameras(std::string_view map)
+// What `read` (of formats/) makes of a text, with its messages printed. Nothing where there is no such file, or it
+// cannot be read; then the console also says what comes of that.
+template <class File>
+File load_text(const std::string& path, File (&read)(std::string_view, std::string_view), std::string_view consequence)
 {
-    const std::string path = "maps/cameras/" + std::string(map) + ".txt";
     const std::optional<engine::FileData> file = engine::load_file(path);
     if (!file)
         return {};
     try {
-        const std::string_view text(reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size());
-        formats::CameraFile cameras = formats::read_cameras(text, path);
-        for (const std::string& message : cameras.messages)
+        File result = read({ reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size() }, path);
+        for (const std::string& message : result.messages)
             engine::print("vkpt: {}", message);
-        return std::move(cameras.cameras);
+        return result;
     } catch (const formats::FormatError& error) {
-        engine::print("vkpt: {}; the map has no cameras now", error.what());
+        engine::print("vkpt: {}; {}", error.what(), consequence);
         return {};
     }
 }
 
-// Nothing where there is none.
+std::vector<formats::SecurityCamera> load_cameras(std::string_view map)
+{
+    return load_text("maps/cameras/" + std::string(map) + ".txt", formats::read_cameras, "the map has no cameras now")
+        .cameras;
+}
+
 formats::MaterialFile load_material_file(const std::string& path)
 {
-    const std::optional<engine::FileData> file = engine::load_file(path);
-    if (!file)
-        return {};
-    try {
-        const std::string_view text(reinterpret_cast<const char*>(file->bytes().data()), file->bytes().size());
-        formats::MaterialFile materials = formats::read_materials(text, path);
-        for (const std::string& message : materials.messages)
-            engine::print("vkpt: {}", message);
-        return materials;
-    } catch (const formats::FormatError& error) {
-        engine::print("vkpt: {}; the file is left out", error.what());
-        return {};
-    }
+    return load_text(path, formats::read_materials, "the file is left out");
 }
 
 // Whether the texture's bright parts shine without a light value, by its material or by pt_glow_threshold.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The denoiser through the real driver: what it must not change, what it must forget, and how fast.
+#include "tests/module/average_frames.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
@@ -277,25 +278,6 @@ float light_on_dark_lines(const Radiance& picture, const Radiance& reference)
     return excess / bright;
 }
 
-// Mean of unfiltered frames: unlike accumulate(), with camera rays through the pixels' centres, as the filters have it.
-Radiance average_frames(Session& session, int frames)
-{
-    session.set("flt_denoiser", "off");
-    Radiance sum;
-    for (int frame = 0; frame < frames; frame++) {
-        session.draw();
-        const Radiance now = session.capture();
-        if (frame == 0)
-            sum = now;
-        else
-            for (size_t i = 0; i < sum.pixels.size(); i++)
-                sum.pixels[i] += now.pixels[i];
-    }
-    for (glm::vec3& pixel : sum.pixels)
-        pixel /= float(frames);
-    return sum;
-}
-
 // The wall right under a ledge is dark for a pixel or two, and bright below.
 TEST_F(Denoiser, DarkLinesStayDark)
 {
@@ -313,7 +295,8 @@ TEST_F(Denoiser, DarkLinesStayDark)
     session.look({ 0, -150, 60 }, { -5, 90, 0 });
     session.draw(32);
     const Radiance filtered = session.capture();
-    const float light = light_on_dark_lines(filtered, average_frames(session, 128));
+    session.set("flt_denoiser", "off");
+    const float light = light_on_dark_lines(filtered, average_frames(session, 128, [] {}));
     RecordProperty("light", std::to_string(light));
     EXPECT_LT(light, 0.05f); // .040; .070 if bright taps' deviations counted in full
     EXPECT_GT(light, -0.05f);

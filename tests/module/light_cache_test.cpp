@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The light cache at the ends of bounce rays: the picture's light stays, follows lightstyles at once, passes no wall,
 // and has less noise.
+#include "tests/module/average_frames.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
@@ -50,21 +51,8 @@ protected:
 // the pixel, as in converged pictures.
 Radiance mean_of_first_frames(Session& session, int frames)
 {
-    Radiance sum;
     session.draw(2); // the cache gets its first values after a view
-    for (int i = 0; i < frames; i++) {
-        session.view.time += 100;
-        session.draw();
-        const Radiance picture = session.capture();
-        if (i == 0)
-            sum = picture;
-        else
-            for (size_t k = 0; k < sum.pixels.size(); k++)
-                sum.pixels[k] += picture.pixels[k];
-    }
-    for (glm::vec3& pixel : sum.pixels)
-        pixel /= float(frames);
-    return sum;
+    return average_frames(session, frames, [&session] { session.view.time += 100; });
 }
 
 // |ratio - 1| of the means of blocks of pixels, ascending.
