@@ -15,7 +15,8 @@ Usage: scripts/check_gpu_drivers.sh [OPTION]... [GPU:BACKEND]...
 Draws frames of our map and of our demo on GPUs that are not there: Debian's mesa-drm-shim stands in for the kernel, Mesa's own
 driver compiles every shader and records every command, and nothing is executed. So pictures and times mean nothing; what counts is
 that every call is valid (the validation layer is on), that nothing fails, and what the compiler made of each pass: a table of
-registers, spills, code size and waves. A pass over its budget in scripts/gpu_budgets.txt fails.
+registers, spills, code size and waves. A pass over its budget in scripts/gpu_budgets.txt fails, and so do more than 600 MiB of
+device memory at 1920x1080.
 
   GPU      navi21 navi31 vangogh vega10 raven polaris10 (AMD)
   BACKEND  software, query, pipeline, or auto: what the module takes by itself
@@ -77,14 +78,32 @@ fail() {
     failures=$((failures + 1))
 }
 
-# draw GPU BACKEND SCENE: frames by the shim; statistics into $folder/statistics, the console into $folder/console.
-draw() {
-    rm -rf "$folder/cache" "$folder/statistics"
+# run_on GPU COMMAND...: with the shim's GPU, the output into $folder/console.
+run_on() {
+    local gpu=$1
+    shift
+    rm -rf "$folder/cache"
     mkdir "$folder/cache"
-    env LD_PRELOAD="$shim" AMDGPU_GPU_ID="$1" VK_ICD_FILENAMES="$icd" VK_DRIVER_FILES="$icd" XDG_CACHE_HOME="$folder/cache" VKPT_CACHE_DIR="$folder/cache" \
-        MESA_SHADER_CACHE_DISABLE=1 VKPT_PIPELINE_STATISTICS="$folder/statistics" \
+    env LD_PRELOAD="$shim" AMDGPU_GPU_ID="$gpu" VK_ICD_FILENAMES="$icd" VK_DRIVER_FILES="$icd" XDG_CACHE_HOME="$folder/cache" \
+        VKPT_CACHE_DIR="$folder/cache" MESA_SHADER_CACHE_DISABLE=1 "$@" >"$folder/console" 2>&1
+}
+
+# draw GPU BACKEND SCENE: frames; statistics into $folder/statistics.
+draw() {
+    rm -f "$folder/statistics"
+    run_on "$1" env VKPT_PIPELINE_STATISTICS="$folder/statistics" \
         "$vkpt" render "$3" --basedir "$base_folder" --size 128x96 --frames 4 --verbose -o "$folder/picture.png" \
-        --set pt_trace="$2" --set pt_validation=1 --set flt_denoiser=asvgf --set flt_taa=upscale >"$folder/console" 2>&1
+        --set pt_trace="$2" --set pt_validation=1 --set flt_denoiser=asvgf --set flt_taa=upscale
+}
+
+# check_memory GPU: what our map takes of the device's memory at 1920x1080 with the default settings.
+check_memory() {
+    local most=600 taken
+    run_on "$1" "$vkpt" bench maps/vkpt1.bsp --basedir "$base_folder" --size 1920x1080 --frames 2 --warmup 0 --set pt_trace=query
+    taken=$(sed -nE 's/^memory +([0-9]+) MiB of the device.*/\1/p' "$folder/console")
+    [[ -n $taken ]] || { fail "$1: memory was not measured: $(tail -n 4 "$folder/console")"; return; }
+    say "$1: $taken MiB of the device at 1920x1080"
+    ((taken <= most)) || fail "$1: $taken MiB of the device at 1920x1080, budget $most"
 }
 
 # A line a pass from the driver's figures: PASS VGPRS SGPRS SPILLED CODE SCRATCH WAVES. Of the parts of a ray pipeline the most
@@ -150,5 +169,6 @@ for run in "${runs[@]}"; do
     fi
     say "$run: $(grep -m1 -o 'ref_vkpt: .*RADV[^)]*)' "$folder/console" | sed 's/ref_vkpt: //')"
     compare "$gpu" <"$folder/passes" || failures=$((failures + 1))
+    [[ $run != navi21:query ]] || check_memory "$gpu"
 done
 ((failures == 0))

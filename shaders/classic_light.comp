@@ -85,7 +85,7 @@ void light_pixel(uvec2 pixel, uint index)
     vec3 light = find_baked_light(primary.surface) * primary.surface.albedo;
     store_emitted(index, load_emitted(index) + unpack_light3(load_throughput(index)) * light);
     store_position(index, vec4(primary.surface.position, DEPTH_UNLIT));
-    store_traced_rays(index, load_ray_count(index));
+    add_traced_rays(index);
 }
 
 VKPT_RUN_OVER_PIXELS(light_pixel)

@@ -14,7 +14,7 @@ void light_pixel(uvec2 pixel, uint index)
     if (primary.depth >= 0.0) {
         LightRandom random = light_random(random_of_pixel(pixel, index), 0u);
         light = sample_direct_light(primary.surface, primary.cluster, random, bsdf_ray_count() > 0u);
-        store_traced_rays(index, load_ray_count(index));
+        add_traced_rays(index);
     }
     store_reflected_light(index, light);
 }

@@ -34,7 +34,7 @@ void count_luminances()
     uvec2 samples = divide_whole(size + spacing - 1u, uvec2(spacing));
     for (uint i = lane; i < samples.x * samples.y; i += gl_WorkGroupSize.x) {
         uvec2 pixel = min(place_of_tile(i, samples.x) * spacing + spacing / 2u, size - 1u);
-        float value = luminance(load_accumulated(pixel.y * size.x + pixel.x));
+        float value = luminance(load_accumulated(pixel.y * size.x + pixel.x).rgb);
         float place = (log2(max(value, 1e-6)) - lowest_log2) / (highest_log2 - lowest_log2);
         atomicAdd(bins[floor_to_uint(clamp(place, 0.0, 0.999) * float(bin_count))], 1u);
     }

@@ -51,7 +51,7 @@ void march_pixel(uvec2 half_pixel, uint half_index)
     float phase = henyey_greenstein(dot(ray.direction, frame.scene.to_sun));
     vec3 light = frame.scene.sun_irradiance * (sum * step * phase * frame.cvars.pt_god_rays);
     store_scattered(half_index, uvec2(pack_light2(light.xy), pack_light2(vec2(light.z, length))));
-    store_traced_rays(pixel_index(pixel), load_ray_count(pixel_index(pixel)));
+    add_traced_rays(pixel_index(pixel));
 }
 
 VKPT_RUN_OVER_HALF(march_pixel)

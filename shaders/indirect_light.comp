@@ -244,7 +244,7 @@ FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary)
         if (!goes_on || share == 0.0 || bsdf_ray_count() == 1u)
             break;
     }
-    store_traced_rays(index, load_ray_count(index));
+    add_traced_rays(index);
     found.radiance = path.radiance * (share * limit_radiance(path.radiance));
     return found;
 }

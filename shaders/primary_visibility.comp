@@ -380,7 +380,7 @@ void see_pixel(uvec2 pixel, uint index)
     ROLLED_FOR (uint segment = 0u; segment < max_specular_segments + path.unlit_segments; segment++)
         if (!follow_path(path, sight, random))
             break;
-    store_traced_rays(index, 0u);
+    store_traced_rays(index);
 
     if ((frame.flags & FRAME_REPROJECTED) != 0u)
         store_reprojection(sight, path);

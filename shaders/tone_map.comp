@@ -44,13 +44,14 @@ vec3 sample_radiance(vec2 place)
     vec2 at = clamp(place * vec2(size) - 0.5, vec2(0.0), vec2(size - 1u)), part = fract(at);
     if (all(lessThan(abs(fract(at + 0.5) - 0.5), vec2(1e-3)))) {
         uvec2 pixel = uvec2(whole_to_int(floor(at + 0.5)));
-        return load_accumulated(pixel.y * size.x + pixel.x);
+        return load_accumulated(pixel.y * size.x + pixel.x).rgb;
     }
     uvec2 corner = uvec2(whole_to_int(floor(at)));
     uint first = corner.y * size.x + corner.x;
     uint right = at.x < float(size.x - 1u) ? 1u : 0u, down = at.y < float(size.y - 1u) ? size.x : 0u;
     return mix(mix(load_accumulated(first), load_accumulated(first + right), part.x),
-        mix(load_accumulated(first + down), load_accumulated(first + down + right), part.x), part.y);
+        mix(load_accumulated(first + down), load_accumulated(first + down + right), part.x), part.y)
+        .rgb;
 }
 
 // The same, sharpened against what the window's pixels around it show.

@@ -109,11 +109,14 @@ glm::uvec2 Frame::scaled_size(glm::uvec2 size) const
 
 void Frame::reserve(View& view, glm::uvec2 size)
 {
-    const bool with_stacks = trace_backend() == TraceBackend::software && !graphics_.device.traits.gpu_lanes;
-    if (!view.buffers.must_grow(size, with_stacks))
+    const ViewBuffers::Extras extras {
+        .trace_stacks = trace_backend() == TraceBackend::software && !graphics_.device.traits.gpu_lanes,
+        .ray_counts = cvars::shader_values().pt_debug_view == shared::DEBUG_VIEW_RAYS,
+    };
+    if (!view.buffers.must_grow(size, extras))
         return;
     graphics_.finish();
-    view.buffers.reserve_pixels(graphics_.gpu, graphics_.bindings, size, with_stacks);
+    view.buffers.reserve_pixels(graphics_.gpu, graphics_.bindings, size, extras);
     view.radiance = nullptr;
     view.accumulated_frames = 0;
     view.history.forget();

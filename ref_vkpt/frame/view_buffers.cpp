@@ -9,21 +9,25 @@ namespace vkpt {
 
 namespace {
 
-size_t pixel_count(glm::uvec2 size) { return size_t(size.x) * size.y; }
+uint32_t area(glm::uvec2 size) { return size.x * size.y; }
 
-// Shaders read and write 64-bit words.
-template <class Element>
-constexpr size_t element_bytes = std::is_same_v<Element, glm::vec3> ? sizeof(glm::vec4) : sizeof(Element);
+// CPU drivers read and write 64-bit words.
+template <class Element> constexpr size_t element_bytes(bool gpu_lanes)
+{
+    return std::is_same_v<Element, glm::vec3> && !gpu_lanes ? sizeof(glm::vec4) : sizeof(Element);
+}
 
 // By name.
 namespace bytes_of {
 using namespace shared;
-#define VKPT_SCREEN_BUFFER(type, name) constexpr size_t name = element_bytes<type>;
+#define VKPT_SCREEN_BUFFER(type, name)                                                                                 \
+    constexpr size_t name(bool gpu_lanes) { return element_bytes<type>(gpu_lanes); }
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
 } // namespace bytes_of
 #define VKPT_SCREEN_BUFFER(type, name)
-#define VKPT_BORROWED_BUFFER(type, name, lender) static_assert(bytes_of::name == bytes_of::lender);
+#define VKPT_BORROWED_BUFFER(type, name, lender)                                                                       \
+    static_assert(bytes_of::name(true) <= bytes_of::lender(true) && bytes_of::name(false) <= bytes_of::lender(false));
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
 
@@ -50,18 +54,26 @@ TexelSet make_screen_texels(const Gpu& gpu, const Bindings& bindings)
     return TexelSet(gpu, bindings.screen_layout(), TexelShape::array, shared::SCREEN_BUFFER_COUNT);
 }
 
-bool ViewBuffers::must_grow(glm::uvec2 size, bool with_stacks) const
+ViewBuffers::Room ViewBuffers::room_of(glm::uvec2 size, Extras extras)
 {
-    return pixel_count(size) > pixels_ || (with_stacks && tile_groups(size) > groups_);
+    return { area(size), area(count_blocks(size, glm::uvec2(shared::STRATUM_BLOCKS))),
+        extras.trace_stacks ? tile_groups(size) : 0, extras.ray_counts ? area(size) : 0 };
 }
 
-void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size, bool with_stacks)
+ViewBuffers::Room ViewBuffers::with(const Room& wanted) const
 {
-    if (!must_grow(size, with_stacks))
+    return { std::max(room_.pixels, wanted.pixels), std::max(room_.strata, wanted.strata),
+        std::max(room_.trace_groups, wanted.trace_groups), std::max(room_.counted_pixels, wanted.counted_pixels) };
+}
+
+bool ViewBuffers::must_grow(glm::uvec2 size, Extras extras) const { return with(room_of(size, extras)) != room_; }
+
+void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size, Extras extras)
+{
+    if (!must_grow(size, extras))
         return;
-    const size_t pixels = std::max(pixels_, pixel_count(size));
-    const uint32_t groups = std::max(groups_, tile_groups(size));
-    pixels_ = groups_ = 0; // until all of it is there
+    const Room room = with(room_of(size, extras));
+    room_ = Room(); // until all of it is there
     if (!texels_)
         texels_ = make_screen_texels(gpu, bindings);
     const auto renew = [&](Buffer& buffer, size_t bytes, const char* name) {
@@ -70,29 +82,31 @@ void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::
     };
     const auto renew_row = [&](Row row, size_t elements, size_t element_bytes, const char* name) {
         Buffer& buffer = buffers_[row];
-        renew(buffer, elements * element_bytes, name);
+        renew(buffer, std::max(elements, size_t(1)) * element_bytes, name);
         const bool as_texels = gpu.device.reads_texels() && std::has_single_bit(element_bytes);
         if (as_texels)
             texels_.bind(gpu, row, &buffer, uint32_t(element_bytes / sizeof(uint32_t)));
         return shared::ScreenBuffer { buffer.address(), row, 0 };
     };
     using namespace shared;
-    // However the pixels are arranged, and with blocks that the edge cuts.
-    const size_t strata = pixels / 3 + 1;
-#define VKPT_SCREEN_BUFFER(type, name) rows_.name = renew_row(row_##name, pixels, element_bytes<type>, #name);
-#define VKPT_STRATUM_BUFFER(type, name) rows_.name = renew_row(row_##name, strata, element_bytes<type>, #name);
+    const bool gpu_lanes = gpu.device.traits.gpu_lanes;
+#define VKPT_ROW(type, name, elements)                                                                                 \
+    rows_.name = renew_row(row_##name, elements, element_bytes<type>(gpu_lanes), #name);
+#define VKPT_SCREEN_BUFFER(type, name) VKPT_ROW(type, name, room.pixels)
+#define VKPT_STRATUM_BUFFER(type, name) VKPT_ROW(type, name, room.strata)
+#define VKPT_COUNTED_BUFFER(type, name) VKPT_ROW(type, name, room.counted_pixels)
 #define VKPT_BORROWED_BUFFER(type, name, lender)
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
+#undef VKPT_ROW
     lend();
     // Updates of the light cache may be more lanes than a small image's pixels.
     const uint32_t cache_groups = tile_groups({ CACHE_ROW, CACHE_MAX_UPDATED / CACHE_ROW });
-    const size_t lanes = size_t(std::max(groups, cache_groups)) * PIXEL_GROUP_SIZE;
+    const size_t lanes = size_t(std::max(room.trace_groups, cache_groups)) * PIXEL_GROUP_SIZE;
     trace_stack_ = Buffer();
-    if (with_stacks)
+    if (room.trace_groups > 0)
         renew(trace_stack_, lanes * TRACE_STACK_BYTES_PER_LANE, "trace stack");
-    pixels_ = pixels;
-    groups_ = with_stacks ? groups : 0;
+    room_ = room;
 }
 
 void ViewBuffers::exchange_history()

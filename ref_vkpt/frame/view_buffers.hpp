@@ -21,11 +21,14 @@ class ViewBuffers {
     };
 
 public:
-    // Room for a view of this many pixels, with stacks for the software backend's traversal if they are needed, which
-    // they are not where lanes have their own (DeviceTraits::gpu_lanes); contents are lost if they have to grow. The
-    // device must be idle then.
-    void reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size, bool with_stacks);
-    bool must_grow(glm::uvec2 size, bool with_stacks) const;
+    // What not every view needs.
+    struct Extras {
+        bool trace_stacks; // the software backend's, where lanes have none of their own (DeviceTraits::gpu_lanes)
+        bool ray_counts; // DEBUG_VIEW_RAYS
+    };
+    // Room for a view of this many pixels; contents are lost if it has to grow. The device must be idle then.
+    void reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::uvec2 size, Extras extras);
+    bool must_grow(glm::uvec2 size, Extras extras) const;
     // A new frame of the view begins: what was stored as NAME is from now on read as previous_NAME. What was stored in
     // borrowed memory has other names.
     void exchange_history();
@@ -39,8 +42,15 @@ public:
 private:
     void lend(); // the rows that lie in others' memory
 
-    size_t pixels_ = 0; // that every buffer has room for
-    uint32_t groups_ = 0; // that the trace stack has room for; 0: there is none
+    // What there is room for; 0 trace groups: there are no stacks, or 0 counted pixels: rays are not counted.
+    struct Room {
+        uint32_t pixels = 0, strata = 0, trace_groups = 0, counted_pixels = 0;
+        bool operator==(const Room&) const = default;
+    };
+    static Room room_of(glm::uvec2 size, Extras extras);
+    Room with(const Room& wanted) const; // the greater of both
+
+    Room room_;
     std::array<Buffer, shared::SCREEN_BUFFER_COUNT> buffers_;
     // Descriptor set 3, for the drivers that read tables so (Device::reads_texels). Others find empty buffers here.
     TexelSet texels_;

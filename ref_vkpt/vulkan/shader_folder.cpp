@@ -69,6 +69,23 @@ std::string included_name(std::string_view line)
     return std::string(line.substr(0, line.find_first_of("\">")));
 }
 
+// `options` have spaces between.
+void append(std::vector<std::string>& words, std::vector<std::string>::iterator place, std::string_view options)
+{
+    std::istringstream stream { std::string(options) };
+    words.insert(place, std::istream_iterator<std::string>(stream), {});
+}
+
+// As the build does, so that code of unchanged sources is the same. Without spirv-opt it stays as it is, and works,
+// too.
+void optimize(const fs::path& code, const fs::path& log)
+{
+    std::vector<std::string> words { "spirv-opt", code.string(), "-o", code.string() };
+    append(words, words.begin() + 1, shader_optimizations);
+    if (const int status = run_program(words, log); status > 0)
+        throw ShaderError(fmt::format("spirv-opt ended with {}: {}", status, read_text(log)));
+}
+
 TemporaryFolder make_folder()
 {
     try {
@@ -153,8 +170,7 @@ std::vector<uint32_t> ShaderFolder::compile(std::string_view shader) const
         << fmt::format("#include \"light_samplers/{}.glsl\"\n", build.light_sampler);
     std::vector<std::string> words { "glslangValidator", "--quiet", "-I" + folder_.string(),
         "-I" + temporary.path().string(), "-o", code.string(), (folder_ / build.file).string() };
-    std::istringstream options { std::string(build.options) };
-    words.insert(words.begin() + 2, std::istream_iterator<std::string>(options), {});
+    append(words, words.begin() + 2, build.options);
     int status = run_program(words, log);
     if (status == -1) {
         words[0] = "glslang";
@@ -165,6 +181,7 @@ std::vector<uint32_t> ShaderFolder::compile(std::string_view shader) const
                           "glslang-tools");
     if (status != 0)
         throw ShaderError(shorten_paths(read_text(log), folder_.string() + '/'));
+    optimize(code, log);
     const std::string bytes = read_text(code);
     std::vector<uint32_t> words_of_code(bytes.size() / sizeof(uint32_t));
     std::memcpy(words_of_code.data(), bytes.data(), words_of_code.size() * sizeof(uint32_t));

@@ -18,6 +18,8 @@ struct ShaderBuild {
     std::string_view options; // of glslangValidator, with spaces between
 };
 ShaderBuild find_shader_build(std::string_view name);
+// Of spirv-opt, which goes over every shader after that, with spaces between.
+extern const std::string_view shader_optimizations;
 
 // The light samplers that the build found, sorted.
 struct LightSampler {

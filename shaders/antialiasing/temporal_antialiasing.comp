@@ -188,7 +188,7 @@ void resolve_pixel(uvec2 pixel, uint index)
     vec3 radiance = quick_min(expand(result, knee), vec3(60000.0)); // 16 bits end soon after
     store_reach(index, pack_reach(reach));
     store_resolved(index, uvec2(pack_light2(radiance.xy), pack_light2(vec2(radiance.z, frames))));
-    store_accumulated(index, radiance);
+    store_accumulated(index, vec4(radiance, 0.0));
 }
 
 VKPT_RUN_OVER(frame.resolved_size, resolve_pixel)

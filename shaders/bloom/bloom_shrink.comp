@@ -18,7 +18,7 @@ vec3 shrink_image(uvec2 pixel)
     ROLLED_FOR (uint i = 0u; i < BLOOM_FIRST_STEP * BLOOM_FIRST_STEP; i++) {
         uvec2 at
             = min(pixel * BLOOM_FIRST_STEP + uvec2(i % BLOOM_FIRST_STEP, i / BLOOM_FIRST_STEP), push.source_size - 1u);
-        vec3 radiance = load_accumulated(at.y * push.source_size.x + at.x);
+        vec3 radiance = load_accumulated(at.y * push.source_size.x + at.x).rgb;
         float weight = 1.0 / (1.0 + 0.1 * scale * luminance(radiance));
         sum += radiance * weight;
         weights += weight;

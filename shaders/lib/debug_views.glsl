@@ -56,7 +56,7 @@ vec3 alpha_colour(uint index) { return vec3(1.0 / max(unpack_moments(load_moment
 // Of the average, as it is exposed: brighter than right red, darker blue; a tenth of white is full.
 vec3 cache_bias_colour(uint index, float exposure)
 {
-    float bias = 10.0 * exposure * luminance(load_accumulated(index));
+    float bias = 10.0 * exposure * luminance(load_accumulated(index).rgb);
     return vec3(max(bias, 0.0), 0.0, max(-bias, 0.0));
 }
 

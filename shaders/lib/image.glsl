@@ -13,8 +13,8 @@ void store_image(uint index, vec3 radiance)
         return;
     }
     float share = 1.0 / float(frame.accumulated_frames + 1u);
-    vec3 before = frame.accumulated_frames > 0u ? load_accumulated(index) : vec3(0.0);
-    store_accumulated(index, before + (radiance - before) * share);
+    vec3 before = frame.accumulated_frames > 0u ? load_accumulated(index).rgb : vec3(0.0);
+    store_accumulated(index, vec4(before + (radiance - before) * share, 0.0));
 }
 
 #endif

@@ -52,11 +52,19 @@ bool trace_visible(Ray ray, uint mask)
     return search_ray(ray, mask, true).triangle == TRACE_MISS;
 }
 
-// Adds what this invocation has traced for a pixel to `before`, and begins to count anew.
-void store_traced_rays(uint index, uint before)
+// What this invocation has traced is the first that is counted for a pixel; it begins to count anew.
+void store_traced_rays(uint index)
 {
     if (frame.cvars.pt_debug_view == DEBUG_VIEW_RAYS)
-        store_ray_count(index, before + traced_rays);
+        store_ray_count(index, traced_rays);
+    traced_rays = 0u;
+}
+
+// The same, added to what is counted.
+void add_traced_rays(uint index)
+{
+    if (frame.cvars.pt_debug_view == DEBUG_VIEW_RAYS)
+        store_ray_count(index, load_ray_count(index) + traced_rays);
     traced_rays = 0u;
 }
 
