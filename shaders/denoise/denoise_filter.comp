@@ -23,6 +23,24 @@ float filtered_deviation(Sums sums, float scale, float deviation)
 const float fully_filtered_frames = 6.0;
 float filtered_share(float frames) { return quick_min(fully_filtered_frames / quick_max(frames, 1.0), 1.0); }
 
+// Slices of a pixel or two in width that a movement has just uncovered: hardly any of the 3 x 3 pixels is of the same
+// surface, and few taps of the levels that follow will be, since their ways turn. So those along the axes that are
+// count as well, as long as there is next to no history.
+const float new_frames = 2.0, few_alike = 0.6;
+const int farther[3] = int[](2, 3, 5);
+void add_farther_taps(inout Sums diffuse, inout Sums specular, Pixel centre, uvec2 pixel, uint index)
+{
+    UNROLLED_FOR (int i = 0; i < 3; i++)
+        ROLLED_FOR (int side = 0; side < 4; side++) {
+            int way = side < 2 ? farther[i] : -farther[i];
+            ivec2 off = (side & 1) == 0 ? ivec2(way, 0) : ivec2(0, way);
+            uvec2 place = uvec2(ivec2(pixel) + off);
+            bool inside = is_on_screen(place);
+            add_neighbour(diffuse, specular, centre, push.source, inside ? pixel_index(place) : index,
+                make_way(centre, vec2(off)), inside ? 0.125 : 0.0, specular_fall(centre, float(way * way)));
+        }
+}
+
 void filter_pixel(uvec2 pixel, uint index)
 {
     uvec2 features = load_features(index);
@@ -50,11 +68,13 @@ void filter_pixel(uvec2 pixel, uint index)
             if (x != 1 || y != 1)
                 add_neighbour(diffuse, specular, centre, push.source, rows[y] + columns[x],
                     make_way(centre, vec2(x - 1, y - 1)), across[x] * down[y], x != 1 && y != 1 ? fall * fall : fall);
+    vec2 frames = unpack_moments(load_moments(index)).frames;
+    if (frames.x < new_frames && diffuse.weight < few_alike)
+        add_farther_taps(diffuse, specular, centre, pixel, index);
     float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;
     FilteredLight result = FilteredLight(diffuse.light * diffuse_scale,
         filtered_deviation(diffuse, diffuse_scale, light.diffuse_deviation), specular.light * specular_scale,
         filtered_deviation(specular, specular_scale, light.specular_deviation));
-    vec2 frames = unpack_moments(load_moments(index)).frames;
     float diffuse_share = filtered_share(frames.x), specular_share = filtered_share(frames.y);
     result.diffuse = mix(light.diffuse, result.diffuse, diffuse_share);
     result.specular = mix(light.specular, result.specular, specular_share);
