@@ -19,6 +19,8 @@ namespace {
 constexpr size_t hard_bytes = 4 * budget_bytes;
 constexpr rlim_t hard_cpu_seconds = 30;
 
+constexpr int expectation_failed = 3; // the child's exit status
+
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool has_sanitizer = true;
 #elif defined(__has_feature)
@@ -88,8 +90,10 @@ Cost measure_cost(const std::function<void()>& use)
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
+        const bool had_failed = testing::Test::HasFailure();
         report_cost(use, ends[1]);
-        _exit(0);
+        std::fflush(nullptr);
+        _exit(!had_failed && testing::Test::HasFailure() ? expectation_failed : 0);
     }
     close(ends[1]);
     std::string text;
@@ -102,7 +106,9 @@ Cost measure_cost(const std::function<void()>& use)
     Cost cost;
     cost.ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;
     if (!cost.ended) {
-        cost.outcome = WIFSIGNALED(status) ? std::string("killed: ") + strsignal(WTERMSIG(status)) : "did not end well";
+        cost.outcome = WIFSIGNALED(status)              ? std::string("killed: ") + strsignal(WTERMSIG(status))
+            : WEXITSTATUS(status) == expectation_failed ? "an expectation failed, see above"
+                                                        : "did not end well";
         return cost;
     }
     size_t at = 0, used = 0;

@@ -23,7 +23,8 @@ struct Cost {
     bool refused() const { return outcome.starts_with("refused"); }
 };
 
-// Runs `use` in a child process. Only exceptions derived from std::exception count as a refusal.
+// Runs `use` in a child process, which ends badly where an expectation fails there. Only exceptions derived from
+// std::exception count as a refusal.
 Cost measure_cost(const std::function<void()>& use);
 
 // Expects that `use`, which reads a small file, stays within the budget; gives the cost.

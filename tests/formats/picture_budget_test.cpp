@@ -52,6 +52,7 @@ TEST(FileBudget, SeesMemoryTimeAndFaults)
     EXPECT_LT(time.cpu_seconds, 2);
     EXPECT_LT(time.peak_bytes, size_t(50) << 20);
     EXPECT_FALSE(vkpt::tests::measure_cost([] { std::abort(); }).ended);
+    EXPECT_FALSE(vkpt::tests::measure_cost([] { EXPECT_TRUE(false) << "is meant to fail here"; }).ended);
     EXPECT_EQ(vkpt::tests::measure_cost([] { throw std::runtime_error("why"); }).outcome, "refused: why");
 }
 
