@@ -35,12 +35,9 @@ FilteredLight filter_atrous(uvec2 pixel, uint index, uvec2 features, uvec4 bits)
     add_tap(specular, light.specular, centre.specular_luminance, light.specular_deviation, centre_weight);
     ivec2 places[4] = ivec2[](push.way, -push.way, ivec2(-push.way.y, push.way.x), ivec2(push.way.y, -push.way.x));
     Way ways[4] = Way[](way_along, backwards(way_along), way_across, backwards(way_across));
-    UNROLLED_FOR (int tap = 0; tap < 4; tap++) {
-        uvec2 place = uvec2(ivec2(pixel) + places[tap]);
-        bool inside = is_on_screen(place);
-        add_neighbour(diffuse, specular, centre, push.source, inside ? pixel_index(place) : index, ways[tap],
-            inside ? tap_weight : 0.0, fall);
-    }
+    UNROLLED_FOR (int tap = 0; tap < 4; tap++)
+        add_neighbour_at(
+            diffuse, specular, centre, push.source, pixel, index, places[tap], ways[tap], tap_weight, fall);
     float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;
     return FilteredLight(diffuse.light * diffuse_scale,
         spread_deviation(diffuse, diffuse_scale, light.diffuse_deviation, measured.x), specular.light * specular_scale,

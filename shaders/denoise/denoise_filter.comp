@@ -34,10 +34,8 @@ void add_farther_taps(inout Sums diffuse, inout Sums specular, Pixel centre, uve
         ROLLED_FOR (int side = 0; side < 4; side++) {
             int way = side < 2 ? farther[i] : -farther[i];
             ivec2 off = (side & 1) == 0 ? ivec2(way, 0) : ivec2(0, way);
-            uvec2 place = uvec2(ivec2(pixel) + off);
-            bool inside = is_on_screen(place);
-            add_neighbour(diffuse, specular, centre, push.source, inside ? pixel_index(place) : index,
-                make_way(centre, vec2(off)), inside ? 0.125 : 0.0, specular_fall(centre, float(way * way)));
+            add_neighbour_at(diffuse, specular, centre, push.source, pixel, index, off, make_way(centre, vec2(off)),
+                0.125, specular_fall(centre, float(way * way)));
         }
 }
 

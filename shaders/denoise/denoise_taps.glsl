@@ -169,4 +169,14 @@ void add_neighbour(inout Sums diffuse, inout Sums specular, Pixel pixel, ScreenB
         alike > 0.0 ? share.y * fall * alike : 0.0);
 }
 
+// The tap at `off` from `pixel`, whose number is `index`; beyond the screen's edge it does not count.
+void add_neighbour_at(inout Sums diffuse, inout Sums specular, Pixel centre, ScreenBuffer source, uvec2 pixel,
+    uint index, ivec2 off, Way way, float kernel, float fall)
+{
+    uvec2 place = uvec2(ivec2(pixel) + off);
+    bool inside = is_on_screen(place);
+    add_neighbour(
+        diffuse, specular, centre, source, inside ? pixel_index(place) : index, way, inside ? kernel : 0.0, fall);
+}
+
 #endif

@@ -318,7 +318,6 @@ TEST_F(Denoiser, NewSlitsAreSmooth)
     Session session(folder_,
         { { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "flt_taa", "off" }, { "flt_denoiser", "asvgf" } },
         { 192, 108 });
-    session.load_map("slits");
     double squares = 0;
     std::vector<Radiance> first;
     for (int seed = 1; seed <= 4; seed++) {
