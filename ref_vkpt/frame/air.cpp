@@ -25,6 +25,8 @@ void fill_filter_boxes(shared::SceneView& out, const SceneSnapshot& scene)
     for (const shared::FilterBox& box : scene.filter_boxes)
         add_filter_box(boxes, box);
     out.filter_box_count = uint32_t(boxes.size());
+    constexpr shared::FilterBox nothing { glm::vec3(1e30f), glm::vec3(-1e30f) };
+    std::ranges::fill(out.filter_boxes, nothing);
     std::ranges::copy(boxes, out.filter_boxes);
 }
 

@@ -4,26 +4,38 @@
 #ifndef VKPT_LIB_FILTERED_RAYS
 #define VKPT_LIB_FILTERED_RAYS
 
+#include "device/lanes.glsl"
 #include "media.glsl"
 #include "surfaces.glsl"
 
 // More surfaces in a row than anybody counts; those of liquids are two faces each.
 const uint max_filters = 24u;
 
-// Whether something between t_min and t_max, which are not negative, may colour light. Distances are compared as
+// Whether the ray's part between t_min and t_max, which are not negative, meets the box. Distances are compared as
 // integers, as in bvh_test_node.
+bool meets_box(Ray ray, vec3 inverse, FilterBox box)
+{
+    bvec3 backwards = lessThan(inverse, vec3(0.0));
+    int t_min = floatBitsToInt(ray.t_min), t_max = floatBitsToInt(ray.t_max);
+    ivec3 near = floatBitsToInt((mix(box.mins, box.maxs, backwards) - ray.origin) * inverse);
+    ivec3 far = floatBitsToInt((mix(box.maxs, box.mins, backwards) - ray.origin) * inverse);
+    return max(max(near.x, near.y), max(near.z, t_min)) <= min(min(far.x, far.y), min(far.z, t_max));
+}
+
+// Whether something on the ray may colour light. On the CPU driver the loop is unrolled: it then loads a box once for
+// all lanes, instead of gathering it for each.
 bool meets_filter_box(Ray ray)
 {
-    vec3 slope = mix(ray.direction, vec3(1e-18), lessThan(abs(ray.direction), vec3(1e-18)));
-    vec3 inverse = 1.0 / slope;
-    bvec3 backwards = lessThan(slope, vec3(0.0));
-    int t_min = floatBitsToInt(ray.t_min), t_max = floatBitsToInt(ray.t_max);
+    vec3 inverse = 1.0 / mix(ray.direction, vec3(1e-18), lessThan(abs(ray.direction), vec3(1e-18)));
     bool meets = false;
-    ROLLED_FOR (uint i = 0u; i < frame.scene.filter_box_count; i++) {
-        FilterBox box = frame.scene.filter_boxes[i];
-        ivec3 near = floatBitsToInt((mix(box.mins, box.maxs, backwards) - ray.origin) * inverse);
-        ivec3 far = floatBitsToInt((mix(box.maxs, box.mins, backwards) - ray.origin) * inverse);
-        meets = meets || max(max(near.x, near.y), max(near.z, t_min)) <= min(min(far.x, far.y), min(far.z, t_max));
+    if (has_gpu_lanes) {
+        ROLLED_FOR (uint i = 0u; i < frame.scene.filter_box_count; i++)
+            meets = meets || meets_box(ray, inverse, frame.scene.filter_boxes[i]);
+    } else {
+        UNROLLED_FOR (uint i = 0u; i < MAX_FILTER_BOXES; i++) {
+            bool meets_this = meets_box(ray, inverse, frame.scene.filter_boxes[i]);
+            meets = meets || meets_this;
+        }
     }
     return meets;
 }

@@ -37,11 +37,11 @@ float weigh_guide(Surface s, uint entry)
 {
     uvec4 words = load_element(frame.scene.cache.guides, entry, uvec4(0u));
     vec3 way = uintBitsToFloat(words.xyz) - s.position;
-    vec2 bits = unpackSnorm4x8(words.w & 0xffffu).xy;
+    vec2 bits = unpack_snorm4_times_127(words.w).xy * (1.0 / 127.0);
     vec3 normal = vec3(bits, 1.0 - abs(bits.x) - abs(bits.y));
     vec2 folded = (1.0 - abs(bits.yx)) * vec2(bits.x < 0.0 ? -1.0 : 1.0, bits.y < 0.0 ? -1.0 : 1.0);
     normal.xy = normal.z < 0.0 ? folded : bits;
-    float distance2 = dot(way, way), power = unpackHalf2x16(words.w).y;
+    float distance2 = dot(way, way), power = unpack_positive_half(words.w >> 16u);
     float cosines = quick_max(dot(way, s.normal), 0.0) * quick_max(-dot(way, normal), 0.0);
     // Never nearer than half a block is large.
     const float nearest2 = 1024.0;
@@ -89,9 +89,9 @@ Guides open_guides(Surface s, int cluster, float xi)
     guides.first = list.x;
     guides.count = list.y;
     guides.stride = max((list.y + guides_per_choice - 1u) / guides_per_choice, 1u);
-    xi *= float(guides.stride);
-    guides.offset = min(uint(xi), guides.stride - 1u);
-    xi = quick_clamp(xi - float(guides.offset), 0.0, 0.99999994);
+    xi *= float(int(guides.stride));
+    guides.offset = min(floor_to_uint(xi), guides.stride - 1u);
+    xi = quick_clamp(xi - float(int(guides.offset)), 0.0, 0.99999994);
     vec4 weights = vec4(0.0); // of the chosen group
     uint place = 0u;
     ROLLED_FOR (uint i = 0u; guides.offset + i * guides.stride < guides.count; i += 4u) {
@@ -113,14 +113,14 @@ Guides open_guides(Surface s, int cluster, float xi)
 float guide_probability(Guides guides, Surface s, uint entry)
 {
     float weight = weigh_guide(s, entry), total = guides.total;
-    uint offset = (entry - guides.first) % guides.stride;
+    uint offset = remainder_whole(entry - guides.first, guides.stride);
     if (offset != guides.offset) {
         guides.offset = offset;
         total = 0.0;
         ROLLED_FOR (uint i = 0u; offset + i * guides.stride < guides.count; i += 4u)
             total += sum_of(weigh_group(guides, s, i));
     }
-    return total > 0.0 ? weight / (total * float(guides.stride)) : 0.0;
+    return total > 0.0 ? weight / (total * float(int(guides.stride))) : 0.0;
 }
 
 CacheGuideBlock load_guide_block(uint guide)
@@ -132,9 +132,12 @@ CacheGuideBlock load_guide_block(uint guide)
         uint[4](d.x, d.y, d.z, d.w));
 }
 
+// Without an index that only the lane knows: CPU drivers keep such an array in memory.
 uint share_of_cell(CacheGuideBlock block, uint cell)
 {
-    return (block.shares[cell / CACHE_GUIDE_SIDE] >> (cell % CACHE_GUIDE_SIDE * 8u)) & 0xffu;
+    uint lower = cell < CACHE_GUIDE_SIDE ? block.shares[0] : block.shares[1],
+         upper = cell < 3u * CACHE_GUIDE_SIDE ? block.shares[2] : block.shares[3];
+    return ((cell < 2u * CACHE_GUIDE_SIDE ? lower : upper) >> (cell % CACHE_GUIDE_SIDE * 8u)) & 0xffu;
 }
 
 // Density, per solid angle at `from`, of a point in one of the block's cells, the block being chosen with this
@@ -144,15 +147,15 @@ float guide_density(CacheGuideBlock block, uint cell, float probability, vec3 fr
     vec3 way = point - from;
     float distance2 = dot(way, way),
           height = abs(dot(way, cross(block.across, block.down))); // distance * area * cosine
-    float share = float(share_of_cell(block, cell)) / float(block.total);
+    float share = float(int(share_of_cell(block, cell))) / float(int(block.total));
     return height > 0.0 ? probability * share * distance2 * sqrt(distance2) / height : 0.0;
 }
 
 // By its share; xi in [0, 1).
 uint choose_cell(CacheGuideBlock block, float xi)
 {
-    uint threshold = min(uint(xi * float(block.total)), block.total - 1u), sum = 0u, chosen = 0u;
-    ROLLED_FOR (uint cell = 0u; cell < CACHE_GUIDE_SIDE * CACHE_GUIDE_SIDE; cell++) {
+    uint threshold = min(floor_to_uint(xi * float(int(block.total))), block.total - 1u), sum = 0u, chosen = 0u;
+    UNROLLED_FOR (uint cell = 0u; cell < CACHE_GUIDE_SIDE * CACHE_GUIDE_SIDE; cell++) {
         uint share = share_of_cell(block, cell);
         chosen = share > 0u && sum <= threshold ? cell : chosen;
         sum += share;
@@ -166,10 +169,11 @@ GuideSample sample_guide(Guides guides, Surface s, vec2 xi)
     result.guide = guide_of_entry(guides.chosen);
     CacheGuideBlock block = load_guide_block(result.guide);
     uint cell = choose_cell(block, guides.rest);
-    vec2 place = vec2(cell % CACHE_GUIDE_SIDE, cell / CACHE_GUIDE_SIDE) + xi;
+    vec2 place = vec2(ivec2(cell % CACHE_GUIDE_SIDE, cell / CACHE_GUIDE_SIDE)) + xi;
     vec3 point = block.corner + block.across * place.x + block.down * place.y;
     result.direction = normalize(point - s.position);
-    result.pdf = guide_density(block, cell, guides.weight / (guides.total * float(guides.stride)), s.position, point);
+    result.pdf
+        = guide_density(block, cell, guides.weight / (guides.total * float(int(guides.stride))), s.position, point);
     return result;
 }
 
@@ -190,7 +194,7 @@ float pdf_guide(Guides guides, Surface s, uint guide, vec3 point)
     vec3 way = point - block.corner;
     vec2 place = vec2(
         dot(way, block.across) / dot(block.across, block.across), dot(way, block.down) / dot(block.down, block.down));
-    uvec2 at = min(uvec2(max(place, vec2(0.0))), uvec2(CACHE_GUIDE_SIDE - 1u));
+    uvec2 at = min(floor_to_uint(max(place, vec2(0.0))), uvec2(CACHE_GUIDE_SIDE - 1u));
     return guide_density(block, at.y * CACHE_GUIDE_SIDE + at.x, guide_probability(guides, s, low), s.position, point);
 }
 

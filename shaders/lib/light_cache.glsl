@@ -32,7 +32,7 @@ LightOfStyle load_cache_value(uint value)
     uvec3 light = uvec3(words.x, (words.x >> 21u) | (words.y << 11u), words.y >> 10u) << 10u;
     result.light = uintBitsToFloat(light & 0x7ffffc00u);
     result.direction = vec3(ivec3(uvec3(words.z, words.z >> 10u, words.z >> 20u) & 1023u) - 512) / 511.0;
-    result.power = float((words.w >> CACHE_POWER_SHIFT) & 0xffu) / 255.0;
+    result.power = float(int((words.w >> CACHE_POWER_SHIFT) & 0xffu)) / 255.0;
     result.count = words.w & CACHE_COUNT_MASK;
     result.guide = words.w >> CACHE_GUIDE_SHIFT;
     return result;
@@ -56,7 +56,7 @@ uint find_cache_value(CacheFace face, vec3 position)
 {
     vec2 place = vec2(dot(position, face.across.xyz) + face.across.w, dot(position, face.down.xyz) + face.down.w);
     uvec2 cells = cache_face_cells(face);
-    uvec2 cell = min(uvec2(ivec2(max(place, vec2(0.0)))), cells - 1u);
+    uvec2 cell = min(floor_to_uint(max(place, vec2(0.0))), cells - 1u);
     return face.first_value + (cell.y * cells.x + cell.x) * cache_face_layers(face);
 }
 

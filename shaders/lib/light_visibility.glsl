@@ -15,8 +15,8 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VisibilityCo
 uint find_visibility_row(Surface s)
 {
     const float in_front = 0.05;
-    ivec3 cube = ivec3(floor(s.position * (1.0 / VISIBILITY_PATCH) + s.geometric_normal * in_front));
-    uvec3 side = uvec3(ivec3(roundEven(s.geometric_normal))) & 3u;
+    ivec3 cube = whole_to_int(floor(s.position * (1.0 / VISIBILITY_PATCH) + s.geometric_normal * in_front));
+    uvec3 side = uvec3(whole_to_int(roundEven(s.geometric_normal))) & 3u;
     // Maps are at most 8,192 units wide, 256 cubes.
     uvec3 place = uvec3(cube) & 255u | side << 8u;
     return hash_word(place.x | place.y << 10u | place.z << 20u) % VISIBILITY_ROWS;

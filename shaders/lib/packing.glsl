@@ -49,6 +49,9 @@ vec2 unpack_upper_halves(uint bits) { return uintBitsToFloat(uvec2(bits << 16u, 
 uint pack_direction(vec3 direction) { return pack_snorm2(direction_to_octahedron(direction)); }
 vec3 unpack_direction(uint bits) { return octahedron_to_direction(unpack_snorm2(bits)); }
 
+// A half float that is not negative, from its 16 bits. Denormal ones are 0 where the device flushes floats.
+float unpack_positive_half(uint bits) { return uintBitsToFloat(bits << 13u) * 5.192296858534828e33f; }
+
 // Light, and what else is never negative, in 16 bits: 6 of exponent and 10 of mantissa, from 7e-15, which stands for 0,
 // to 131,000; what is greater, infinite or NaN becomes the greatest. Half floats would reach only to 6e-5 and 65,504,
 // and cost CPU drivers more: they pack them by some 40 instructions each, unpack them out of 64-bit loads lane by lane,

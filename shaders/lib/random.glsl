@@ -46,7 +46,7 @@ uvec4 hash_pcg4(uvec4 words)
 }
 
 // In [0, 1): the 24 bits that a float holds exactly, so 1 never appears.
-float uint_to_unit_float(uint bits) { return float(bits >> 8u) * 5.9604644775390625e-8f; }
+float uint_to_unit_float(uint bits) { return float(int(bits >> 8u)) * 5.9604644775390625e-8f; }
 
 float white_dimension(uvec2 pixel, uint frame, uint seed, uint dimension)
 {

@@ -15,9 +15,11 @@ const float unsigned_whole_base = 8388608.0f;
 
 int whole_to_int(float whole) { return floatBitsToInt(whole + whole_base) - whole_base_bits; }
 ivec2 whole_to_int(vec2 whole) { return floatBitsToInt(whole + whole_base) - whole_base_bits; }
+ivec3 whole_to_int(vec3 whole) { return floatBitsToInt(whole + whole_base) - whole_base_bits; }
 
 // The greatest whole number that is not above x; from 0 to 2^22.
 uint floor_to_uint(float x) { return uint(whole_to_int(floor(x))); }
+uvec2 floor_to_uint(vec2 x) { return uvec2(whole_to_int(floor(x))); }
 
 // number / divisor, of which `quotient` is a float's estimate, at most one beside it. Vulkan's division may be 2.5 ULP
 // off, which is that much for numbers between 1.6 million and 2^22.
