@@ -8,6 +8,7 @@
 # software OpenGL (libgl1-mesa-dri).
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. scripts/lib/gallery.sh
 build=${VKPT_BUILD_DIR:-build/release}
 out=${VKPT_GALLERY_DIR:-docs/gallery}
 work=$(mktemp -d)
@@ -16,19 +17,6 @@ size=384x216
 renderer=ours
 [[ ${1:-} != --gl3 ]] || { renderer=gl3; shift; }
 wanted=("$@")
-
-make_data() {
-    mkdir -p "$work/baseq2/maps"
-    cp -r "$build/game/baseq2/." "$work/baseq2/"
-    "$build/tools/map_compiler/vkpt_map" docs/gallery/looks.map -o "$work/baseq2/maps/looks.bsp" \
-        --textures "$build/game/baseq2/textures"
-    cp docs/gallery/looks.lights docs/gallery/looks.mat "$work/baseq2/maps/"
-    # Our map once more, with a camera.
-    cp "$work/baseq2/maps/vkpt1.bsp" "$work/baseq2/maps/screens.bsp"
-    cp docs/gallery/screens.mat "$work/baseq2/maps/"
-    mkdir -p "$work/baseq2/maps/cameras"
-    cp docs/gallery/screens.txt "$work/baseq2/maps/cameras/"
-}
 
 # entities MAP X Y Z: what is in the map, as vkpt shows it (without items and monsters), with the player's
 # start at that place and no gravity. Lump 0 of a BSP is the entities' text.
@@ -112,7 +100,7 @@ picture() {
     "$build/bin/vkpt" render "$scene" --basedir "$work" --size "$size" "$@" -o "$out/$name.png"
 }
 
-make_data
+make_gallery_data "$work"
 [ "$renderer" = ours ] || hide_status_bar
 frames=(--frames 48) samples=(--spp 400)
 picture water maps/looks.bsp@-330,-230,120,40,75 "${frames[@]}"

@@ -38,9 +38,11 @@ bool is_common_ending(std::string_view ending)
     return ending == ".tga" || ending == ".png" || ending == ".jpg" || ending == ".jpeg";
 }
 
+bool is_8_bit_ending(std::string_view ending) { return ending == ".pcx" || ending == ".wal" || ending == ".m8"; }
+
 bool is_readable_ending(std::string_view ending)
 {
-    return is_common_ending(ending) || ending == ".pcx" || ending == ".wal" || ending == ".m8" || ending == ".m32";
+    return is_common_ending(ending) || is_8_bit_ending(ending) || ending == ".m32";
 }
 
 struct Size {
@@ -161,7 +163,7 @@ std::optional<LoadedTexture> TextureFiles::load(std::string_view name, TextureUs
         if (wish.retexturing && !texture)
             texture = load_replacement(path, path, budget);
         if (!texture)
-            texture = load_original(path, budget);
+            texture = load_original(path, wish.doubled, budget);
         if (!texture)
             continue;
         // The engine's own renderers ignore the alpha of these; hi-res packs keep other things in it.
@@ -209,7 +211,8 @@ std::optional<LoadedTexture> TextureFiles::load_replacement(
     return std::nullopt;
 }
 
-std::optional<LoadedTexture> TextureFiles::load_original(const std::string& path, PixelBudget& budget) const
+std::optional<LoadedTexture> TextureFiles::load_original(
+    const std::string& path, bool doubled, PixelBudget& budget) const
 {
     const std::optional<std::vector<std::byte>> file = load_file_(path);
     if (!file)
@@ -220,9 +223,11 @@ std::optional<LoadedTexture> TextureFiles::load_original(const std::string& path
         texture.image = is_common_ending(ending_of(path))
             ? formats::read_common_image(*file, path, budget.room(file->size()))
             : formats::read_image(*file, path, palette_);
-        budget.spend(texture.image, file->size());
         texture.width = texture.image.width;
         texture.height = texture.image.height;
+        if (doubled && is_8_bit_ending(ending_of(path)) && 4 * texture.image.pixels.size() <= budget.room(file->size()))
+            texture.image = double_texture(texture.image);
+        budget.spend(texture.image, file->size());
         return texture;
     } catch (const formats::FormatError& error) {
         report_(describe(error));
@@ -290,6 +295,27 @@ formats::Image halve_texture(const formats::Image& from)
             }
             to.pixels[size_t(y) * size_t(to.width) + size_t(x)]
                 = { encoded_of(color.x), encoded_of(color.y), encoded_of(color.z), uint8_t(std::lround(alpha)) };
+        }
+    return to;
+}
+
+formats::Image double_texture(const formats::Image& from)
+{
+    const int width = 2 * from.width;
+    formats::Image to { width, 2 * from.height, std::vector<formats::Rgba8>(4 * from.pixels.size()) };
+    for (int y = 0; y < from.height; y++)
+        for (int x = 0; x < from.width; x++) {
+            const formats::Rgba8 own = from.at(x, y), above = from.at(x, std::max(y - 1, 0)),
+                                 below = from.at(x, std::min(y + 1, from.height - 1)),
+                                 left = from.at(std::max(x - 1, 0), y),
+                                 right = from.at(std::min(x + 1, from.width - 1), y);
+            const bool is_edge = above != below && left != right;
+            formats::Rgba8* const upper = &to.pixels[size_t(2 * y) * size_t(width) + size_t(2 * x)];
+            formats::Rgba8* const lower = upper + width;
+            upper[0] = is_edge && left == above ? left : own;
+            upper[1] = is_edge && right == above ? right : own;
+            lower[0] = is_edge && left == below ? left : own;
+            lower[1] = is_edge && right == below ? right : own;
         }
     return to;
 }

@@ -31,6 +31,7 @@ struct TextureWish {
     bool retexturing = false; // replacements are preferred
     std::string file; // full path of the replacement, with any of the usual endings; empty: beside the original
     AlphaMeaning alpha = AlphaMeaning::opacity;
+    bool doubled = false; // 8-bit originals come at twice their size
 };
 
 struct LoadedTexture {
@@ -89,7 +90,7 @@ private:
     // `file_path`: of the replacement, whatever its ending; `path`: of the original, empty: there is none.
     std::optional<LoadedTexture> load_replacement(
         const std::string& file_path, const std::string& path, PixelBudget& budget) const;
-    std::optional<LoadedTexture> load_original(const std::string& path, PixelBudget& budget) const;
+    std::optional<LoadedTexture> load_original(const std::string& path, bool doubled, PixelBudget& budget) const;
 
     LoadFile load_file_;
     Report report_;
@@ -113,6 +114,11 @@ TextureMeasure measure_texture(const formats::Image& image, AlphaMeaning alpha =
 
 // The next mip level: half as wide and high, rounded down, at least 1; averages linear light.
 formats::Image halve_texture(const formats::Image& from);
+
+// Twice as wide and high, by Scale2x (Mazzoleni 2001): a pixel's quarter takes the colour of the two neighbours at its
+// corner where these are alike and the other two differ from them, so that diagonal edges get steps half as large. No
+// colour is new.
+formats::Image double_texture(const formats::Image& from);
 
 // Halves (averaging linear light) until neither side exceeds `limit`.
 formats::Image shrink_texture(formats::Image image, int limit);

@@ -156,6 +156,7 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
 {
     TextureWish wish;
     wish.retexturing = cvars::values().r_retexturing != 0;
+    wish.doubled = cvars::values().r_scale8bittextures != 0;
     const Texture *normals = nullptr, *emissive = nullptr;
     if (may_have_maps(use)) {
         normals = find_map(name, use, TextureUse::normals);

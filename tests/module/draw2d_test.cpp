@@ -42,6 +42,18 @@ std::vector<std::byte> make_picture(bool holes)
     return formats::write_pcx(image);
 }
 
+// A diagonal edge between two colours.
+constexpr int stairs_size = 6;
+constexpr uint8_t stairs_below = 40, stairs_above = 200;
+std::vector<std::byte> make_stairs()
+{
+    formats::IndexedImage image { stairs_size, stairs_size, {}, test_palette() };
+    for (int y = 0; y < stairs_size; y++)
+        for (int x = 0; x < stairs_size; x++)
+            image.pixels.push_back(x <= y ? stairs_below : stairs_above);
+    return formats::write_pcx(image);
+}
+
 constexpr int tile_texels = 64; // and pixels: how often tiles are repeated
 uint8_t tile_index(int x, int y) { return uint8_t((x * 2 + y * 3) & 127); }
 
@@ -64,6 +76,8 @@ protected:
         folder_->add("pics/thing.pcx", make_picture(false));
         folder_->add("pics/grate.pcx", make_picture(true));
         folder_->add("pics/backtile.pcx", make_tile());
+        folder_->add("pics/stairs.pcx", make_stairs());
+        folder_->add("pics/round.pcx", make_stairs());
         MapBuilder map;
         map.add_room({ -128, -128, 0 }, { 128, 128, 128 }, map.add_material("wall", 0, 300));
         folder_->add_map("room", map.finish());
@@ -220,6 +234,34 @@ TEST_F(Layer2d, StretchedPicturesFillTheirRectangle)
             return std::nullopt;
         return test_palette()[texel_index((x - left) * picture_width / width, (y - top) * picture_height / height)];
     });
+}
+
+// At twice the size, unfiltered, a picture of 8 bits shows its texels as squares, or by r_scale8bittextures with
+// smaller steps along diagonals. Its size on the screen stays.
+TEST_F(Layer2d, PicturesOf8BitsAreDoubledOnRequest)
+{
+    constexpr int left = 6, top = 8, inner = 2; // texels away from the picture's rim
+    for (const bool doubled : { false, true }) {
+        SCOPED_TRACE(doubled);
+        session_->set("r_scale8bittextures", doubled ? "1" : "0");
+        const formats::Image shown = show([&](const engine::Exports8& module) {
+            module.draw_pic_scaled(left, top, doubled ? "round" : "stairs", 2);
+        });
+        for (int y = 2 * inner; y < 2 * (stairs_size - inner); y++)
+            for (int x = 2 * inner; x < 2 * (stairs_size - inner); x++) {
+                // The texel's upper right quarter on the diagonal belongs to those above it, and the lower left one
+                // beside the diagonal to those below.
+                const int column = x / 2, row = y / 2;
+                const bool cut = doubled && column == row && x % 2 == 1 && y % 2 == 0;
+                const bool added = doubled && column == row + 1 && x % 2 == 0 && y % 2 == 1;
+                const bool below = (column <= row && !cut) || added;
+                const formats::Rgba8 wanted = test_palette()[below ? stairs_below : stairs_above];
+                EXPECT_TRUE(is_near(shown.at(left + x, top + y), wanted, 0)) << x << ' ' << y;
+            }
+        EXPECT_TRUE(is_near(shown.at(left, top + 2 * stairs_size - 1), test_palette()[stairs_below], 0));
+        EXPECT_TRUE(is_near(shown.at(left + 2 * stairs_size - 1, top), test_palette()[stairs_above], 0));
+    }
+    session_->set("r_scale8bittextures", "0");
 }
 
 // Fixed to the screen's corner, so that tiles drawn piece by piece fit together.

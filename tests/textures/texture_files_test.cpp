@@ -10,7 +10,7 @@
 namespace vkpt {
 namespace {
 
-const TextureWish with_replacements { true, {}, AlphaMeaning::opacity };
+const TextureWish with_replacements { .retexturing = true };
 const TextureWish originals_only;
 
 formats::Palette make_test_palette()
@@ -88,6 +88,77 @@ TEST_F(PictureFilesTest, PicturesHaveTransparentPixelsSkinsDoNot)
     EXPECT_EQ(pictures.load("/players/male/a.pcx", TextureUse::image, originals_only)->image.at(0, 0).a, 0);
     EXPECT_EQ(pictures.load("players/male/a.pcx", TextureUse::sprite, originals_only)->image.at(0, 0).a, 0);
     EXPECT_EQ(pictures.load("players/male/a.pcx", TextureUse::skin, originals_only)->image.at(0, 0).a, 255);
+}
+
+// The pattern of the algorithm's own description: a diagonal edge gets steps of half a pixel, a straight one stays.
+TEST(DoubleTexture, RoundsDiagonalsAndKeepsStraightEdges)
+{
+    const formats::Rgba8 o { 0, 0, 0, 255 }, x { 200, 100, 50, 255 }, y { 1, 2, 3, 0 };
+    const formats::Image diagonal { 3, 3, { x, o, o, x, x, o, x, x, x } };
+    const formats::Image twice = double_texture(diagonal);
+    EXPECT_EQ(twice.width, 6);
+    EXPECT_EQ(twice.height, 6);
+    EXPECT_EQ(twice.pixels,
+        (std::vector<formats::Rgba8> {
+            x,
+            x,
+            o,
+            o,
+            o,
+            o, //
+            x,
+            x,
+            x,
+            o,
+            o,
+            o, //
+            x,
+            x,
+            x,
+            o,
+            o,
+            o, //
+            x,
+            x,
+            x,
+            x,
+            x,
+            o, //
+            x,
+            x,
+            x,
+            x,
+            x,
+            x, //
+            x,
+            x,
+            x,
+            x,
+            x,
+            x,
+        }));
+    const formats::Image edge { 2, 2, { x, y, x, y } };
+    EXPECT_EQ(
+        double_texture(edge).pixels, (std::vector<formats::Rgba8> { x, x, y, y, x, x, y, y, x, x, y, y, x, x, y, y }));
+    EXPECT_EQ(double_texture({ 1, 1, { x } }).pixels, std::vector<formats::Rgba8>(4, x));
+}
+
+TEST_F(PictureFilesTest, OriginalsOf8BitsAreDoubledOnRequestAlone)
+{
+    add_wall("textures/a.wal", 32, 16, 3);
+    add_wall("textures/b.wal", 32, 16, 3);
+    files["textures/b.png"] = formats::write_png(make_plain(32, 16, { 1, 2, 3, 255 }));
+    files["env/c.tga"] = formats::write_tga(make_plain(8, 8, { 1, 2, 3, 255 }));
+    const auto width = [&](std::string_view name, TextureUse use, bool doubled) {
+        const auto loaded = make().load(name, use, { .retexturing = true, .doubled = doubled });
+        EXPECT_TRUE(loaded && loaded->width == (use == TextureUse::sky ? 8 : 32)) << name;
+        return loaded ? loaded->image.width : 0;
+    };
+    EXPECT_EQ(width("a", TextureUse::wall, false), 32);
+    EXPECT_EQ(width("a", TextureUse::wall, true), 64);
+    EXPECT_EQ(width("b", TextureUse::wall, true), 32); // replaced
+    EXPECT_EQ(width("c", TextureUse::sky, true), 8);
+    EXPECT_TRUE(reports.empty());
 }
 
 TEST_F(PictureFilesTest, NamesBecomePaths)
