@@ -141,6 +141,8 @@ TEST(DoubleTexture, RoundsDiagonalsAndKeepsStraightEdges)
     EXPECT_EQ(
         double_texture(edge).pixels, (std::vector<formats::Rgba8> { x, x, y, y, x, x, y, y, x, x, y, y, x, x, y, y }));
     EXPECT_EQ(double_texture({ 1, 1, { x } }).pixels, std::vector<formats::Rgba8>(4, x));
+    const formats::Image dot = double_texture({ 3, 3, { o, o, o, o, x, o, o, o, o } });
+    EXPECT_EQ(std::ranges::count(dot.pixels, x), 4); // it stays
 }
 
 TEST_F(PictureFilesTest, OriginalsOf8BitsAreDoubledOnRequestAlone)
