@@ -52,15 +52,16 @@ TEST(Engine, RestartsVideoInOtherModes)
     options.script = "wait_5\n" + capture + "vid_restart\nwait_25\nvid_restart\nwait_25\n" + capture
         + "r_customwidth 400\nr_customheight 300\nvid_restart\nwait_25\n" + capture + "r_mode 0\nvid_restart\nwait_25\n"
         + capture + "r_mode -2\nvid_fullscreen 2\nvid_restart\nwait_25\n" + capture
+        + "vid_fullscreen 1\nvid_restart\nwait_25\n" + capture
         + "r_mode -1\nvid_fullscreen 0\nr_customwidth 161\nr_customheight 97\nr_vsync 0\nvid_restart\nwait_25\n"
         + capture + "quit\n";
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+map", own_map, "+exec", "test.cfg" };
     const EngineRun run(options);
     run.expect_clean();
-    EXPECT_EQ(run.lines_with("Successfully loaded ref_vkpt.so").size(), 7u);
+    EXPECT_EQ(run.lines_with("Successfully loaded ref_vkpt.so").size(), 8u);
     constexpr std::pair desktop { 1280, 960 }; // the virtual display's
     const std::pair configured { options.width, options.height };
-    expect_sizes(run, { configured, configured, { 400, 300 }, { 320, 240 }, desktop, { 161, 97 } });
+    expect_sizes(run, { configured, configured, { 400, 300 }, { 320, 240 }, desktop, desktop, { 161, 97 } });
 }
 
 // What a desktop does to a window while the game runs: other sizes, out of sight, back again.

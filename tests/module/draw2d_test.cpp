@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <functional>
 #include <gtest/gtest.h>
 
@@ -45,6 +46,7 @@ std::vector<std::byte> make_picture(bool holes)
 // A diagonal edge between two colours.
 constexpr int stairs_size = 6;
 constexpr uint8_t stairs_below = 40, stairs_above = 200;
+constexpr formats::Rgba8 replacement { 11, 222, 33, 255 }; // in all of a PNG of this size
 std::vector<std::byte> make_stairs()
 {
     formats::IndexedImage image { stairs_size, stairs_size, {}, test_palette() };
@@ -78,6 +80,12 @@ protected:
         folder_->add("pics/backtile.pcx", make_tile());
         folder_->add("pics/stairs.pcx", make_stairs());
         folder_->add("pics/round.pcx", make_stairs());
+        for (const char* const name : { "replaced", "original" }) {
+            folder_->add(fmt::format("pics/{}.pcx", name), make_stairs());
+            folder_->add(fmt::format("pics/{}.png", name),
+                formats::write_png({ stairs_size, stairs_size,
+                    std::vector<formats::Rgba8>(size_t(stairs_size) * stairs_size, replacement) }));
+        }
         MapBuilder map;
         map.add_room({ -128, -128, 0 }, { 128, 128, 128 }, map.add_material("wall", 0, 300));
         folder_->add_map("room", map.finish());
@@ -234,6 +242,23 @@ TEST_F(Layer2d, StretchedPicturesFillTheirRectangle)
             return std::nullopt;
         return test_palette()[texel_index((x - left) * picture_width / width, (y - top) * picture_height / height)];
     });
+}
+
+TEST_F(Layer2d, PicturesAreReplacedUnlessThePlayerWantsTheOriginals)
+{
+    constexpr int left = 6, top = 8;
+    for (const bool wanted : { true, false }) {
+        session_->set("r_retexturing", wanted ? "1" : "0");
+        const formats::Image shown = show([&](const engine::Exports8& module) {
+            module.draw_pic_scaled(left, top, wanted ? "replaced" : "original", 1);
+        });
+        expect(shown, [&](int x, int y) -> std::optional<formats::Rgba8> {
+            if (!is_inside(x, y, left, top, stairs_size, stairs_size))
+                return std::nullopt;
+            return wanted ? replacement : test_palette()[x - left <= y - top ? stairs_below : stairs_above];
+        });
+    }
+    session_->set("r_retexturing", "1");
 }
 
 // At twice the size, unfiltered, a picture of 8 bits shows its texels as squares, or by r_scale8bittextures with
