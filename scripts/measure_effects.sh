@@ -47,7 +47,7 @@ frame_time() {
 
 # effect NAME SCENE-WITHOUT SCENE-WITH [NAME=WITHOUT,WITH]... [-- NAME=VALUE...]: those behind -- count for both.
 effect() {
-    local name=$1 without=$2 with=$3 round setting
+    local name=$1 without=$2 with=$3 round setting values
     local -a off=() on=()
     shift 3
     [[ $wanted == "  " || $wanted == *" $name "* ]] || return 0
