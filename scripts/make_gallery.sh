@@ -86,10 +86,10 @@ CFG
     echo "$out/${name}_gl3.jpg"
 }
 
-# picture NAME SCENE [vkpt's options]
+# picture NAME [vkpt's options]: the scene of gallery_scenes by this name.
 picture() {
-    local name=$1 scene=$2
-    shift 2
+    local name=$1 scene=${gallery_scenes[$1]}
+    shift
     if [ ${#wanted[@]} -gt 0 ] && [[ " ${wanted[*]} " != *" $name "* ]]; then
         return
     fi
@@ -103,14 +103,14 @@ picture() {
 make_gallery_data "$work"
 [ "$renderer" = ours ] || hide_status_bar
 frames=(--frames 48) samples=(--spp 400)
-picture water maps/looks.bsp@-330,-230,120,40,75 "${frames[@]}"
-picture slime_lava maps/looks.bsp@60,-330,130,22,80 "${frames[@]}"
-picture glass maps/looks.bsp@-200,170,90,12,70 "${frames[@]}"
-picture under_water maps/vkpt1.bsp@-600,-60,-100,10,90 "${frames[@]}"
-picture god_rays maps/looks.bsp@330,215,40,-14,80 "${frames[@]}" --set pt_fog=0.0015 --set pt_fog_color="0.05 0.05 0.06" --set pt_god_rays=2
-picture fog maps/looks.bsp@60,-480,150,15,90 "${frames[@]}" --set pt_fog=0.002 --set pt_fog_height=60
-picture physical_sky maps/vkpt1.bsp@0,520,200,-5,90 "${frames[@]}" --set pt_sky=physical --set pt_sky_azimuth=120
-picture flashlight maps/vkpt1.bsp@-440,100,60,10,-135 "${frames[@]}" --set pt_flashlight=1 --set pt_emission_scale=0.02
-[ "$renderer" = gl3 ] || picture wipe maps/vkpt1.bsp "${frames[@]}" --set pt_wipe=0.5 # its left half is what gl3 has
-[ "$renderer" = gl3 ] || picture screens maps/screens.bsp@690,520,150,3,-30 "${frames[@]}" # gl3 has no cameras
-picture lens maps/vkpt1.bsp@0,-384,46,0,90 "${samples[@]}" --set pt_aperture=10 --set pt_focus=190
+picture water "${frames[@]}"
+picture slime_lava "${frames[@]}"
+picture glass "${frames[@]}"
+picture under_water "${frames[@]}"
+picture god_rays "${frames[@]}" --set pt_fog=0.0015 --set pt_fog_color="0.05 0.05 0.06" --set pt_god_rays=2
+picture fog "${frames[@]}" --set pt_fog=0.002 --set pt_fog_height=60
+picture physical_sky "${frames[@]}" --set pt_sky=physical --set pt_sky_azimuth=120
+picture flashlight "${frames[@]}" --set pt_flashlight=1 --set pt_emission_scale=0.02
+[ "$renderer" = gl3 ] || picture wipe "${frames[@]}" --set pt_wipe=0.5 # its left half is what gl3 has
+[ "$renderer" = gl3 ] || picture screens "${frames[@]}" # gl3 has no cameras
+picture lens "${samples[@]}" --set pt_aperture=10 --set pt_focus=190

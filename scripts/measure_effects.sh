@@ -45,12 +45,14 @@ frame_time() {
         | awk '$1 == "frame" { print $2 }'
 }
 
-# effect NAME SCENE-WITHOUT SCENE-WITH [NAME=WITHOUT,WITH]... [-- NAME=VALUE...]: those behind -- count for both.
+# effect NAME SCENE [NAME=WITHOUT,WITH]... [-- NAME=VALUE...]: those behind -- count for both. A scene of looks.map without a setting
+# to turn off is compared with the bare map.
 effect() {
-    local name=$1 without=$2 with=$3 round setting values
+    local name=$1 with=$2 without=$2 round setting values ms_without ms_with
     local -a off=() on=()
-    shift 3
+    shift 2
     [[ $wanted == "  " || $wanted == *" $name "* ]] || return 0
+    [[ ${1:---} != -- ]] || without=${with/looks.bsp/bare.bsp}
     while (($#)) && [[ $1 != -- ]]; do
         setting=${1%%=*} values=${1#*=}
         off+=("$setting=${values%%,*}") on+=("$setting=${values#*,}")
@@ -58,27 +60,28 @@ effect() {
     done
     (($# == 0)) || { shift; off+=("$@") on+=("$@"); }
     for ((round = 0; round < rounds; round++)); do
-        echo "$name $(frame_time "$without" ${off[@]+"${off[@]}"}) $(frame_time "$with" ${on[@]+"${on[@]}"})"
-    done | tee -a "$work/times" >&2
+        ms_without=$(frame_time "$without" ${off[@]+"${off[@]}"}) && ms_with=$(frame_time "$with" ${on[@]+"${on[@]}"}) \
+            || die "$name was not measured"
+        echo "$name $ms_without $ms_with" | tee -a "$work/times" >&2
+    done
 }
 
 make_gallery_data "$work"
 bare_map bare vkpt/water vkpt/slime vkpt/lava vkpt/lamp_cyan vkpt/lamp_green vkpt/lamp_magenta
-pool=looks.bsp@-330,-230,120,40,75 basins=60,-330,130,22,80 panes=-200,170,90,12,70
-effect water "maps/bare.bsp@${pool#*@}" "maps/$pool" -- pt_caustics=0
-effect caustics "maps/$pool" "maps/$pool" pt_caustics=0,1
-effect under_water maps/vkpt1.bsp@-600,-60,-100,10,90 maps/vkpt1.bsp@-600,-60,-100,10,90 pt_water_density=0,0.5
-effect slime_and_lava "maps/bare.bsp@$basins" "maps/looks.bsp@$basins"
-effect glass "maps/bare.bsp@$panes" "maps/looks.bsp@$panes"
-effect fog maps/looks.bsp@60,-480,150,15,90 maps/looks.bsp@60,-480,150,15,90 pt_fog=0,0.002 -- pt_fog_height=60 pt_god_rays=0
-effect god_rays maps/looks.bsp@330,215,40,-14,80 maps/looks.bsp@330,215,40,-14,80 pt_god_rays=0,2 -- pt_fog=0.0015
-effect physical_sky maps/vkpt1.bsp@0,520,200,-5,90 maps/vkpt1.bsp@0,520,200,-5,90 pt_sky=cube,physical
-effect flashlight maps/vkpt1.bsp@-440,100,60,10,-135 maps/vkpt1.bsp@-440,100,60,10,-135 pt_flashlight=0,1
-effect screen maps/screens.bsp@690,520,150,3,-30 maps/screens.bsp@690,520,150,3,-30 pt_cameras=0,1
-effect anisotropy maps/vkpt1.bsp maps/vkpt1.bsp r_anisotropic=0,4
-effect sharpening maps/vkpt1.bsp maps/vkpt1.bsp flt_sharpen=0,1
-effect bloom maps/vkpt1.bsp maps/vkpt1.bsp pt_bloom=0,0.04
-effect classic_light maps/vkpt1.bsp maps/vkpt1.bsp pt_wipe=0,1
+effect water "${gallery_scenes[water]}" -- pt_caustics=0
+effect caustics "${gallery_scenes[water]}" pt_caustics=0,1
+effect under_water "${gallery_scenes[under_water]}" pt_water_density=0,0.5
+effect slime_and_lava "${gallery_scenes[slime_lava]}"
+effect glass "${gallery_scenes[glass]}"
+effect fog "${gallery_scenes[fog]}" pt_fog=0,0.002 -- pt_fog_height=60 pt_god_rays=0
+effect god_rays "${gallery_scenes[god_rays]}" pt_god_rays=0,2 -- pt_fog=0.0015
+effect physical_sky "${gallery_scenes[physical_sky]}" pt_sky=cube,physical
+effect flashlight "${gallery_scenes[flashlight]}" pt_flashlight=0,1
+effect screen "${gallery_scenes[screens]}" pt_cameras=0,1
+effect anisotropy maps/vkpt1.bsp r_anisotropic=0,4
+effect sharpening maps/vkpt1.bsp flt_sharpen=0,1
+effect bloom maps/vkpt1.bsp pt_bloom=0,0.04
+effect classic_light maps/vkpt1.bsp pt_wipe=0,1
 awk 'function median(list, count,   i, j, held, value) {
         split(list, value, " ")
         for (i = 2; i <= count; i++)

@@ -1,6 +1,21 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The scenes of docs/gallery.md, for the scripts that draw and measure them.
 
+# Where each picture is taken from.
+declare -A gallery_scenes=(
+    [water]=maps/looks.bsp@-330,-230,120,40,75
+    [slime_lava]=maps/looks.bsp@60,-330,130,22,80
+    [glass]=maps/looks.bsp@-200,170,90,12,70
+    [under_water]=maps/vkpt1.bsp@-600,-60,-100,10,90
+    [god_rays]=maps/looks.bsp@330,215,40,-14,80
+    [fog]=maps/looks.bsp@60,-480,150,15,90
+    [physical_sky]=maps/vkpt1.bsp@0,520,200,-5,90
+    [flashlight]=maps/vkpt1.bsp@-440,100,60,10,-135
+    [wipe]=maps/vkpt1.bsp
+    [screens]=maps/screens.bsp@690,520,150,3,-30
+    [lens]=maps/vkpt1.bsp@0,-384,46,0,90
+)
+
 # make_gallery_data BASEDIR: the build's game data, docs/gallery/looks.map compiled, and our map once more, with a camera.
 make_gallery_data() {
     local maps=$1/baseq2/maps

@@ -16,7 +16,7 @@ uint find_visibility_row(Surface s)
 {
     const float in_front = 0.05;
     ivec3 cube = whole_to_int(floor(s.position * (1.0 / VISIBILITY_PATCH) + s.geometric_normal * in_front));
-    uvec3 side = uvec3(whole_to_int(roundEven(s.geometric_normal))) & 3u;
+    uvec3 side = uvec3(whole_to_int(s.geometric_normal)) & 3u;
     // Maps are at most 8,192 units wide, 256 cubes.
     uvec3 place = uvec3(cube) & 255u | side << 8u;
     return hash_word(place.x | place.y << 10u | place.z << 20u) % VISIBILITY_ROWS;

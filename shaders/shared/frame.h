@@ -199,8 +199,7 @@ struct SceneView {
     Sky sky;
     uint64_t lightmap_faces; // LightmapFace, one for each face of the map; where FRAME_WIPE
     uint64_t luxels;
-    FilterBox filter_boxes[MAX_FILTER_BOXES]; // what colours light is in these; behind filter_box_count: boxes that
-                                              // nothing meets
+    FilterBox filter_boxes[MAX_FILTER_BOXES]; // what colours light is in these; nothing meets unused ones
     uint filter_box_count;
     uint fog_box_count;
     FogBox fog_boxes[MAX_FOG_BOXES];
