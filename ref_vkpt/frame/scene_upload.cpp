@@ -214,12 +214,12 @@ void SceneUpload::write_trees(const Job& job, MovingTarget target)
 {
     const CpuTimer timer("cpu bvh");
     const MovingGeometry& moving = job.scene.moving;
-    const Bvh* world = job.scene.world ? &job.scene.world->bvh() : nullptr;
+    const WorldTrees* world = job.scene.world ? &job.scene.world->trees() : nullptr;
     // One record even where there is none: its address must be one.
     const size_t record_count = std::max<size_t>(moving.triangle_count(), 1);
     // The map's tree and the moving things' stand one behind the other, so that a ray searches both in one go.
     static const Bvh nothing;
-    const Bvh& front = world ? *world : nothing;
+    const Bvh& front = world ? world->bvh : nothing;
     const Upload nodes
         = job.kept.tree_nodes.reserve(graphics_.slot(), front.nodes, job.version, moving.node_count() * bvh_node_words);
     const Upload records = job.kept.tree_triangles.reserve(
@@ -232,6 +232,8 @@ void SceneUpload::write_trees(const Job& job, MovingTarget target)
     const bool searches_moving = world && moving.triangle_count() > 0;
     job.out.trees
         = { nodes.address, records.address, 0, searches_moving ? target.place.first_node : shared::BVH_NO_CHILD };
+    job.out.filter_root = world ? world->filter_root : shared::BVH_NO_CHILD;
+    job.out.other_filter_root = job.scene.filter_boxes.empty() ? shared::BVH_NO_CHILD : job.out.trees.other_root;
 }
 
 void SceneUpload::write_structures(const Job& job, const MovingTarget& target)
@@ -269,7 +271,7 @@ double SceneUpload::bytes_per_triangle(const World& world, TraceBackend backend)
     if (backend != TraceBackend::software)
         return structures_.world_bytes_per_triangle();
     const size_t count = world.models[0].triangles.size();
-    const Bvh& bvh = world.bvh();
+    const Bvh& bvh = world.trees().bvh;
     return count > 0 ? double((bvh.nodes.size() + bvh.triangles.size()) * sizeof(uint32_t)) / double(count) : 0;
 }
 

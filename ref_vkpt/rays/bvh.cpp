@@ -95,4 +95,17 @@ Bvh build_bvh(std::span<const BvhTriangle> triangles, BvhQuality quality)
     return bvh;
 }
 
+uint32_t append_bvh(Bvh& bvh, const Bvh& other)
+{
+    const TreePlace place { bvh.node_count, uint32_t(bvh.triangles.size() / bvh_triangle_words) };
+    const size_t first_word = bvh.nodes.size();
+    bvh.nodes.insert(bvh.nodes.end(), other.nodes.begin(), other.nodes.end());
+    place_nodes(std::span(bvh.nodes).subspan(first_word), place);
+    bvh.triangles.insert(bvh.triangles.end(), other.triangles.begin(), other.triangles.end());
+    bvh.triangle_count += other.triangle_count;
+    bvh.node_count += other.node_count;
+    bvh.max_depth = std::max(bvh.max_depth, other.max_depth);
+    return place.first_node;
+}
+
 } // namespace vkpt

@@ -38,4 +38,7 @@ bool can_be_met(const BvhTriangle& triangle);
 // empty tree. No tree needs more than TRACE_STACK_ENTRIES (shaders/shared/trace.h) to walk.
 Bvh build_bvh(std::span<const BvhTriangle> triangles, BvhQuality quality);
 
+// Adds another tree to the arrays of nodes and triangles, and returns its root.
+uint32_t append_bvh(Bvh& bvh, const Bvh& other);
+
 } // namespace vkpt

@@ -187,15 +187,20 @@ StaticEmitters find_world_emitters(World& world, const EmissionSource& source)
     return emitters;
 }
 
-Bvh build_world_bvh(const MapGeometry& geometry)
+WorldTrees build_world_trees(const MapGeometry& geometry)
 {
-    std::vector<BvhTriangle> triangles(geometry.triangles.size());
+    std::vector<BvhTriangle> triangles(geometry.triangles.size()), filters;
     for (size_t i = 0; i < triangles.size(); i++) {
         std::ranges::copy(geometry.triangles[i].positions, triangles[i].positions);
         triangles[i].id = uint32_t(i);
         triangles[i].mask = geometry.masks[i];
+        if (triangles[i].mask & shared::MASK_FILTER)
+            filters.push_back(triangles[i]);
     }
-    return build_bvh(triangles, BvhQuality::best);
+    WorldTrees trees { build_bvh(triangles, BvhQuality::best) };
+    if (!filters.empty())
+        trees.filter_root = append_bvh(trees.bvh, build_bvh(filters, BvhQuality::best));
+    return trees;
 }
 
 // Flowing surfaces move by 1.6 of their textures a second, liquids by half of one, as the engine's OpenGL renderers
@@ -279,8 +284,8 @@ std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, 
         const MapGeometry& geometry = world.models.emplace_back(make_brush_geometry(world, i, source));
         world.brush_meshes.push_back(make_brush_mesh(geometry.triangles, geometry.masks));
     }
-    world.bvh_future
-        = std::async(std::launch::async, [&geometry = world.models[0]] { return build_world_bvh(geometry); });
+    world.trees_future
+        = std::async(std::launch::async, [&geometry = world.models[0]] { return build_world_trees(geometry); });
     world.light_lists.build(world.bsp, world.models[0].emitters);
     world.light_cache = lay_out_light_cache(world.bsp, world.light_lists, world.models[0].emitters);
     return made;

@@ -13,6 +13,7 @@
 #include "ref_vkpt/rays/bvh.hpp"
 #include "ref_vkpt/scene/brush_mesh.hpp"
 #include "shaders/shared/scene.h"
+#include "shaders/shared/trace.h"
 
 #include <cstdint>
 #include <functional>
@@ -50,6 +51,12 @@ struct MaterialDefaults {
     float bump_scale = 1; // of all normal maps
 };
 
+// The software backend's, in one array of nodes and one of triangles.
+struct WorldTrees {
+    Bvh bvh; // of all triangles: its root is node 0
+    uint32_t filter_root = shared::BVH_NO_CHILD; // of those that colour light (MASK_FILTER) alone, once more; or none
+};
+
 struct World {
     std::string name;
     formats::Bsp bsp;
@@ -67,8 +74,8 @@ struct World {
     LightLists light_lists; // of the map's own emitters
     LightCacheLayout light_cache;
     // Of model 0: made on a thread of its own while textures and models are read.
-    const Bvh& bvh() const { return bvh_future.get(); }
-    std::shared_future<Bvh> bvh_future; // behind `models`, which it reads
+    const WorldTrees& trees() const { return trees_future.get(); }
+    std::shared_future<WorldTrees> trees_future; // behind `models`, which it reads
     // Mean luminance of the sky faces that the map's author gave a light value; 0: none. Their sky is as bright as
     // that.
     float lit_sky_luminance = 0;

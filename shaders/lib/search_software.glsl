@@ -21,8 +21,12 @@ uint64_t lane_stack()
 // The nearest triangle (with any_hit: some triangle) of the masked ones, alpha taken for opaque.
 RawHit search_trees(Ray ray, uint mask, bool any_hit)
 {
-    return software_trace(
-        frame.scene.trees, ray.origin, ray.direction, ray.t_min, ray.t_max, mask, any_hit, lane_stack());
+    BvhView trees = frame.scene.trees;
+    if (mask == MASK_FILTER) {
+        trees.root = frame.scene.filter_root;
+        trees.other_root = frame.scene.other_filter_root;
+    }
+    return software_trace(trees, ray.origin, ray.direction, ray.t_min, ray.t_max, mask, any_hit, lane_stack());
 }
 
 // One call of the traversal, whatever there is to do: it is most of what the CPU driver has to compile. Behind a hole

@@ -171,6 +171,8 @@ struct SamplerTableAddresses {
 // things.
 struct SceneView {
     BvhView trees; // the map's and the moving things'
+    uint filter_root; // instead of the roots of `trees`, for rays that look for MASK_FILTER alone
+    uint other_filter_root;
     uint64_t trace_stack;
     uint64_t structure; // the driver's own, where it traces
     uint64_t structure_ids[2]; // tables of triangle ids, see STRUCTURE_TABLE_SHIFT

@@ -28,7 +28,7 @@ void use_map(const std::vector<std::byte>& file)
 {
     const auto find_texture = [](const std::string&) { return make_texture(); };
     const auto world = load_world(file, "maps/bad.bsp", find_texture, {});
-    world->bvh();
+    world->trees();
     world->make_materials(1, {});
     read_lightmaps(world->bsp);
     const LightLists& lists = world->light_lists;

@@ -215,6 +215,30 @@ double inner_area(const BinaryTree& tree, std::span<const Box> boxes, uint32_t n
     return double(n.box.half_area()) + inner_area(tree, boxes, n.left, uses) + inner_area(tree, boxes, n.right, uses);
 }
 
+TEST(AppendBvh, keeps_both_trees_whole)
+{
+    Random random(78);
+    const std::vector<BvhTriangle> many = random_triangles(random, 700, 30, 0),
+                                   few = random_triangles(random, 37, 5, 700);
+    Bvh bvh = build_bvh(many, BvhQuality::best);
+    const Bvh other = build_bvh(few, BvhQuality::best);
+    const uint32_t root = append_bvh(bvh, other);
+    EXPECT_EQ(root, bvh.node_count - other.node_count);
+    EXPECT_EQ(bvh.triangle_count, 737u);
+    TreeCheck first(bvh), second(bvh);
+    first.check(0, 1);
+    second.check(root, 1);
+    for (uint32_t node = 0; node < bvh.node_count; node++) {
+        EXPECT_EQ(first.node_visits[node], node < root ? 1u : 0u);
+        EXPECT_EQ(second.node_visits[node], node < root ? 0u : 1u);
+    }
+    for (uint32_t slot = 0; slot < bvh.triangle_count; slot++) {
+        const uint32_t id = decode_triangle(bvh, slot).id_and_mask & BVH_ID_MASK;
+        EXPECT_EQ(first.triangle_visits[slot], id < 700 ? 1u : 0u);
+        EXPECT_EQ(second.triangle_visits[slot], id < 700 ? 0u : 1u);
+    }
+}
+
 TEST(Reinsertion, makes_boxes_smaller_and_keeps_the_tree_whole)
 {
     Random random(77);

@@ -66,8 +66,8 @@ TEST(WorldOfQbsp, IsThatOfTheSameMapAsIbsp)
     }
     EXPECT_TRUE(same_bytes(narrow->models[0].triangles, wide->models[0].triangles));
     EXPECT_TRUE(same_bytes(narrow->models[0].emitters, wide->models[0].emitters));
-    EXPECT_EQ(narrow->bvh().nodes, wide->bvh().nodes);
-    EXPECT_EQ(narrow->bvh().triangles, wide->bvh().triangles);
+    EXPECT_EQ(narrow->trees().bvh.nodes, wide->trees().bvh.nodes);
+    EXPECT_EQ(narrow->trees().bvh.triangles, wide->trees().bvh.triangles);
 }
 
 // A texture may be on faces that nobody sees, too, and those may come first.
