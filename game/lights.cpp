@@ -19,9 +19,10 @@ constexpr size_t longest_history = 64;
 constexpr float farthest_crosshair = 8192;
 constexpr float spot_radius = 1; // its light has to fit into the shade
 
-constexpr std::string_view usage = "light add [COLOUR] [VALUE] [RADIUS] [pulse|flicker|sputter] [spot DEGREES] [orbit "
-                                   "RADIUS [SECONDS]], light set ..., light move|aim|copy|delete|grab|edit, light "
-                                   "list|clear|undo, light save|load [NAME]";
+constexpr std::string_view light_usage
+    = "light add [COLOUR] [VALUE] [RADIUS] [pulse|flicker|sputter] [spot DEGREES] [orbit "
+      "RADIUS [SECONDS]], light set ..., light move|aim|copy|delete|grab|edit, light "
+      "list|clear|undo, light save|load [NAME]";
 
 const Edict& player_of(const Command& command)
 {
@@ -108,7 +109,7 @@ void Lights::run(const Command& command)
         replace(std::move(lights));
         host_.say(command.sender, fmt::format("{}: {} at {}", verb, describe_light(light), place_text(light.origin)));
     } else {
-        throw TextError(std::string(usage));
+        throw TextError(std::string(light_usage));
     }
 }
 

@@ -27,8 +27,9 @@ constexpr float approach_seconds = 0.1f; // in which a lag is made good
 constexpr float inertia = 3; // the share of a wrong velocity that an input goes against
 constexpr int settle_frames = 4; // of a new level before a player may act
 
-constexpr std::string_view usage = "walk FILE, walk record FILE, walk explore SECONDS [SEED] (0 seconds: until walk "
-                                   "stop), walk stop|status|die";
+constexpr std::string_view walk_usage
+    = "walk FILE, walk record FILE, walk explore SECONDS [SEED] (0 seconds: until walk "
+      "stop), walk stop|status|die";
 
 int16_t to_short_angle(float degrees) { return int16_t(uint16_t(int(std::lround(degrees * 65536 / 360)) & 65535)); }
 int frames_of(float seconds) { return std::max(1, int(std::lround(seconds / frame_seconds))); }
@@ -55,7 +56,7 @@ void Walker::run(const Command& command, const std::vector<bool>& is_client)
 {
     const std::string verb = command.word(0);
     if (verb.empty())
-        throw TextError(std::string(usage));
+        throw TextError(std::string(walk_usage));
     if (verb == "stop")
         return stop(command.sender);
     if (verb == "status") {

@@ -31,24 +31,16 @@ void say(Module& m, const std::string& message)
     m.photo.say(message);
 }
 
-Call make_call(CallKind kind, std::string_view name)
-{
-    Call call;
-    call.kind = kind;
-    call.name = name;
-    return call;
-}
-
 // What a trace says before what is registered: the window, settings, and the map's file.
 std::vector<Call> make_head(const Module& m)
 {
-    std::vector<Call> head { make_call(CallKind::screen, "") };
-    head[0].numbers = { int32_t(m.graphics.size().width), int32_t(m.graphics.size().height) };
+    std::vector<Call> head { make_call(
+        CallKind::screen, "", { int32_t(m.graphics.size().width), int32_t(m.graphics.size().height) }) };
     const std::string map = fmt::format("maps/{}.bsp", m.replay_ring.map());
     if (const auto file = engine::load_file(map)) {
-        Call& call = head.emplace_back(make_call(CallKind::file, map));
         const uint64_t size = file->bytes().size(), hash = hash_bytes(file->bytes());
-        call.numbers = { int32_t(size), int32_t(size >> 32), int32_t(hash), int32_t(hash >> 32) };
+        head.push_back(
+            make_call(CallKind::file, map, { int32_t(size), int32_t(size >> 32), int32_t(hash), int32_t(hash >> 32) }));
     }
     for (const auto& [name, initial] : trace::recorded_settings)
         head.emplace_back(make_call(CallKind::setting, name)).text

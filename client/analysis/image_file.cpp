@@ -87,8 +87,8 @@ public:
     }
     std::string_view word()
     {
-        constexpr const char* white = " \t\r\n";
-        const size_t start = text_.find_first_not_of(white, at_), end = text_.find_first_of(white, start);
+        constexpr const char* spaces = " \t\r\n";
+        const size_t start = text_.find_first_not_of(spaces, at_), end = text_.find_first_of(spaces, start);
         if (end == std::string_view::npos)
             fail(path_, "it ends within the header of a PFM");
         at_ = end + 1;

@@ -10,7 +10,7 @@ namespace vkpt::client {
 
 namespace {
 
-constexpr double width = 560, height = 340; // of the whole; user units
+constexpr double plot_width = 560, plot_height = 340; // of the whole; user units
 constexpr double left = 64, right = 12, top = 34, bottom = 48; // margins
 constexpr double legend_row = 16, legend_column = 276;
 
@@ -101,7 +101,7 @@ public:
             return "";
         const double legend = legend_row * double((lines_.size() + 1) / 2);
         svg_ = fmt::format(R"(<svg class="plot" role="img" viewBox="0 0 {} {}" xmlns="http://www.w3.org/2000/svg">)",
-            width, height + legend);
+            plot_width, plot_height + legend);
         svg_ += fmt::format("<title>{}</title>", escape_markup(plot_.title));
         text(left, 18, "plot-title", plot_.title);
         draw_axes();
@@ -114,8 +114,8 @@ private:
     struct Line : PlotLine {
         std::string colour;
     };
-    double x_of(double value) const { return left + (width - left - right) * x_.share(value); }
-    double y_of(double value) const { return height - bottom - (height - top - bottom) * y_.share(value); }
+    double x_of(double value) const { return left + (plot_width - left - right) * x_.share(value); }
+    double y_of(double value) const { return plot_height - bottom - (plot_height - top - bottom) * y_.share(value); }
 
     void text(double x, double y, const char* kind, const std::string& words)
     {
@@ -129,16 +129,16 @@ private:
     void draw_axes()
     {
         for (const double tick : x_.ticks()) {
-            stroke(x_of(tick), top, x_of(tick), height - bottom);
-            text(x_of(tick), height - bottom + 16, "tick-x", fmt::format("{:g}", tick));
+            stroke(x_of(tick), top, x_of(tick), plot_height - bottom);
+            text(x_of(tick), plot_height - bottom + 16, "tick-x", fmt::format("{:g}", tick));
         }
         for (const double tick : y_.ticks()) {
-            stroke(left, y_of(tick), width - right, y_of(tick));
+            stroke(left, y_of(tick), plot_width - right, y_of(tick));
             text(left - 6, y_of(tick) + 4, "tick-y", fmt::format("{:.4g}", tick));
         }
-        text((left + width - right) / 2, height - 12, "label-x", plot_.x_label);
+        text((left + plot_width - right) / 2, plot_height - 12, "label-x", plot_.x_label);
         svg_ += fmt::format(R"svg(<text class="label-x" transform="translate(14 {:.1f}) rotate(-90)">{}</text>)svg",
-            (top + height - bottom) / 2, escape_markup(plot_.y_label));
+            (top + plot_height - bottom) / 2, escape_markup(plot_.y_label));
     }
 
     void draw_line(size_t index)
@@ -155,7 +155,7 @@ private:
                 svg_ += fmt::format(
                     R"(<circle cx="{:.1f}" cy="{:.1f}" r="3"><title>{}: {:.4g}, {:.4g}</title></circle>)",
                     x_of(point.x), y_of(point.y), escape_markup(line.name), point.x, point.y);
-        const double x = 16 + double(index % 2) * legend_column, y = height + legend_row * double(index / 2);
+        const double x = 16 + double(index % 2) * legend_column, y = plot_height + legend_row * double(index / 2);
         svg_ += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="5"/>)", x, y);
         text(x + 12, y + 4, "legend", line.name);
         svg_ += "</g>";

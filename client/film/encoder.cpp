@@ -2,14 +2,13 @@
 #include "client/film/encoder.hpp"
 
 #include "client/host/errors.hpp"
+#include "common/read_text.hpp"
 
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -43,12 +42,6 @@ int start(std::vector<std::string> words, int input, const std::filesystem::path
     const int error = posix_spawnp(&process, program, &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     return error;
-}
-
-std::string read_text(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return { std::istreambuf_iterator<char>(file), {} };
 }
 
 [[noreturn]] void fail_to_start(int error)

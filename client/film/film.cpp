@@ -147,9 +147,9 @@ private:
 };
 
 // Time left is said where stderr is no terminal, too: films take hours.
-class Clock {
+class ProgressClock {
 public:
-    explicit Clock(int frames)
+    explicit ProgressClock(int frames)
         : frames_(frames)
         , progress_("filming", frames)
     {
@@ -211,7 +211,7 @@ void make_film(const FilmOptions& options, FileSystem& files, const Recorded& re
     trace.register_with(host);
     for (const std::string& note : trace.notes())
         std::fprintf(stderr, "vkpt: %s\n", note.c_str());
-    Clock clock(frames);
+    ProgressClock clock(frames);
     constexpr int seeds = 1 << 24;
     for (int frame = 0; frame < frames; frame++) {
         host.cvars().set("pt_seed", fmt::format("{}", 1 + (options.scene.seed + frame) % (seeds - 1)));

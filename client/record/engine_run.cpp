@@ -3,6 +3,7 @@
 
 #include "client/host/companions.hpp"
 #include "client/host/errors.hpp"
+#include "common/read_text.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -12,7 +13,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <grp.h>
-#include <iterator>
 #include <pwd.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -53,12 +53,6 @@ fs::path find_engine(const fs::path& wanted)
 // What the engine runs with.
 constexpr const char *record_module = "ref_record.so", *clock_library = "recording_clock.so",
                      *sound_library = "recording_sound.so";
-
-std::string read_text(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return { std::istreambuf_iterator<char>(stream), {} };
-}
 
 std::string last_lines(const std::string& text, int count)
 {

@@ -30,17 +30,6 @@ template <class Work> auto with_trace(Work work)
     }
 }
 
-Call make_call(CallKind kind, std::string_view name = "", std::initializer_list<int32_t> numbers = {},
-    std::initializer_list<float> reals = {})
-{
-    Call call;
-    call.kind = kind;
-    call.name = name;
-    std::ranges::copy(numbers, call.numbers.begin());
-    std::ranges::copy(reals, call.reals.begin());
-    return call;
-}
-
 void write(Call call)
 {
     with_trace([&](Recorder& r) { r.write(std::move(call)); });

@@ -26,11 +26,9 @@ constexpr const char* fact_variables[] = { "version", "timedemo", "fixedtime", "
 constexpr size_t max_handles = 1 << 16;
 char handle_places[max_handles];
 
-Call make_call(CallKind kind, std::string_view name, std::string_view text = "")
+Call make_text_call(CallKind kind, std::string_view name, std::string_view text)
 {
-    Call call;
-    call.kind = kind;
-    call.name = name;
+    Call call = make_call(kind, name);
     call.text = text;
     return call;
 }
@@ -49,11 +47,8 @@ void Recorder::note_start(int width, int height)
 {
     for (const char* name : fact_variables)
         if (const std::string text = engine::get_cvar(name, "", engine::CVAR_NONE)->text; !text.empty())
-            write(make_call(CallKind::fact, name, text));
-    Call screen;
-    screen.kind = CallKind::screen;
-    screen.numbers = { width, height };
-    write(screen);
+            write(make_text_call(CallKind::fact, name, text));
+    write(make_call(CallKind::screen, "", { width, height }));
     if (const std::string demo = engine::get_cvar("record_demo", "", engine::CVAR_NONE)->text; !demo.empty())
         load_file("demos/" + demo);
     pictures_.load_palette();
@@ -67,7 +62,7 @@ void Recorder::note_settings()
         if (!is_new && known->second == text)
             continue;
         known->second = text;
-        write(make_call(CallKind::setting, name, text));
+        write(make_text_call(CallKind::setting, name, text));
     }
 }
 
@@ -94,15 +89,13 @@ void Recorder::begin_frame(float camera_separation)
 {
     note_settings();
     write_start(false);
-    Call call = make_call(CallKind::begin_frame, "");
-    call.reals[0] = camera_separation;
-    write(std::move(call));
+    write(make_call(CallKind::begin_frame, "", {}, { camera_separation }));
 }
 
 void Recorder::end_frame()
 {
     write_start(false);
-    writer_.write(make_call(CallKind::end_frame, ""));
+    writer_.write(make_call(CallKind::end_frame));
 }
 
 void Recorder::write_view(const engine::RefDef& from)
@@ -126,10 +119,9 @@ std::optional<std::vector<std::byte>> Recorder::load_file(const std::string& pat
         return std::nullopt;
     const formats::Bytes bytes = file->bytes();
     if (noted_files_.insert(path).second) {
-        Call call = make_call(CallKind::file, path);
         const uint64_t size = bytes.size(), hash = hash_bytes(bytes);
-        call.numbers = { int32_t(size), int32_t(size >> 32), int32_t(hash), int32_t(hash >> 32) };
-        write(std::move(call));
+        write(make_call(
+            CallKind::file, path, { int32_t(size), int32_t(size >> 32), int32_t(hash), int32_t(hash >> 32) }));
     }
     return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
@@ -206,18 +198,14 @@ void* Recorder::register_model(std::string_view name)
     } catch (const formats::FormatError& error) {
         engine::print("ref_record: {}", error.what());
     }
-    Call call = make_call(CallKind::register_model, name);
-    call.numbers[0] = int32_t(number);
-    write(std::move(call));
+    write(make_call(CallKind::register_model, name, { int32_t(number) }));
     return to_handle(number);
 }
 
 void* Recorder::register_skin(std::string_view name)
 {
     const uint32_t number = number_picture(name, TextureUse::skin);
-    Call call = make_call(CallKind::register_skin, name);
-    call.numbers[0] = int32_t(number);
-    write(std::move(call));
+    write(make_call(CallKind::register_skin, name, { int32_t(number) }));
     return to_handle(number);
 }
 

@@ -5,10 +5,13 @@
 
 #include "ref_vkpt/engine/contract.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vkpt::trace {
@@ -88,6 +91,17 @@ struct Call {
 
     bool operator==(const Call&) const = default;
 };
+
+inline Call make_call(CallKind kind, std::string_view name = "", std::initializer_list<int32_t> numbers = {},
+    std::initializer_list<float> reals = {})
+{
+    Call call;
+    call.kind = kind;
+    call.name = name;
+    std::ranges::copy(numbers, call.numbers.begin());
+    std::ranges::copy(reals, call.reals.begin());
+    return call;
+}
 
 // The console variables that a trace holds: of the engine's, those that change how the module shows a view. No other is
 // taken from a file, as some make the module write files.

@@ -34,7 +34,7 @@ struct Brightness {
 
 class Draw2d {
 public:
-    Draw2d(const Gpu& gpu, Bindings& bindings, Pipelines& pipelines, TextureStore& textures, uint32_t frames_in_flight);
+    Draw2d(const Gpu& gpu, Bindings& bindings, Pipelines& pipelines, TextureStore& textures, uint32_t frames);
     ~Draw2d();
     Draw2d(const Draw2d&) = delete;
     Draw2d& operator=(const Draw2d&) = delete;

@@ -63,13 +63,12 @@ VkDeviceSize align(VkDeviceSize bytes) { return (bytes + 15) & ~VkDeviceSize(15)
 
 } // namespace
 
-Draw2d::Draw2d(
-    const Gpu& gpu, Bindings& bindings, Pipelines& pipelines, TextureStore& textures, uint32_t frames_in_flight)
+Draw2d::Draw2d(const Gpu& gpu, Bindings& bindings, Pipelines& pipelines, TextureStore& textures, uint32_t frames)
     : gpu_(gpu)
     , bindings_(bindings)
     , textures_(textures)
     , pipelines_(pipelines)
-    , frames_(frames_in_flight)
+    , frames_(frames)
 {
 }
 

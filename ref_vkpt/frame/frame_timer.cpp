@@ -11,7 +11,7 @@ namespace vkpt {
 
 namespace {
 
-constexpr uint32_t max_marks = 128; // beyond it a frame's further passes (many small views) are not timed
+constexpr uint32_t max_timestamps = 128; // beyond it a frame's further passes (many small views) are not timed
 constexpr uint32_t frames_a_glance = 16; // one of so many has its passes timed while nobody collects the times
 
 } // namespace
@@ -21,7 +21,7 @@ FrameTimer::FrameTimer(const Device& device)
 {
     for (Slot& slot : slots_)
         if (can_time())
-            slot.pool = make_timestamp_pool(device, max_marks);
+            slot.pool = make_timestamp_pool(device, max_timestamps);
 }
 
 double FrameTimer::milliseconds_between(uint64_t begin, uint64_t end) const
@@ -81,7 +81,7 @@ void FrameTimer::begin_frame(VkCommandBuffer commands, uint32_t frame_slot)
     slots_[slot_].times_passes = times_every_pass_ || frame_number_++ % turn == 0;
     if (!can_time())
         return;
-    vkCmdResetQueryPool(commands, slots_[slot_].pool, 0, max_marks);
+    vkCmdResetQueryPool(commands, slots_[slot_].pool, 0, max_timestamps);
     vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, slots_[slot_].pool, 0);
 }
 
@@ -96,7 +96,7 @@ void FrameTimer::begin_untimed(uint32_t frame_slot)
 void FrameTimer::mark(VkCommandBuffer commands, const char* name)
 {
     // The last query is the frame's end.
-    if (slots_[slot_].times_passes && slots_[slot_].names.size() + 2 < max_marks)
+    if (slots_[slot_].times_passes && slots_[slot_].names.size() + 2 < max_timestamps)
         stamp(commands, name);
 }
 

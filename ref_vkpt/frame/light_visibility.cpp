@@ -15,7 +15,7 @@ namespace {
 
 // In a frame with new weights A-SVGF measures nothing. A map's first views learn fast: after a few frames with new
 // weights each the intervals double.
-constexpr uint32_t first_publications = 4, frames_per_publication = 16;
+constexpr uint32_t first_publications = 4, longest_interval = 16;
 
 constexpr size_t row_bytes = sizeof(glm::uvec4), count_bytes = sizeof(uint32_t);
 
@@ -63,7 +63,7 @@ void LightVisibilityKeeper::begin_frame(shared::FrameUniforms& uniforms, const G
     publishes_ = true;
     frames_ = 0;
     if (++made_ >= first_publications)
-        interval_ = std::min(2 * interval_, frames_per_publication);
+        interval_ = std::min(2 * interval_, longest_interval);
 }
 
 } // namespace vkpt

@@ -27,7 +27,7 @@ Kind kind_of(const Emitter& e)
     return { e.type, e.lightstyle, bits(e.area), bits(e.radiance.x), bits(e.radiance.y), bits(e.radiance.z) };
 }
 
-constexpr uint32_t none = UINT32_MAX;
+constexpr uint32_t no_slot = UINT32_MAX;
 
 // Last frame's slots of one kind, ascending, that this frame's emitters claim.
 class Candidates {
@@ -45,12 +45,12 @@ public:
         if (next_ < slots_.size() && is_free_[next_] && last[slots_[next_]].p0 == emitter.p0)
             return claim(next_, last);
         if (emitter.p0 != emitter.p0) // NaN
-            return none;
+            return no_slot;
         if (!is_indexed_)
             index(last);
         const auto place = places_.find(key_of(emitter.p0));
         if (place == places_.end() || place->second.empty())
-            return none;
+            return no_slot;
         const auto behind = place->second.lower_bound(next_);
         return claim(behind != place->second.end() ? *behind : *place->second.begin(), last);
     }
@@ -122,7 +122,7 @@ void claim_nearest(const std::vector<size_t>& moved, const std::vector<uint32_t>
     std::ranges::stable_sort(pairs, {}, &Pair::distance2);
     std::set<uint32_t> claimed;
     for (const Pair& pair : pairs)
-        if (slots[pair.emitter] == none && claimed.insert(pair.slot).second)
+        if (slots[pair.emitter] == no_slot && claimed.insert(pair.slot).second)
             slots[pair.emitter] = pair.slot;
 }
 
@@ -144,11 +144,11 @@ std::vector<uint32_t> DynamicLights::arrange(std::vector<Emitter>& emitters)
         if (used_[slot])
             kinds[kind_of(last_[slot])].add(slot);
 
-    std::vector<uint32_t> slots(emitters.size(), none);
+    std::vector<uint32_t> slots(emitters.size(), no_slot);
     for (size_t i = 0; i < emitters.size(); i++) {
         Candidates& candidates = kinds[kind_of(emitters[i])];
         slots[i] = candidates.claim_same_place(emitters[i], last_);
-        if (slots[i] == none)
+        if (slots[i] == no_slot)
             candidates.emitters.push_back(i);
     }
     size_t pairs = 0;
@@ -160,13 +160,13 @@ std::vector<uint32_t> DynamicLights::arrange(std::vector<Emitter>& emitters)
     }
     std::vector<bool> used(last_.size(), false);
     for (const uint32_t slot : slots)
-        if (slot != none)
+        if (slot != no_slot)
             used[slot] = true;
     lived_before_ = used;
 
     uint32_t first_free = 0;
     for (uint32_t& slot : slots) {
-        if (slot != none)
+        if (slot != no_slot)
             continue;
         while (first_free < used.size() && used[first_free])
             first_free++;

@@ -19,11 +19,11 @@ using Outline = std::vector<glm::vec3>;
 
 constexpr int64_t max_tile_count = 64; // of a face; with more of them a lamp is a dot
 // Per megabyte of the map: corners looked at, the time of which grows with the square of a face's pieces.
-constexpr uint64_t max_steps = 200'000'000;
+constexpr uint64_t max_cutting_steps = 200'000'000;
 constexpr uint64_t steps_of_cut = 24; // what cutting takes for a corner, in such steps
 constexpr float farthest_tile = 1 << 20; // from the origin; beyond, a float no longer tells where in a tile it is
 constexpr float cut_tolerance = 0.02f; // texels: corners so near to a cut lie on it
-constexpr float min_area = 0.01f; // units^2; smaller pieces are none
+constexpr float min_piece_area = 0.01f; // units^2; smaller pieces are none
 
 // Where a texture coordinate (0: u, 1: v) has a value.
 struct Cut {
@@ -52,7 +52,7 @@ std::array<Outline, 2> split(const Outline& outline, const Cut& cut)
         }
     }
     for (Outline& side : sides)
-        if (side.size() < 3 || measure_area(side) < min_area)
+        if (side.size() < 3 || measure_area(side) < min_piece_area)
             side.clear();
     return sides;
 }
@@ -174,7 +174,7 @@ float measure_area(const std::vector<glm::vec3>& outline)
 
 WorkLimit limit_of_pieces(const formats::Bsp& bsp)
 {
-    return { bsp, max_steps, "steps to cut the lamps out of its faces' textures" };
+    return { bsp, max_cutting_steps, "steps to cut the lamps out of its faces' textures" };
 }
 
 std::vector<FacePiece> cut_face(

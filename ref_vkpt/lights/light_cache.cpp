@@ -16,7 +16,7 @@ namespace {
 using shared::CACHE_LAYERS;
 using Styles = std::set<uint32_t>;
 
-constexpr float min_area = 0.1f; // of a face with cells
+constexpr float min_face_area = 0.1f; // of a face with cells
 constexpr float coarsest_cell = 1 << 17; // larger than any map
 constexpr uint32_t max_cells_across = (1u << shared::CACHE_SIZE_BITS) - 1;
 
@@ -53,7 +53,7 @@ FlatFace flatten_face(const std::vector<glm::vec3>& outline, glm::vec3 normal)
         corner -= mins;
     flat.origin = outline[0] + flat.across * mins.x + flat.down * mins.y;
     // Also false where a number is none.
-    if (measure_area(outline) >= min_area)
+    if (measure_area(outline) >= min_face_area)
         flat.size = maxs - mins;
     return flat;
 }

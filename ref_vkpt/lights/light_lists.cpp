@@ -29,7 +29,7 @@ using shared::Emitter;
 constexpr float lifts[] = { 0.125f, 1, 4 };
 constexpr float bounds_tolerance = 2; // leaf bounds are rounded to integers, units
 // Per megabyte of the map, of which large ones need a tenth.
-constexpr uint64_t max_entries = 2'000'000, max_steps = 200'000'000;
+constexpr uint64_t max_entries = 2'000'000, max_reach_steps = 200'000'000;
 constexpr size_t bytes_per_step = 16; // when sets are merged
 
 template <class Visit> void for_each_cluster(const ClusterSet& set, Visit visit)
@@ -196,7 +196,7 @@ void LightLists::Fixed::build_cluster_bounds()
 std::vector<shared::LightList> LightLists::Fixed::build_static_lists(std::span<const shared::Emitter> emitters)
 {
     WorkLimit entries(*bsp, max_entries, "entries in its light lists"),
-        work(*bsp, max_steps, "steps to find what its lights can reach");
+        work(*bsp, max_reach_steps, "steps to find what its lights can reach");
     sky_receivers = ClusterSet(cluster_count);
     std::vector<std::vector<uint32_t>> members(cluster_count);
     ClusterSet receivers;

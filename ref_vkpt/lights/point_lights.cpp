@@ -30,7 +30,7 @@ constexpr int farthest_rescue = 16; // how far a light inside a wall may be move
 constexpr float default_cone = 10; // degrees between axis and edge
 // The classic cone's edge is sharp. Here it fades over so much of the cone's angle, half of it outside.
 constexpr float edge_share = 0.1f;
-constexpr uint64_t max_steps = 100'000'000; // nodes visited for all lights, per megabyte of the map
+constexpr uint64_t max_placing_steps = 100'000'000; // nodes visited for all lights, per megabyte of the map
 
 // The nearest free place around a light whose origin lies in a wall.
 std::optional<glm::vec3> find_free_place(const Bsp& bsp, glm::vec3 origin, uint64_t& steps)
@@ -100,7 +100,7 @@ std::vector<shared::Emitter> extract_point_lights(
     const TargetPlaces targets = find_target_places(entities);
     std::vector<shared::Emitter> lights;
     size_t number = 0;
-    WorkLimit work(bsp, max_steps, "steps to find its point lights' places");
+    WorkLimit work(bsp, max_placing_steps, "steps to find its point lights' places");
     for (const EntityText& entity : entities) {
         if (!is_light(entity))
             continue;

@@ -16,14 +16,6 @@ constexpr int compression_level = 1; // between frames
 constexpr float min_step = 0.012f; // seconds between views
 constexpr uint32_t calls_per_view = 3; // begin_frame, render_view, end_frame
 
-Call make_call(CallKind kind, std::string_view name = "")
-{
-    Call call;
-    call.kind = kind;
-    call.name = name;
-    return call;
-}
-
 } // namespace
 
 void ReplayRing::begin_map(std::string_view map)

@@ -13,8 +13,6 @@ namespace vkpt {
 
 namespace {
 
-glm::vec3 to_vec3(const float v[3]) { return { v[0], v[1], v[2] }; }
-
 // Half the image's width and height on the projection's plane, whose units are pixels' sides in either direction but
 // where the engine says otherwise, and where the image is the whole sphere.
 glm::vec2 half_extent(const engine::RefDef& refdef, const Projection& projection)

@@ -32,8 +32,6 @@ constexpr int hand_left = 1, hand_none = 2;
 // player's box, which reaches 16 units from the eye and into which no wall comes.
 constexpr float depth_hack_scale = 0.25f;
 
-glm::vec3 to_vec3(const float v[3]) { return { v[0], v[1], v[2] }; }
-
 // Around the box's corners.
 shared::FilterBox transform_box(const Transform& transform, const shared::FilterBox& box)
 {

@@ -17,6 +17,9 @@ namespace vkpt {
 bool is_sane(float value);
 bool is_sane(glm::vec3 v);
 
+// A vector as the engine's structures have it.
+inline glm::vec3 to_vec3(const float v[3]) { return { v[0], v[1], v[2] }; }
+
 struct Axes {
     glm::vec3 forward, right, up;
 };

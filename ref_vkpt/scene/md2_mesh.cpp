@@ -73,7 +73,7 @@ Int4 to_snorm16(Float4 v)
 }
 
 // encode_octahedral() of four.
-Int4 encode_octahedral(const Lanes3& d)
+Int4 encode_four_octahedral(const Lanes3& d)
 {
     const Float4 length = absolute(d.x) + absolute(d.y) + absolute(d.z);
     const Float4 inverse = length > 1e-12f ? 1.0f / length : splat(0.0f);
@@ -205,7 +205,7 @@ void Md2Mesh::pose(const Md2Pose& pose, std::vector<Float4>& points) const
         }
         const Lanes3 world = matrix * p;
         const Float4 x = world.x + offset.x, y = world.y + offset.y, z = world.z + offset.z;
-        const Float4 normal = Float4(encode_octahedral(normal_turn * n)); // the bits
+        const Float4 normal = Float4(encode_four_octahedral(normal_turn * n)); // the bits
         for (int lane = 0; lane < 4; lane++)
             points[group * 4 + size_t(lane)] = Float4 { x[lane], y[lane], z[lane], normal[lane] };
     }

@@ -81,7 +81,7 @@ bool is_in_the_air(const World& world, glm::vec3 eye)
     return !touches_floor(world, eye - glm::vec3(0, 0, eye_height + box_bottom), 16);
 }
 
-bool is_plain_name(std::string_view name)
+bool is_player_name(std::string_view name)
 {
     return !name.empty() && std::ranges::all_of(name, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
@@ -96,7 +96,7 @@ void PlayerBody::animate(const RefDef& refdef, const World& world, const Entity&
     const int tick = int(std::floor(refdef.time * ticks_per_second));
     if (tick == tick_)
         return;
-    const glm::vec3 eye(refdef.view_origin[0], refdef.view_origin[1], refdef.view_origin[2]);
+    const glm::vec3 eye = to_vec3(refdef.view_origin);
     const float seconds = refdef.time - tick_time_;
     const bool goes_on = tick_ >= 0 && seconds > 0 && seconds < 1;
     const float speed = goes_on ? glm::distance(glm::vec2(eye), glm::vec2(tick_eye_)) / seconds : 0;
@@ -126,12 +126,12 @@ std::vector<Entity> PlayerBody::stand(
     const RefDef& refdef, const World& world, const std::string& skin, const RegisteredBody& registered)
 {
     const Entity* weapon = find_view_weapon(refdef);
-    const glm::vec3 eye(refdef.view_origin[0], refdef.view_origin[1], refdef.view_origin[2]);
+    const glm::vec3 eye = to_vec3(refdef.view_origin);
     if (!weapon || !is_sane(eye) || !is_sane(refdef.time))
         return {};
     const size_t slash = std::min(skin.find('/'), skin.size());
     std::string folder = skin.substr(0, slash), image = skin.substr(std::min(slash + 1, skin.size()));
-    if (!is_plain_name(folder) || !is_plain_name(image) || !registered.model("players/" + folder + "/tris.md2")) {
+    if (!is_player_name(folder) || !is_player_name(image) || !registered.model("players/" + folder + "/tris.md2")) {
         folder = "male";
         image = "grunt";
     }

@@ -130,11 +130,10 @@ shared::Emitter make_flashlight(const engine::RefDef& refdef)
     constexpr float pi = std::numbers::pi_v<float>;
     constexpr float radius = 1.5f, aside = 6, below = 6, reach = 2000;
     constexpr float intensity = 60000; // radiant: a white wall at 200 units has half the radiance of a lit one
-    const Axes axes = angle_vectors({ refdef.view_angles[0], refdef.view_angles[1], refdef.view_angles[2] });
+    const Axes axes = angle_vectors(to_vec3(refdef.view_angles));
     shared::Emitter emitter {};
     emitter.type = shared::EMITTER_SPHERE;
-    emitter.p0 = glm::vec3(refdef.view_origin[0], refdef.view_origin[1], refdef.view_origin[2]) + axes.right * aside
-        - axes.up * below;
+    emitter.p0 = to_vec3(refdef.view_origin) + axes.right * aside - axes.up * below;
     emitter.p1.x = radius;
     emitter.area = 4 * pi * radius * radius;
     emitter.radiance = glm::vec3(1, 0.96f, 0.88f) * (intensity / (pi * radius * radius));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/vulkan/shader_folder.hpp"
 
+#include "common/read_text.hpp"
 #include "common/temporary_folder.hpp"
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
-#include <iterator>
 #include <spawn.h>
 #include <sstream>
 #include <sys/wait.h>
@@ -23,12 +23,6 @@ namespace {
 
 // The one include that is no file of the folder: it stands for the sampler that a shader is built with.
 constexpr std::string_view selected_sampler = "selected_light_sampler.glsl";
-
-std::string read_text(const fs::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return { std::istreambuf_iterator<char>(file), {} };
-}
 
 // The exit status; -1: there is no such program. `log` gets what the program says.
 int run_program(const std::vector<std::string>& words, const fs::path& log)

@@ -4,7 +4,6 @@
 #include "client/record/sound_file.hpp"
 #include "common/trace/trace_reader.hpp"
 #include "common/trace/trace_writer.hpp"
-#include "tests/client/make_call.hpp"
 #include "tests/client/run_program.hpp"
 
 #include <cstdlib>
@@ -259,11 +258,11 @@ void write_trace(const std::filesystem::path& path)
 {
     trace::TraceWriter writer(path);
     for (int i = 0; i <= 20; i++) {
-        writer.write(tests::make_call(trace::CallKind::begin_frame));
+        writer.write(trace::make_call(trace::CallKind::begin_frame));
         trace::View view;
         view.refdef.time = 3 + float(i) / 10;
         writer.write(view);
-        writer.write(tests::make_call(trace::CallKind::end_frame));
+        writer.write(trace::make_call(trace::CallKind::end_frame));
     }
     writer.finish();
 }

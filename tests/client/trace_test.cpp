@@ -3,7 +3,6 @@
 #include "common/trace/trace_reader.hpp"
 #include "common/trace/trace_writer.hpp"
 #include "common/trace/view_codec.hpp"
-#include "tests/client/make_call.hpp"
 #include "tests/client/run_program.hpp"
 
 #include <bit>
@@ -163,7 +162,7 @@ std::vector<View> write_sample(const std::filesystem::path& path, bool finish = 
     writer.write(make_call(CallKind::draw_fade));
     writer.write(make_call(CallKind::end_frame));
     writer.write(make_call(CallKind::begin_registration, "one"));
-    writer.write(make_call(CallKind::register_model, "maps/one.bsp", 1));
+    writer.write(make_call(CallKind::register_model, "maps/one.bsp", { 1 }));
     writer.write(make_call(CallKind::end_registration));
     for (int i = 0; i < sample_frames; i++) {
         if (i == 100)
@@ -172,7 +171,7 @@ std::vector<View> write_sample(const std::filesystem::path& path, bool finish = 
         views.push_back(game.next());
         writer.write(views.back());
         if (i == 50)
-            writer.write(make_call(CallKind::register_skin, "skin.pcx", 2));
+            writer.write(make_call(CallKind::register_skin, "skin.pcx", { 2 }));
         writer.write(make_call(CallKind::find_pic, "num_" + std::to_string(i % 10)));
         writer.write(make_call(CallKind::end_frame));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/engine/engine_run.hpp"
 
+#include "common/read_text.hpp"
 #include "common/temporary_folder.hpp"
 #include "tests/runner/process_tree.hpp"
 
@@ -27,14 +28,6 @@ namespace {
 constexpr std::chrono::milliseconds poll_interval { 20 };
 constexpr int looks_per_measurement = 25; // of CPU time
 constexpr int grace = 1500; // looks between asking to end and killing
-
-std::string read_text(const std::filesystem::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 size_t count_occurrences(const std::string& text, const std::string& part)
 {

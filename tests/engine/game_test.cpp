@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The game module in the real engine, with a player's inputs.
 #include "common/quantile.hpp"
+#include "common/read_text.hpp"
 #include "formats/bsp.hpp"
 #include "formats/entities.hpp"
 #include "tests/engine/engine_run.hpp"
@@ -14,7 +15,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <iostream>
-#include <iterator>
 #include <numeric>
 #include <regex>
 #include <sstream>
@@ -25,13 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string read_file(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return { std::istreambuf_iterator<char>(stream), {} };
-}
-
-std::string read_own_map() { return read_file(VKPT_TEST_BUILD_DIR "/game/baseq2/maps/vkpt1.bsp"); }
+std::string read_own_map() { return read_text(VKPT_TEST_BUILD_DIR "/game/baseq2/maps/vkpt1.bsp"); }
 
 EngineOptions play(const std::string& script)
 {
@@ -48,8 +42,8 @@ EngineOptions play(const std::string& script)
 // The player's places, a server frame each, as the server sees them: the game module within a probe.
 void watch_player(EngineOptions& options)
 {
-    options.files["game.so"] = read_file(VKPT_PROBE);
-    options.files["outside.so"] = read_file(VKPT_GAME_MODULE); // the engine's user may not look into the build folder
+    options.files["game.so"] = read_text(VKPT_PROBE);
+    options.files["outside.so"] = read_text(VKPT_GAME_MODULE); // the engine's user may not look into the build folder
     options.environment = { "VKPT_PROBE_OUTSIDE=home/.yq2/vkpt/outside.so", "VKPT_PROBE_STATES=home/.yq2/vkpt/states" };
 }
 
@@ -185,7 +179,7 @@ TEST(EngineGame, LightsSurviveSavedGamesAndOtherLevels)
     run.expect_clean();
     EXPECT_EQ(read_counts(run), (std::vector<std::string> { "0", "2", "0", "2", "0", "1", "2", "1", "2" }))
         << run.result().console;
-    const std::string saved = read_file(run.result().game_folder / "save/two/vkpt1.lights.sav");
+    const std::string saved = read_text(run.result().game_folder / "save/two/vkpt1.lights.sav");
     EXPECT_NE(saved.find("spot 30"), std::string::npos) << saved;
 }
 
@@ -231,7 +225,7 @@ TEST(EngineGame, WhatCannotBeLoadedIsToldAndTheGameGoesOn)
         EngineOptions options = play("map vkpt1\nwait_100\nlight add red\nlight list\nvkpt_game\nwait_25\nquit\n");
         options.arguments.insert(options.arguments.begin(), { "+set", "vkpt_game_library", bad.library });
         options.files["lights/vkpt1.txt"] = bad.lights;
-        options.files["old.so"] = read_file(VKPT_OLD_GAME);
+        options.files["old.so"] = read_text(VKPT_OLD_GAME);
         const EngineRun run(options);
         run.expect_clean();
         ASSERT_EQ(run.lines_with("vkpt_game_library: ").size(), 1u) << run.result().console;
@@ -265,7 +259,7 @@ TEST(EngineGame, LightsAreInRecordedDemos)
     ASSERT_GT(emitters.size(), 20u) << run.result().console;
     const int all = std::ranges::max(emitters);
     EXPECT_EQ(all - std::ranges::min(emitters), 96);
-    const std::string demo = read_file(run.result().game_folder / "demos/tour.dm2");
+    const std::string demo = read_text(run.result().game_folder / "demos/tour.dm2");
     ASSERT_FALSE(demo.empty()) << run.result().console;
 
     EngineOptions replay = play("");

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The engine's own video menu, our page of settings and photo mode, worked by keys.
+#include "common/read_text.hpp"
 #include "tests/engine/engine_run.hpp"
 #include "tests/engine/picture_statistics.hpp"
 
-#include <fstream>
 #include <gtest/gtest.h>
-#include <sstream>
 
 namespace vkpt::tests {
 
@@ -28,13 +27,6 @@ double printed_number(const EngineRun& run, const std::string& name)
         return -1;
     const std::string& line = lines.back();
     return std::stod(line.substr(line.find("is \"") + 4));
-}
-
-std::string read_text(const std::filesystem::path& path)
-{
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
 }
 
 } // namespace

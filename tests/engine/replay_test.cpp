@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Recording by the real engine, and the replay against what the engine itself shows.
+#include "common/read_text.hpp"
 #include "common/trace/trace_reader.hpp"
 #include "formats/wav.hpp"
 #include "tests/client/run_program.hpp"
@@ -10,8 +11,6 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -23,12 +22,6 @@ constexpr int width = 96, height = 64;
 constexpr int capture_every = 11;
 constexpr int played_messages = 110; // of the demo
 constexpr const char* game_data = VKPT_TEST_BUILD_DIR "/game";
-
-std::string read_file(const std::filesystem::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return { std::istreambuf_iterator<char>(stream), {} };
-}
 
 // The demo's beginning. A demo is a chain of messages, each led by its length; -1 ends it.
 std::string cut_demo(const std::string& demo, int messages)
@@ -198,7 +191,7 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
 {
     const std::string size = std::to_string(width) + "x" + std::to_string(height),
                       every = std::to_string(capture_every);
-    const std::string demo = cut_demo(read_file(std::string(game_data) + "/baseq2/demos/" + own_demo), played_messages);
+    const std::string demo = cut_demo(read_text(std::string(game_data) + "/baseq2/demos/" + own_demo), played_messages);
     folder.write("start.dm2", demo);
     EngineOptions options;
     options.files["demos/start.dm2"] = demo;
@@ -224,7 +217,7 @@ TEST_F(Recording, ReplayShowsWhatTheEngineShows)
     EXPECT_EQ(replayed.errors.find("vkpt validation:"), std::string::npos) << replayed.errors;
     for (const auto& picture : shown) {
         const auto other = folder.path() / "cache/vkpt/vkpt/captures/capture" / picture.filename();
-        EXPECT_TRUE(read_file(picture) == read_file(other)) << other;
+        EXPECT_TRUE(read_text(picture) == read_text(other)) << other;
     }
 }
 

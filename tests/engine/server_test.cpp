@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What a demo has the client run: it may set any console variable, and the module writes files.
+#include "common/read_text.hpp"
 #include "tests/engine/engine_run.hpp"
 #include "tests/engine/picture_statistics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 namespace vkpt::tests {
@@ -15,12 +14,6 @@ namespace vkpt::tests {
 namespace {
 
 constexpr size_t messages_until_the_game = 12; // of our demo
-
-std::string read_file(const std::filesystem::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return { std::istreambuf_iterator<char>(stream), {} };
-}
 
 std::string with_length(const std::string& message)
 {
@@ -34,7 +27,7 @@ std::string with_length(const std::string& message)
 std::string make_demo(const std::string& commands)
 {
     constexpr char stuff_text = 11;
-    const std::string demo = read_file(std::string(VKPT_TEST_BUILD_DIR) + "/game/baseq2/demos/" + own_demo);
+    const std::string demo = read_text(std::string(VKPT_TEST_BUILD_DIR) + "/game/baseq2/demos/" + own_demo);
     size_t at = 0;
     int32_t length = 0;
     for (size_t i = 0; i < messages_until_the_game && at + sizeof length <= demo.size(); i++) {
@@ -71,8 +64,8 @@ EngineOptions play(const std::string& commands)
 
 void expect_nothing_foreign_touched(const EngineRun& run)
 {
-    EXPECT_EQ(read_file(run.result().game_folder / "victim.cfg"), "bind x quit\n");
-    EXPECT_EQ(read_file(run.result().game_folder / "vkpt/bench/victim.json"), "{ \"mine\": 1 }\n");
+    EXPECT_EQ(read_text(run.result().game_folder / "victim.cfg"), "bind x quit\n");
+    EXPECT_EQ(read_text(run.result().game_folder / "vkpt/bench/victim.json"), "{ \"mine\": 1 }\n");
     const std::set<std::string> known { "autoexec.cfg", "config.cfg", "demos/evil.dm2", "qconsole.log", "test.cfg",
         "victim.cfg", "vkpt/bench/victim.json" };
     for (const std::string& name : list_files(run))

@@ -2,7 +2,6 @@
 // `vkpt film` from the outside, with an ffmpeg that counts what it gets.
 #include "common/trace/trace_writer.hpp"
 #include "formats/image.hpp"
-#include "tests/client/make_call.hpp"
 #include "tests/client/run_program.hpp"
 
 #include <filesystem>
@@ -24,7 +23,7 @@ protected:
         write_sample_map(folder, "sample", R"({ "classname" "worldspawn" })");
         trace::TraceWriter writer(folder.path() / "a.rtrace");
         writer.write(make_call(CallKind::begin_registration, "sample"));
-        writer.write(make_call(CallKind::register_model, "maps/sample.bsp", 1));
+        writer.write(make_call(CallKind::register_model, "maps/sample.bsp", { 1 }));
         writer.write(make_call(CallKind::end_registration));
         for (int i = 0; i <= 20; i++) {
             writer.write(make_call(CallKind::begin_frame));
@@ -35,7 +34,7 @@ protected:
             view.refdef.time = 3 + float(i) / 10;
             view.refdef.view_origin[0] = float(i);
             writer.write(view);
-            writer.write(make_call(CallKind::draw_fill, "", 1));
+            writer.write(make_call(CallKind::draw_fill, "", { 1 }));
             writer.write(make_call(CallKind::end_frame));
         }
         writer.finish();

@@ -43,8 +43,6 @@ protected:
     OwnEntities own;
 };
 
-} // namespace
-
 TEST_F(OwnEntitiesTest, AreThereOnlyWhileTheServerLooks)
 {
     const int handle = own.add();
@@ -131,5 +129,7 @@ TEST_F(OwnEntitiesTest, ThereIsAnEndOfThem)
         EXPECT_GE(own.add(), 0);
     EXPECT_EQ(own.add(), -1);
 }
+
+} // namespace
 
 } // namespace vkpt::game

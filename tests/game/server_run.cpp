@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tests/game/server_run.hpp"
 
+#include "common/read_text.hpp"
 #include "common/temporary_folder.hpp"
 #include "tests/runner/process_tree.hpp"
 
@@ -24,14 +25,6 @@ namespace vkpt::tests {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_text(const fs::path& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 fs::path stock_game() { return "/usr/lib/yamagi-quake2/baseq2/game.so"; }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The game module around the stock game, in the real server.
+#include "common/read_text.hpp"
 #include "tests/game/server_run.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 
 namespace vkpt::tests {
 
@@ -15,18 +15,12 @@ namespace fs = std::filesystem;
 
 const fs::path own_map = VKPT_TEST_BUILD_DIR "/game/baseq2/maps/vkpt1.bsp";
 
-std::string read_file(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return { std::istreambuf_iterator<char>(stream), {} };
-}
-
 // Saves, loads, other levels and deaths in turn, every 600 frames.
 ServerOptions make_cycle(long frames, long deaths)
 {
     ServerOptions options;
     options.frames = frames;
-    options.files["maps/second.bsp"] = read_file(own_map);
+    options.files["maps/second.bsp"] = read_text(own_map);
     options.settings = { "coop", "1", "vkpt_start", "walk explore 0" };
     for (long at = 300; at + 300 < frames; at += 600) {
         options.script[at] = "save test";
@@ -258,10 +252,10 @@ TEST(GameModule, PlayersReachNoFileOutsideItsFolders)
     const ServerRun run(options);
     run.expect_clean();
     const fs::path folder = run.game_folder();
-    EXPECT_EQ(read_file(folder / "victim.txt"), victim);
-    EXPECT_EQ(read_file(folder / "lights/other.txt"), "somebody's\n");
-    EXPECT_EQ(read_file(folder / "outside/a.txt"), lights);
-    EXPECT_EQ(read_file(folder / "outside/walk.txt"), "# vkpt walk\nwait 1\n");
+    EXPECT_EQ(read_text(folder / "victim.txt"), victim);
+    EXPECT_EQ(read_text(folder / "lights/other.txt"), "somebody's\n");
+    EXPECT_EQ(read_text(folder / "outside/a.txt"), lights);
+    EXPECT_EQ(read_text(folder / "outside/walk.txt"), "# vkpt walk\nwait 1\n");
     for (const char* name : { "made.txt", "outside/new.txt", "a.txt", "new.txt" })
         EXPECT_FALSE(fs::exists(folder / name)) << name;
     EXPECT_FALSE(fs::exists("/tmp/vkpt-victim.txt"));
@@ -280,8 +274,8 @@ TEST(GameModule, FilesOutsideItsFoldersAreRefused)
               { 23, "sv walk record ../victim" }, { 24, "sv walk ../victim" }, { 25, "sv light save mine" } };
     const ServerRun run(options);
     run.expect_clean();
-    EXPECT_EQ(read_file(run.game_folder() / "victim.txt"), "mine\n");
-    EXPECT_EQ(read_file(run.game_folder() / "lights/other.txt"), "somebody's\n");
+    EXPECT_EQ(read_text(run.game_folder() / "victim.txt"), "mine\n");
+    EXPECT_EQ(read_text(run.game_folder() / "lights/other.txt"), "somebody's\n");
     EXPECT_TRUE(fs::exists(run.game_folder() / "lights/mine.txt")) << run.console();
 }
 

@@ -20,7 +20,7 @@ namespace {
 using glm::vec2, glm::vec3;
 
 constexpr uint16_t lamp_texinfo = 1; // SURF_LIGHT 100
-const std::vector<BrightPart> middle { { vec2(0.25f, 0.25f), vec2(0.75f, 0.5f), vec3(1, 0.5f, 0.25f) } };
+const std::vector<BrightPart> middle_lamp { { vec2(0.25f, 0.25f), vec2(0.75f, 0.5f), vec3(1, 0.5f, 0.25f) } };
 
 struct Panel {
     formats::Bsp bsp = make_cell_map(1, { true });
@@ -36,14 +36,14 @@ struct Panel {
         texinfo.t_offset = offset.y;
         texinfo.next = -1;
     }
-    std::vector<FacePiece> cut(const std::vector<BrightPart>& parts = middle, int size = 64) const
+    std::vector<FacePiece> cut(const std::vector<BrightPart>& parts = middle_lamp, int size = 64) const
     {
         WorkLimit work = limit_of_pieces(bsp);
         return cut_face(bsp, face, parts, glm::ivec2(size), work);
     }
 };
 
-std::vector<vec3> square(float side) { return { { 0, 0, 0 }, { side, 0, 0 }, { side, side, 0 }, { 0, side, 0 } }; }
+std::vector<vec3> make_square(float side) { return { { 0, 0, 0 }, { side, 0, 0 }, { side, side, 0 }, { 0, side, 0 } }; }
 
 float area_of(const std::vector<FacePiece>& pieces, bool shining)
 {
@@ -59,7 +59,7 @@ TEST(FacePieces, CoverTheFace)
     for (const float side : { 64.0f, 128.0f, 200.0f })
         for (const float turn : { 0.0f, 0.5f })
             for (const vec2 offset : { vec2(0), vec2(17.3f, -40.1f) }) {
-                const Panel panel(square(side), offset, turn);
+                const Panel panel(make_square(side), offset, turn);
                 const std::vector<FacePiece> pieces = panel.cut();
                 ASSERT_FALSE(pieces.empty());
                 EXPECT_NEAR(area_of(pieces, true) + area_of(pieces, false), side * side, 0.3f) << side << " " << turn;
@@ -77,14 +77,14 @@ TEST(FacePieces, CoverTheFace)
                         }
                     }
             }
-    EXPECT_NEAR(area_of(Panel(square(128), vec2(0)).cut(), true), 4 * 32 * 16, 0.1f);
+    EXPECT_NEAR(area_of(Panel(make_square(128), vec2(0)).cut(), true), 4 * 32 * 16, 0.1f);
 }
 
 // Every edge of a triangle inside the face is the edge of another one, with the very same corners.
 TEST(FacePieces, HaveNoCracks)
 {
     for (const float turn : { 0.0f, 0.3f, 0.785398f }) {
-        const Panel panel(square(150), vec2(5.5f, 31), turn);
+        const Panel panel(make_square(150), vec2(5.5f, 31), turn);
         std::map<std::tuple<float, float, float, float>, int> edges;
         size_t count = 0;
         for (const FacePiece& piece : panel.cut())
@@ -110,23 +110,23 @@ TEST(FacePieces, HaveNoCracks)
 
 TEST(FacePieces, AreNoneWhereTheWholeFaceShines)
 {
-    EXPECT_TRUE(Panel(square(64), vec2(0)).cut({}).empty());
-    EXPECT_TRUE(Panel(square(10), vec2(0)).cut().empty()); // shows nothing but the dark corner
-    EXPECT_TRUE(Panel(square(4000), vec2(0)).cut().empty()); // thousands of lamps
-    Panel moving(square(64), vec2(0));
+    EXPECT_TRUE(Panel(make_square(64), vec2(0)).cut({}).empty());
+    EXPECT_TRUE(Panel(make_square(10), vec2(0)).cut().empty()); // shows nothing but the dark corner
+    EXPECT_TRUE(Panel(make_square(4000), vec2(0)).cut().empty()); // thousands of lamps
+    Panel moving(make_square(64), vec2(0));
     moving.bsp.texinfos[lamp_texinfo].flags |= formats::SURF_FLOWING;
     EXPECT_TRUE(moving.cut().empty());
-    Panel broken(square(64), vec2(0));
+    Panel broken(make_square(64), vec2(0));
     broken.bsp.texinfos[lamp_texinfo].s_axis = vec3(NAN);
     EXPECT_TRUE(broken.cut().empty());
 }
 
 TEST(FacePieces, SendWhatTheWholeFaceWould)
 {
-    const Panel panel(square(100), vec2(3, 9));
+    const Panel panel(make_square(100), vec2(3, 9));
     const FaceTexture whole = make_texture(vec3(0.4f, 0.2f, 0.1f));
     FaceTexture parted = whole;
-    parted.parts = middle;
+    parted.parts = middle_lamp;
     const auto emit = [&](const FaceTexture& texture) {
         const MapFaces faces(panel.bsp, texture);
         return emitters_of_face(faces.source(), panel.face, faces.triangles.of(panel.face));

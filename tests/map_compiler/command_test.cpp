@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The command line: exit status, files, messages.
+#include "common/read_text.hpp"
 #include "tests/map_compiler/map_text.hpp"
 #include "tests/map_compiler/texture_folder.hpp"
 
@@ -7,7 +8,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
 #include <sys/wait.h>
 
 namespace vkpt::tests {
@@ -15,12 +15,6 @@ namespace vkpt::tests {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string read_text(const fs::path& path)
-{
-    std::ifstream stream(path, std::ios::binary);
-    return { std::istreambuf_iterator<char>(stream), {} };
-}
 
 void write_text(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 

@@ -12,7 +12,7 @@ namespace vkpt::tests {
 namespace {
 
 constexpr float lamp_light = 300;
-constexpr int lamp_style = 1;
+constexpr int dimmed_style = 1;
 
 // With a glowing lamp on its wall.
 void add_room(GameFolder& folder)
@@ -21,7 +21,7 @@ void add_room(GameFolder& folder)
     room.add_room({ -256, -256, 0 }, { 256, 256, 256 }, room.add_material("wall"));
     room.add(
         rectangle({ 250, 0, 120 }, { 0, 16, 0 }, { 0, 0, -16 }), room.add_material("wall", formats::SURF_LIGHT, 3000));
-    room.add_point_light({ 0, 0, 200 }, lamp_light, lamp_style);
+    room.add_point_light({ 0, 0, 200 }, lamp_light, dimmed_style);
     folder.add_map("room", room.finish());
 }
 
@@ -160,7 +160,7 @@ double shown_beside(Session& session, int off)
 TEST_F(Finish, BloomSpreadsLightButNotInReferences)
 {
     look_at_lamp();
-    session_->light_style(lamp_style, 0);
+    session_->light_style(dimmed_style, 0);
     session_->set("pt_bounces", 0);
     session_->set("pt_exposure", 0.05);
     const double without = shown_beside(*session_, 4);
@@ -171,7 +171,7 @@ TEST_F(Finish, BloomSpreadsLightButNotInReferences)
     EXPECT_NEAR(luminance(session_->capture().mean()), luminance(radiance.mean()), 0.2f * luminance(radiance.mean()));
     session_->set("pt_accumulate", 1);
     EXPECT_NEAR(shown_beside(*session_, 4), without, 3);
-    session_->light_style(lamp_style, 1);
+    session_->light_style(dimmed_style, 1);
 }
 
 TEST_F(Finish, ThePictureSwaysUnderWater)
@@ -204,10 +204,10 @@ TEST_F(Finish, ExposureFollowsTheLightBitByBit)
     look_at_lamp();
     session_->set("pt_seed", 1); // a sixtieth of a second a frame
     session_->set("pt_exposure", 0);
-    session_->light_style(lamp_style, 1);
+    session_->light_style(dimmed_style, 1);
     const double bright = shown_green(120);
     const double settled = shown_green(1);
-    session_->light_style(lamp_style, 0.05f);
+    session_->light_style(dimmed_style, 0.05f);
     const double at_once = shown_green(1);
     session_->draw(30);
     const double later = shown_green(1);
@@ -218,7 +218,7 @@ TEST_F(Finish, ExposureFollowsTheLightBitByBit)
     EXPECT_GT(later, at_once * 1.02);
     EXPECT_GT(adapted, later * 1.02);
     EXPECT_LT(adapted, settled); // a dark room stays darker than a bright one
-    session_->light_style(lamp_style, 1);
+    session_->light_style(dimmed_style, 1);
 }
 
 // By pt_exposure_speed towards what was measured, as 1 - exp(-seconds * speed).
@@ -292,7 +292,7 @@ std::vector<double> measure_halo(const GameFolder& folder, glm::ivec2 size, std:
         { { "pt_tone_map", "none" }, { "pt_exposure", "0.5" }, { "pt_bounces", "0" }, { "pt_bloom", "0" } }, size);
     session.load_map("room");
     session.look({ 0, 0, 120 }, { 250, 0, 120 });
-    session.light_style(lamp_style, 0);
+    session.light_style(dimmed_style, 0);
     session.draw();
     const formats::Image without = session.capture_display();
     session.set("pt_bloom", 1);

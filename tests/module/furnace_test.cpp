@@ -10,7 +10,7 @@
 namespace vkpt::tests {
 namespace {
 
-constexpr int light_value = 200;
+constexpr int wall_light_value = 200;
 constexpr uint8_t grey = 188; // reflects about half
 
 class Furnace : public testing::Test {
@@ -23,9 +23,9 @@ protected:
         const float greatest = std::max({ albedo.x, albedo.y, albedo.z });
         folder_.add_wall("glow", picture);
         MapBuilder furnace, wall;
-        furnace.add_room(glm::vec3(-64), glm::vec3(64), furnace.add_material("glow", 0, light_value));
+        furnace.add_room(glm::vec3(-64), glm::vec3(64), furnace.add_material("glow", 0, wall_light_value));
         folder_.add_map("furnace", furnace.finish());
-        wall.add(rectangle({ 64, 0, 0 }, { 0, 0, 64 }, { 0, 64, 0 }), wall.add_material("glow", 0, light_value));
+        wall.add(rectangle({ 64, 0, 0 }, { 0, 0, 64 }, { 0, 64, 0 }), wall.add_material("glow", 0, wall_light_value));
         folder_.add_map("wall", wall.finish());
         session_ = std::make_unique<Session>(folder_, CvarList { { "pt_roughness_default", "1" } });
         // One wall alone shows what it emits.

@@ -15,7 +15,6 @@ namespace {
 
 constexpr float floor_half = 300;
 constexpr int light_value = 1000;
-const CvarList matte { { "pt_roughness_default", "1" }, { "pt_bounces", "0" } };
 
 // What the light, seen from below, emits. It lights nothing that it sees: its own plane is dark otherwise.
 float measure_emission(Session& session, const Polygon& light)

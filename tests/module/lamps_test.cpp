@@ -11,8 +11,6 @@
 namespace vkpt::tests {
 namespace {
 
-const CvarList matte { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } };
-
 // Of a square of 32 at a distance of 100: four times that of a corner's, 1 / pi * x / sqrt(1 + x^2) * atan(x / sqrt(1 +
 // x^2)), x = .16.
 constexpr double form_factor = 0.031522;

@@ -11,7 +11,7 @@
 namespace vkpt::tests {
 namespace {
 
-constexpr glm::ivec2 picture_size { 96, 72 };
+constexpr glm::ivec2 layers_size { 96, 72 };
 
 // A sheet of a material, upright at x = 0 or lying at z = 0, and a lit wall with a lamp in it beyond.
 class Layers : public testing::Test {
@@ -36,7 +36,7 @@ protected:
         if (present)
             map.add(sheet, map.add_material("sheet", flags));
         folder_.add_map("room", map.finish());
-        session_ = std::make_unique<Session>(folder_, CvarList { { "pt_seed", "0" } }, picture_size);
+        session_ = std::make_unique<Session>(folder_, CvarList { { "pt_seed", "0" } }, layers_size);
         session_->load_map("room");
     }
 
@@ -136,7 +136,7 @@ TEST_F(Layers, ParticlesAreMixedInEveryFrame)
     MapBuilder map;
     folder_.add_map(
         "dark", (map.add_room({ -200, -200, -200 }, { 200, 200, 200 }, map.add_material("wall")), map.finish()));
-    session_ = std::make_unique<Session>(folder_, CvarList { { "pt_exposure", "1" } }, picture_size);
+    session_ = std::make_unique<Session>(folder_, CvarList { { "pt_exposure", "1" } }, layers_size);
     session_->load_map("dark");
     session_->look({ 100, 0, 0 }, { 0, 0, 0 }, 20);
     std::vector<engine::Particle> particles(1, { { 90, 0, 0 }, white_index, 1.0f });
@@ -145,7 +145,7 @@ TEST_F(Layers, ParticlesAreMixedInEveryFrame)
         session_->view.particle_count = int32_t(particles.size());
         session_->draw(2); // the second one knows the exposure
         const Radiance picture = session_->capture();
-        return luminance(picture.at(picture_size.x / 2, picture_size.y / 2));
+        return luminance(picture.at(layers_size.x / 2, layers_size.y / 2));
     };
     const float opaque = brightest();
     ASSERT_GT(opaque, 0);
@@ -172,7 +172,7 @@ TEST_F(Layers, ParticlesAreSoftDiscs)
     folder_.add_map(
         "dark", (map.add_room({ -200, -200, -200 }, { 200, 200, 200 }, map.add_material("wall")), map.finish()));
     session_ = std::make_unique<Session>(
-        folder_, CvarList { { "pt_exposure", "1" }, { "pt_accumulate", "1" } }, picture_size);
+        folder_, CvarList { { "pt_exposure", "1" }, { "pt_accumulate", "1" } }, layers_size);
     session_->load_map("dark");
     session_->look({ 4, 0, 0 }, { 0, 0, 0 }, 40);
     const engine::Particle particle { { 0, 0, 0 }, white_index, 1.0f };
@@ -208,7 +208,7 @@ TEST_F(Layers, ParticlesFollowTheEyesAdaptation)
     MapBuilder map;
     folder_.add_map(
         "dark", (map.add_room({ -200, -200, -200 }, { 200, 200, 200 }, map.add_material("wall")), map.finish()));
-    session_ = std::make_unique<Session>(folder_, CvarList {}, picture_size);
+    session_ = std::make_unique<Session>(folder_, CvarList {}, layers_size);
     session_->load_map("dark");
     session_->look({ 100, 0, 0 }, { 0, 0, 0 }, 20);
     const engine::Particle particle { { 90, 0, 0 }, white_index, 1.0f };
@@ -219,7 +219,7 @@ TEST_F(Layers, ParticlesFollowTheEyesAdaptation)
         const float exposure = i == 0 ? 0.1f : 10.0f;
         session_->set("pt_exposure", exposure);
         session_->draw(2);
-        shown[i] = luminance(session_->capture().at(picture_size.x / 2, picture_size.y / 2)) * exposure;
+        shown[i] = luminance(session_->capture().at(layers_size.x / 2, layers_size.y / 2)) * exposure;
     }
     EXPECT_GT(shown[0], 0.3f);
     EXPECT_NEAR(shown[1], shown[0], 0.01f * shown[0]);

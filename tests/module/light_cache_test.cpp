@@ -13,7 +13,7 @@ namespace vkpt::tests {
 namespace {
 
 constexpr int blinking_style = 5;
-constexpr glm::ivec2 picture_size { 64, 48 };
+constexpr glm::ivec2 room_picture_size { 64, 48 };
 
 // What is seen is lit by bounces alone, above all from the spot on a wall right beside a lamp behind a screen.
 class LightCache : public testing::Test {
@@ -37,7 +37,7 @@ protected:
 
     std::unique_ptr<Session> start(const CvarList& cvars, const char* map = "room")
     {
-        auto session = std::make_unique<Session>(folder_, cvars, picture_size);
+        auto session = std::make_unique<Session>(folder_, cvars, room_picture_size);
         session->set("pt_indirect", "cache");
         session->load_map(map);
         session->look({ 240, -200, 120 }, { -180, 60, 40 });
@@ -78,7 +78,7 @@ void expect_same_light(Session& session, int frames)
     const Radiance cached = mean_of_first_frames(session, frames);
     ASSERT_GT(luminance(expected.mean()), 0);
     EXPECT_NEAR(luminance(cached.mean()) / luminance(expected.mean()), 1, 0.02);
-    const std::vector<float> errors = block_errors(cached, expected, picture_size / 2);
+    const std::vector<float> errors = block_errors(cached, expected, room_picture_size / 2);
     EXPECT_LT(errors.back(), 0.05);
 }
 

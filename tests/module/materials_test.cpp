@@ -13,7 +13,7 @@
 namespace vkpt::tests {
 namespace {
 
-const CvarList matte { { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "pt_light_sampler", "full" } };
+const CvarList matte_full { { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "pt_light_sampler", "full" } };
 
 class Materials : public testing::Test {
 protected:
@@ -58,14 +58,14 @@ TEST_F(Materials, ComeFromFiles)
 {
     double plain = 0;
     {
-        Session session(folder_, matte);
+        Session session(folder_, matte_full);
         session.load_map("floor");
         plain = see_floor(session);
     }
     add_text(
         "materials/baseq2.mat", "textures/test/floor:\n    base_factor 0.5\n    roughness_override 0.4\n    shine 3\n");
     {
-        Session session(folder_, matte);
+        Session session(folder_, matte_full);
         session.load_map("floor");
         EXPECT_TRUE(session.has_line("materials/baseq2.mat, line 4"));
         EXPECT_NEAR(find_roughness(session), 0.4, 0.01);
@@ -74,14 +74,14 @@ TEST_F(Materials, ComeFromFiles)
     }
     // The map's own goes before the game's.
     add_text("maps/floor.mat", "test/floor:\n    roughness_override 1\n");
-    Session session(folder_, matte);
+    Session session(folder_, matte_full);
     session.load_map("floor");
     EXPECT_NEAR(see_floor(session) / plain, 0.5, 0.01);
 }
 
 TEST_F(Materials, AreEditedUnderTheCrosshair)
 {
-    Session session(folder_, matte);
+    Session session(folder_, matte_full);
     session.load_map("floor");
     const double plain = see_floor(session);
     session.host().run_text("mat\n");
@@ -98,7 +98,7 @@ TEST_F(Materials, AreSavedAndReadAgain)
 {
     std::string written;
     {
-        Session session(folder_, matte);
+        Session session(folder_, matte_full);
         session.load_map("floor");
         see_floor(session);
         session.host().run_text("mat roughness_override 0.3\nmat save\n");
@@ -115,7 +115,7 @@ TEST_F(Materials, AreSavedAndReadAgain)
     Session::end_idle();
     add_text("vkpt/materials.mat", text.str());
     add_text("materials/baseq2.mat", "test/floor:\n    roughness_override 0.6\n");
-    Session session(folder_, matte);
+    Session session(folder_, matte_full);
     session.load_map("floor");
     EXPECT_NEAR(find_roughness(session), 0.3, 0.01);
 }

@@ -17,6 +17,7 @@
 namespace vkpt::tests {
 
 using CvarList = std::vector<std::pair<std::string, std::string>>;
+inline const CvarList matte { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } }; // and direct light alone
 
 class Session {
 public:

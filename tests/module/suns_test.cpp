@@ -13,7 +13,7 @@ namespace vkpt::tests {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-const CvarList matte { { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "pt_sky_scale", "0" } };
+const CvarList matte_sunlit { { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "pt_sky_scale", "0" } };
 
 void add_text(const GameFolder& folder, const std::string& name, const std::string& text)
 {
@@ -70,7 +70,7 @@ double share_of_disc(double u)
 TEST_F(Suns, PenumbraIsAsWideAsTheDisc)
 {
     add_map({ { "_sun_light", "128" }, { "_sun_color", "1 1 1" }, { "_sun_penumbra", "10" } });
-    Session session(folder_, matte);
+    Session session(folder_, matte_sunlit);
     session.load_map("suns");
     const double radius = double(roof_height) * std::tan(glm::radians(5.0));
     for (const double u : { -1.2, -0.7, -0.3, 0.0, 0.3, 0.7, 1.2 })
@@ -82,7 +82,7 @@ TEST_F(Suns, PenumbraIsAsWideAsTheDisc)
 TEST_F(Suns, ShineObliquely)
 {
     add_map({ { "_sun_light", "256" }, { "_sun_color", "1 .5 0" }, { "_sun_angle", "0 -60" } });
-    Session session(folder_, matte);
+    Session session(folder_, matte_sunlit);
     session.load_map("suns");
     const float edge = roof_height / std::tan(glm::radians(60.0f));
     const glm::dvec3 lit = measure(session, edge + 5), shadowed = measure(session, edge - 5);
@@ -96,7 +96,7 @@ TEST_F(Suns, ShineObliquely)
 TEST_F(Suns, AreFoundByEverySampler)
 {
     add_map({ { "_sun_light", "128" }, { "_sun_color", "1 1 1" }, { "_sun_penumbra", "10" } });
-    Session session(folder_, matte);
+    Session session(folder_, matte_sunlit);
     session.load_map("suns");
     for (const char* const* name = session.extension().info().light_samplers; *name; name++) {
         session.set("pt_light_sampler", *name);
@@ -113,12 +113,12 @@ TEST_F(Suns, AreAddedByFiles)
     add_map({ { "_sun_light", "128" }, { "_sun_color", "1 1 1" } });
     add_text(folder_, "maps/suns.lights", R"({ "classname" "worldspawn" "_sun_light" "64" })");
     {
-        Session session(folder_, matte);
+        Session session(folder_, matte_sunlit);
         session.load_map("suns");
         EXPECT_NEAR(measure(session, 100).y, 0.5, 0.005);
     }
     add_text(folder_, "maps/suns.lights", R"({ "classname" "worldspawn" "_sun_light" "64)");
-    Session session(folder_, matte);
+    Session session(folder_, matte_sunlit);
     session.load_map("suns");
     EXPECT_TRUE(session.has_line("maps/suns.lights"));
     EXPECT_NEAR(measure(session, 100).y, 1, 0.01);
@@ -154,7 +154,7 @@ TEST_F(Suns, SpotsHaveTheirCircle)
         { "_spotangle", "0 -90" } });
     map_.add_entity({ { "classname", "light" }, { "origin", "-300 0 100" }, { "light", "300" } });
     add_map({});
-    Session session(folder_, matte);
+    Session session(folder_, matte_sunlit);
     session.set("pt_light_sampler", "full");
     session.load_map("suns");
     const float edge = 100 * std::tan(glm::radians(30.0f));

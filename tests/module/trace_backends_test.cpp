@@ -20,7 +20,6 @@ namespace {
 
 using namespace shared;
 
-constexpr uint32_t miss = 0xffffffff;
 constexpr float cube_half = 8;
 
 std::vector<std::string> offered_backends(Session& session)
@@ -84,8 +83,8 @@ protected:
     }
     bool meets(glm::vec3 from, glm::vec3 to, uint32_t mask)
     {
-        const bool nearest = trace(from, to, mask).triangle != miss;
-        EXPECT_EQ(trace(from, to, mask, true).triangle != miss, nearest);
+        const bool nearest = trace(from, to, mask).triangle != shared::TRACE_MISS;
+        EXPECT_EQ(trace(from, to, mask, true).triangle != shared::TRACE_MISS, nearest);
         return nearest;
     }
 
@@ -193,14 +192,14 @@ TEST_F(TraceBackends, KeepToTheDistances)
         for (const auto& c : cases)
             for (const bool visibility : { false, true }) {
                 const TracedHit hit = trace_ray(from, down, c.t_min, c.t_max, MASK_ALL, visibility);
-                EXPECT_EQ(hit.triangle != miss, c.meets) << c.t_min << " to " << c.t_max;
-                if (hit.triangle == miss) {
+                EXPECT_EQ(hit.triangle != shared::TRACE_MISS, c.meets) << c.t_min << " to " << c.t_max;
+                if (hit.triangle == shared::TRACE_MISS) {
                     EXPECT_EQ(hit.t, c.t_max);
                 }
             }
         // Away from what it starts on, as all our secondary rays do.
-        EXPECT_EQ(trace_ray({ 3, 5, 0.02f }, -down, 0, 100, MASK_ALL).triangle, miss);
-        EXPECT_NE(trace_ray({ 3, 5, 0.02f }, down, 0, 100, MASK_ALL).triangle, miss);
+        EXPECT_EQ(trace_ray({ 3, 5, 0.02f }, -down, 0, 100, MASK_ALL).triangle, shared::TRACE_MISS);
+        EXPECT_NE(trace_ray({ 3, 5, 0.02f }, down, 0, 100, MASK_ALL).triangle, shared::TRACE_MISS);
     });
 }
 

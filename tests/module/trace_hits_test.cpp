@@ -20,7 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t miss = 0xffffffff;
 constexpr float far_away = 1e6f;
 
 size_t ray_count()
@@ -84,17 +83,19 @@ bool is_at_an_edge(const TracedHit& hit)
 {
     const float least
         = std::min({ hit.barycentrics[0], hit.barycentrics[1], 1 - hit.barycentrics[0] - hit.barycentrics[1] });
-    return hit.triangle != miss && std::abs(least) < 1e-4f;
+    return hit.triangle != shared::TRACE_MISS && std::abs(least) < 1e-4f;
 }
 
 bool is_at_a_limit(const TracedRay& ray, const TracedHit& hit)
 {
-    return hit.triangle != miss && (hit.t < rounding(ray, hit.t) || ray.t_max - hit.t < rounding(ray, hit.t));
+    return hit.triangle != shared::TRACE_MISS
+        && (hit.t < rounding(ray, hit.t) || ray.t_max - hit.t < rounding(ray, hit.t));
 }
 
 bool is_tie(const TracedRay& ray, const TracedHit& a, const TracedHit& b)
 {
-    return a.triangle != miss && b.triangle != miss && std::abs(a.t - b.t) < rounding(ray, a.t);
+    return a.triangle != shared::TRACE_MISS && b.triangle != shared::TRACE_MISS
+        && std::abs(a.t - b.t) < rounding(ray, a.t);
 }
 
 bool is_explained(const TracedRay& ray, const TracedHit& a, const TracedHit& b)
@@ -108,10 +109,10 @@ void expect_same_hits(
 {
     size_t same = 0, ties = 0, unexplained = 0, met = 0;
     for (size_t i = 0; i < rays.size(); i++) {
-        met += ours[i].triangle != miss;
+        met += ours[i].triangle != shared::TRACE_MISS;
         if (ours[i].triangle == theirs[i].triangle) {
             same++;
-            if (ours[i].triangle == miss)
+            if (ours[i].triangle == shared::TRACE_MISS)
                 continue;
             ASSERT_NEAR(ours[i].t, theirs[i].t, 10 * rounding(rays[i], ours[i].t)) << "ray " << i;
             ASSERT_EQ(ours[i].front, theirs[i].front) << "ray " << i;
@@ -139,9 +140,11 @@ void expect_same_visibility(const std::vector<TracedRay>& rays, const std::vecto
 {
     size_t differ = 0, unexplained = 0;
     for (size_t i = 0; i < rays.size(); i++) {
-        EXPECT_EQ(ours[i].triangle == miss, our_nearest[i].triangle == miss) << "software, ray " << i;
-        EXPECT_EQ(theirs[i].triangle == miss, their_nearest[i].triangle == miss) << "the device, ray " << i;
-        if ((ours[i].triangle == miss) == (theirs[i].triangle == miss))
+        EXPECT_EQ(ours[i].triangle == shared::TRACE_MISS, our_nearest[i].triangle == shared::TRACE_MISS)
+            << "software, ray " << i;
+        EXPECT_EQ(theirs[i].triangle == shared::TRACE_MISS, their_nearest[i].triangle == shared::TRACE_MISS)
+            << "the device, ray " << i;
+        if ((ours[i].triangle == shared::TRACE_MISS) == (theirs[i].triangle == shared::TRACE_MISS))
             continue;
         differ++;
         unexplained += !is_explained(rays[i], our_nearest[i], their_nearest[i]);

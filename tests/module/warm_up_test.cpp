@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The shaders of a frame are compiled before it, in the background, and remembered as compiled.
+#include "common/read_text.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 #include "tests/module/test_cache.hpp"
 
-#include <fstream>
 #include <gtest/gtest.h>
-#include <sstream>
 
 namespace vkpt::tests {
 namespace {
-
-std::string read_text(const std::filesystem::path& path)
-{
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
 
 // Draws some filtered frames of the map and returns the names of what was timed.
 std::vector<std::string> draw_passes(const GameFolder& folder)

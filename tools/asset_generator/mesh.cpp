@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "tools/asset_generator/mesh.hpp"
 
+#include "tools/asset_generator/tau.hpp"
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,7 +13,6 @@ namespace vkpt::tools {
 namespace {
 constexpr int cells_per_row = 8;
 constexpr float margin = 0.04f; // of a cell, against bleeding
-constexpr float tau = 6.2831853f;
 
 glm::vec2 atlas_position(Material material, glm::vec2 local)
 {

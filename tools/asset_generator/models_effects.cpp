@@ -5,6 +5,7 @@
 #include "tools/asset_generator/noise.hpp"
 #include "tools/asset_generator/output.hpp"
 #include "tools/asset_generator/palette.hpp"
+#include "tools/asset_generator/tau.hpp"
 
 #include <cmath>
 
@@ -12,7 +13,6 @@ namespace vkpt::tools {
 
 namespace {
 using M = Material;
-constexpr float tau = 6.2831853f;
 
 void put(const Output& out, std::string_view path, const Mesh& mesh)
 {

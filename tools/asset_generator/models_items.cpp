@@ -2,6 +2,7 @@
 // models/items/: what lies on the floor to be taken. Origins are at the item's middle, about 16 above the floor.
 #include "tools/asset_generator/mesh.hpp"
 #include "tools/asset_generator/output.hpp"
+#include "tools/asset_generator/tau.hpp"
 
 #include <cmath>
 
@@ -9,7 +10,6 @@ namespace vkpt::tools {
 
 namespace {
 using M = Material;
-constexpr float tau = 6.2831853f;
 constexpr float floor_z = -15; // the items' boxes end here
 
 Mesh make_case(glm::vec3 half, M body, M accent, M top)

@@ -5,6 +5,7 @@
 #include "tools/asset_generator/output.hpp"
 #include "tools/asset_generator/palette.hpp"
 #include "tools/asset_generator/pictures.hpp"
+#include "tools/asset_generator/tau.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,6 @@ namespace vkpt::tools {
 
 namespace {
 using M = Material;
-constexpr float tau = 6.2831853f;
 
 enum Part {
     pelvis,

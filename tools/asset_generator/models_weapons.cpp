@@ -2,6 +2,7 @@
 // models/weapons/: what the player sees in hand (v_*) and on the floor (g_*).
 #include "tools/asset_generator/guns.hpp"
 #include "tools/asset_generator/output.hpp"
+#include "tools/asset_generator/tau.hpp"
 
 #include <cmath>
 #include <glm/common.hpp>
@@ -10,7 +11,6 @@ namespace vkpt::tools {
 
 namespace {
 using M = Material;
-constexpr float tau = 6.2831853f;
 
 // A gloved hand round a grip at the origin, its forearm leaving to the lower right.
 void add_hand(Mesh& m)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Numbers, crosshairs, notices and panels.
 #include "tools/asset_generator/pictures.hpp"
+#include "tools/asset_generator/tau.hpp"
 
 #include <cmath>
 
 namespace vkpt::tools {
 
 namespace {
-constexpr float tau = 6.2831853f;
 
 Picture digit(const std::string& name, std::string_view text, glm::vec3 top, glm::vec3 bottom)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Icons of 24 x 24: a coloured sign on a plate.
 #include "tools/asset_generator/pictures.hpp"
+#include "tools/asset_generator/tau.hpp"
 
 #include <cmath>
 
@@ -8,7 +9,6 @@ namespace vkpt::tools {
 
 namespace {
 using Draw = std::function<void(Canvas&)>;
-constexpr float tau = 6.2831853f;
 
 Picture icon(const std::string& name, glm::vec3 rim, Draw draw)
 {

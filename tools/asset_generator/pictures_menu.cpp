@@ -2,13 +2,13 @@
 // Banners, the main menu, console background, the quit screen.
 #include "tools/asset_generator/noise.hpp"
 #include "tools/asset_generator/pictures.hpp"
+#include "tools/asset_generator/tau.hpp"
 
 #include <cmath>
 
 namespace vkpt::tools {
 
 namespace {
-constexpr float tau = 6.2831853f;
 
 Picture banner(const std::string& name, const std::string& text)
 {

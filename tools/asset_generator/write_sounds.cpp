@@ -3,6 +3,7 @@
 #include "formats/wav.hpp"
 #include "tools/asset_generator/noise.hpp"
 #include "tools/asset_generator/output.hpp"
+#include "tools/asset_generator/tau.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,6 @@ namespace vkpt::tools {
 
 namespace {
 constexpr int sample_rate = 22050;
-constexpr float tau = 6.2831853f;
 
 // Amplitude -1..1 at `t` seconds; `u` runs 0..1 through the sound.
 using Voice = std::function<float(float t, float u)>;
