@@ -244,6 +244,34 @@ TEST_F(Media, GlassColoursTheLightThatPasses)
     }
 }
 
+// A pane of the map above one that moves, which are in trees of their own; then each alone.
+TEST_F(Media, MovingGlassColoursTheLightThatPasses)
+{
+    constexpr float opacity = 0.66f;
+    const glm::vec3 place(0, 0, floor_height);
+    const auto behind = [](int colour) { return glm::vec3(1 - opacity) + opacity * linear_colour(colour); };
+    start(make_lamp_map().finish());
+    const glm::vec3 bare = light_at(place);
+    for (const bool has_fixed : { true, false }) {
+        MapBuilder map = make_lamp_map();
+        if (has_fixed)
+            map.add_block({ -80, -80, 80 }, { 80, 80, 84 }, map.add_material("green", formats::SURF_TRANS66));
+        map.begin_brush_model();
+        map.add_block({ -80, -80, -2 }, { 80, 80, 2 }, map.add_material("red", formats::SURF_TRANS66));
+        start(map.finish());
+        const glm::vec3 fixed = has_fixed ? behind(green_index) : glm::vec3(1);
+        const engine::Entity pane = make_entity(session_->module().register_model("*1"), { 0, 0, 40 });
+        session_->view.entities = &pane;
+        for (const int count : { 0, 1 }) {
+            session_->view.entity_count = count;
+            session_->draw();
+            expect_share(light_at(place) / bare, count == 1 ? fixed * behind(red_index) : fixed, "behind panes");
+        }
+        session_->view.entities = nullptr;
+        session_->view.entity_count = 0;
+    }
+}
+
 // Of a thin pane of index 1.5: 2 r / (1 + r), r being Fresnel's reflectance of one of its sides.
 TEST_F(Media, GlassReflects)
 {
