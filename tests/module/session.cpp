@@ -68,10 +68,14 @@ Session::Session(const std::filesystem::path& base_folder, const CvarList& cvars
         { "flt_taa", "off" } };
     all.insert(all.end(), cvars.begin(), cvars.end());
     std::vector<std::string> key = start_settings(all);
-    if (idle_ && idle_->key == key)
+    std::filesystem::path font = base_folder / "baseq2/pics/conchars.pcx";
+    const bool has_font = std::filesystem::exists(font);
+    if (idle_ && idle_->key == key && (!has_font || idle_->font.empty() || idle_->font == font))
         take_over(all, size);
     else
         start(all, size, std::move(key));
+    if (has_font)
+        running_->font = std::move(font);
     for (size_t style = 0; style < lightstyles_.size(); style++)
         light_style(style, 1);
     view.width = size.x;

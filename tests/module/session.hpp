@@ -58,6 +58,7 @@ private:
     // A started module, and the session that has it now.
     struct Running {
         std::vector<std::string> key; // what cannot be changed without a new start
+        std::filesystem::path font; // that it has read, which stays from map to map; or none
         std::unique_ptr<client::Host> host;
         Session* session = nullptr;
     };
