@@ -291,14 +291,20 @@ TEST_F(Denoiser, DarkLinesStayDark)
         { { "pt_seed", "0" }, { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "flt_taa", "off" } },
         { 192, 108 });
     session.set("flt_denoiser", "asvgf");
-    session.load_map("ledge");
-    session.look({ 0, -150, 60 }, { -5, 90, 0 });
-    session.draw(32);
-    const Radiance filtered = session.capture();
+    std::array<Radiance, 6> filtered; // begun anew, by other random numbers: one alone strays by .01
+    for (Radiance& picture : filtered) {
+        session.load_map("ledge");
+        session.look({ 0, -150, 60 }, { -5, 90, 0 });
+        session.draw(32);
+        picture = session.capture();
+    }
     session.set("flt_denoiser", "off");
-    const float light = light_on_dark_lines(filtered, average_frames(session, 128, [] {}));
+    const Radiance reference = average_frames(session, 128, [] {});
+    float light = 0;
+    for (const Radiance& picture : filtered)
+        light += light_on_dark_lines(picture, reference) / float(filtered.size());
     RecordProperty("light", std::to_string(light));
-    EXPECT_LT(light, 0.05f); // .040; .070 if bright taps' deviations counted in full
+    EXPECT_LT(light, 0.055f); // .043 to .046; .065 to .067 if bright taps' deviations counted in full
     EXPECT_GT(light, -0.05f);
 }
 
