@@ -37,11 +37,8 @@ std::vector<Call> make_head(const Module& m)
     std::vector<Call> head { make_call(
         CallKind::screen, "", { int32_t(m.graphics.size().width), int32_t(m.graphics.size().height) }) };
     const std::string map = fmt::format("maps/{}.bsp", m.replay_ring.map());
-    if (const auto file = engine::load_file(map)) {
-        const uint64_t size = file->bytes().size(), hash = hash_bytes(file->bytes());
-        head.push_back(
-            make_call(CallKind::file, map, { int32_t(size), int32_t(size >> 32), int32_t(hash), int32_t(hash >> 32) }));
-    }
+    if (const auto file = engine::load_file(map))
+        head.push_back(trace::make_file_call(map, file->bytes().size(), hash_bytes(file->bytes())));
     for (const auto& [name, initial] : trace::recorded_settings)
         head.emplace_back(make_call(CallKind::setting, name)).text
             = engine::get_cvar(name, initial, engine::CVAR_NONE)->text;

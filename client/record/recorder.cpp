@@ -118,11 +118,8 @@ std::optional<std::vector<std::byte>> Recorder::load_file(const std::string& pat
     if (!file)
         return std::nullopt;
     const formats::Bytes bytes = file->bytes();
-    if (noted_files_.insert(path).second) {
-        const uint64_t size = bytes.size(), hash = hash_bytes(bytes);
-        write(make_call(
-            CallKind::file, path, { int32_t(size), int32_t(size >> 32), int32_t(hash), int32_t(hash >> 32) }));
-    }
+    if (noted_files_.insert(path).second)
+        write(trace::make_file_call(path, bytes.size(), hash_bytes(bytes)));
     return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 

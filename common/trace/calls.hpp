@@ -103,6 +103,12 @@ inline Call make_call(CallKind kind, std::string_view name = "", std::initialize
     return call;
 }
 
+// What was loaded from `path`: `hash` is hash_bytes() of all of it.
+inline Call make_file_call(std::string_view path, uint64_t size, uint64_t hash)
+{
+    return make_call(CallKind::file, path, { int32_t(size), int32_t(size >> 32), int32_t(hash), int32_t(hash >> 32) });
+}
+
 // The console variables that a trace holds: of the engine's, those that change how the module shows a view. No other is
 // taken from a file, as some make the module write files.
 struct RecordedSetting {

@@ -3,6 +3,7 @@
 #include "ref_vkpt/scene/normal_maps.hpp"
 #include "tests/formats/file_budget.hpp"
 #include "tests/formats/picture_bombs.hpp"
+#include "tests/textures/make_plain.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -15,11 +16,6 @@ uint8_t byte_of(double component) { return uint8_t(std::lround(component * 127 +
 formats::Rgba8 texel_of(double x, double y, double z, uint8_t alpha = 255)
 {
     return { byte_of(x), byte_of(y), byte_of(z), alpha };
-}
-
-formats::Image make_plain(int width, int height, formats::Rgba8 texel)
-{
-    return { width, height, std::vector<formats::Rgba8>(size_t(width * height), texel) };
 }
 
 double decode(uint8_t byte) { return (byte - 128) / 127.0; }

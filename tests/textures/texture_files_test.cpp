@@ -2,6 +2,7 @@
 // The search for pictures, on a made-up set of files.
 #include "ref_vkpt/scene/texture_files.hpp"
 #include "tests/formats/picture_bombs.hpp"
+#include "tests/textures/make_plain.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -24,11 +25,6 @@ formats::Palette make_test_palette()
 formats::IndexedImage make_indexed(int width, int height, uint8_t index)
 {
     return { width, height, std::vector<uint8_t>(size_t(width * height), index), make_test_palette() };
-}
-
-formats::Image make_picture(int width, int height, formats::Rgba8 color)
-{
-    return { width, height, std::vector<formats::Rgba8>(size_t(width * height), color) };
 }
 
 class PictureFilesTest : public testing::Test {
@@ -149,8 +145,8 @@ TEST_F(PictureFilesTest, OriginalsOf8BitsAreDoubledOnRequestAlone)
 {
     add_wall("textures/a.wal", 32, 16, 3);
     add_wall("textures/b.wal", 32, 16, 3);
-    files["textures/b.png"] = formats::write_png(make_picture(32, 16, { 1, 2, 3, 255 }));
-    files["env/c.tga"] = formats::write_tga(make_picture(8, 8, { 1, 2, 3, 255 }));
+    files["textures/b.png"] = formats::write_png(make_plain(32, 16, { 1, 2, 3, 255 }));
+    files["env/c.tga"] = formats::write_tga(make_plain(8, 8, { 1, 2, 3, 255 }));
     const auto width = [&](std::string_view name, TextureUse use, bool doubled) {
         const auto loaded = make().load(name, use, { .retexturing = true, .doubled = doubled });
         EXPECT_TRUE(loaded && loaded->width == (use == TextureUse::sky ? 8 : 32)) << name;
@@ -177,7 +173,7 @@ TEST_F(PictureFilesTest, NamesBecomePaths)
 TEST_F(PictureFilesTest, ReplacementsComeFirstInTheEnginesOrderAndKeepTheOriginalsSize)
 {
     add_wall("textures/a.wal", 16, 16, 3);
-    files["textures/a.png"] = formats::write_png(make_picture(64, 32, { 1, 2, 3, 255 }));
+    files["textures/a.png"] = formats::write_png(make_plain(64, 32, { 1, 2, 3, 255 }));
     const auto png = make().load("a", TextureUse::wall, with_replacements);
     ASSERT_TRUE(png);
     EXPECT_EQ(png->path, "textures/a.wal");
@@ -186,14 +182,14 @@ TEST_F(PictureFilesTest, ReplacementsComeFirstInTheEnginesOrderAndKeepTheOrigina
     EXPECT_EQ(png->width, 16);
     EXPECT_EQ(png->height, 16);
 
-    files["textures/a.tga"] = formats::write_tga(make_picture(32, 32, { 9, 9, 9, 255 }));
+    files["textures/a.tga"] = formats::write_tga(make_plain(32, 32, { 9, 9, 9, 255 }));
     EXPECT_EQ(make().load("a", TextureUse::wall, with_replacements)->file, "textures/a.tga");
     EXPECT_EQ(make().load("a", TextureUse::wall, originals_only)->file, "textures/a.wal");
 }
 
 TEST_F(PictureFilesTest, ReplacementWithoutOriginalHasItsOwnSize)
 {
-    files["pics/new.png"] = formats::write_png(make_picture(20, 10, { 1, 2, 3, 128 }));
+    files["pics/new.png"] = formats::write_png(make_plain(20, 10, { 1, 2, 3, 128 }));
     TextureFiles pictures = make();
     const auto picture = pictures.load("new", TextureUse::image, with_replacements);
     ASSERT_TRUE(picture);
@@ -207,7 +203,7 @@ TEST_F(PictureFilesTest, SmallerOrDamagedReplacementIsNamedAndPassedOver)
 {
     add_wall("textures/a.wal", 64, 64, 3);
     files["textures/a.tga"] = std::vector<std::byte>(7, std::byte { 1 });
-    files["textures/a.png"] = formats::write_png(make_picture(32, 64, { 1, 2, 3, 255 }));
+    files["textures/a.png"] = formats::write_png(make_plain(32, 64, { 1, 2, 3, 255 }));
     const auto wall = make().load("a", TextureUse::wall, with_replacements);
     ASSERT_TRUE(wall);
     EXPECT_EQ(wall->file, "textures/a.wal");
@@ -218,7 +214,7 @@ TEST_F(PictureFilesTest, SmallerOrDamagedReplacementIsNamedAndPassedOver)
 TEST_F(PictureFilesTest, ReplacementStandsInForDamagedOriginal)
 {
     files["textures/a.wal"] = std::vector<std::byte>(50);
-    files["textures/a.png"] = formats::write_png(make_picture(32, 64, { 1, 2, 3, 255 }));
+    files["textures/a.png"] = formats::write_png(make_plain(32, 64, { 1, 2, 3, 255 }));
     const auto wall = make().load("a", TextureUse::wall, with_replacements);
     ASSERT_TRUE(wall);
     EXPECT_EQ(wall->width, 32);
@@ -254,7 +250,7 @@ TEST_F(PictureFilesTest, SkiesPreferTga)
     files["env/s_rt.pcx"] = formats::write_pcx(make_indexed(8, 8, 255));
     EXPECT_EQ(make().load("s_rt", TextureUse::sky, originals_only)->file, "env/s_rt.pcx");
     EXPECT_EQ(make().load("s_rt", TextureUse::sky, originals_only)->image.at(0, 0).a, 255);
-    files["env/s_rt.tga"] = formats::write_tga(make_picture(8, 8, { 1, 2, 3, 4 }));
+    files["env/s_rt.tga"] = formats::write_tga(make_plain(8, 8, { 1, 2, 3, 4 }));
     EXPECT_EQ(make().load("s_rt", TextureUse::sky, originals_only)->file, "env/s_rt.tga");
     EXPECT_EQ(make().load("s_rt", TextureUse::sky, originals_only)->image.at(0, 0).a, 255);
 }
@@ -329,7 +325,7 @@ TEST(NeutralPaletteTest, StartsWithAGreyRampAndEndsTransparent)
 
 TEST(MeasurePictureTest, AveragesLinearLightByAlpha)
 {
-    formats::Image image = make_picture(2, 2, { 255, 0, 0, 255 });
+    formats::Image image = make_plain(2, 2, { 255, 0, 0, 255 });
     image.pixels[1] = { 0, 255, 0, 0 };
     image.pixels[2] = { 188, 0, 0, 255 }; // about half the light
     image.pixels[3] = { 0, 0, 0, 127 };
@@ -338,12 +334,12 @@ TEST(MeasurePictureTest, AveragesLinearLightByAlpha)
     EXPECT_EQ(measure.average.y, 0);
     EXPECT_FLOAT_EQ(measure.opaque_fraction, 0.5f);
     EXPECT_TRUE(measure.has_alpha);
-    EXPECT_FALSE(measure_texture(make_picture(3, 3, { 1, 1, 1, 255 })).has_alpha);
+    EXPECT_FALSE(measure_texture(make_plain(3, 3, { 1, 1, 1, 255 })).has_alpha);
 }
 
 TEST(ShrinkPictureTest, HalvesInLinearLightUntilItFits)
 {
-    formats::Image image = make_picture(64, 6, { 0, 0, 0, 255 });
+    formats::Image image = make_plain(64, 6, { 0, 0, 0, 255 });
     for (int y = 0; y < image.height; y++)
         for (int x = 0; x < image.width; x += 2)
             image.pixels[size_t(y * image.width + x)] = { 255, 255, 255, 255 };
