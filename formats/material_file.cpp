@@ -148,10 +148,10 @@ const std::vector<AttributeRow>& material_attributes()
         { "emissive_factor", number, "times the light of texture_emissive; of walls with the next map" },
         { "emissive_threshold", number, "of synth_emissive: texels as bright as this glow, 0 to 255" },
         { "synth_emissive", number, "1: bright texels glow, though no picture says which" },
-        { "is_light", number, "read, without effect" },
-        { "light_styles", number, "read, without effect" },
-        { "bsp_radiance", number, "read, without effect" },
-        { "default_radiance", number, "read, without effect" },
+        { "is_light", number, "without effect: whatever glows on walls is a light" },
+        { "light_styles", number, "0: its lamps do not flicker and are not switched; counts with the next map" },
+        { "bsp_radiance", number, "0: its lamps glow without the map's light value; counts with the next map" },
+        { "default_radiance", number, "times what glows without the map's light value; counts with the next map" },
         { "kind", word,
             "CHROME: a mirror; CAMERA: a screen that shows what the map's cameras see; others without effect" },
         { "screen_left", number, "of a screen: where in the picture it begins, 0 to 1; ours, as the next three" },
@@ -161,7 +161,7 @@ const std::vector<AttributeRow>& material_attributes()
         { "texture_base", word, "file in place of the texture; counts with the next map" },
         { "texture_normals", word, "file of its normal map; counts with the next map" },
         { "texture_emissive", word, "file of what of it glows; counts with the next map" },
-        { "texture_mask", word, "read, without effect" },
+        { "texture_mask", word, "of walls: file that is dark where the texture has holes; counts with the next map" },
         { "correct_albedo", number, "read, without effect" },
     };
     return rows;

@@ -60,9 +60,17 @@ glm::vec3 normalise_colour(glm::vec3 colour)
 // The classic light compiler counts a missing texture as half as bright as any that is there.
 float strength_of(const FaceTexture& texture) { return texture.missing ? 0.5f : 1.0f; }
 
+// What the texture is multiplied by where it shines without the map's light value.
+float glow_factor(const FaceTexture& texture, const EmissionScales& scales)
+{
+    return scales.glow * texture.emissive_factor * texture.default_radiance;
+}
+
 glm::vec3 average_radiance(const BspTexinfo& texinfo, const FaceTexture& texture, const EmissionScales& scales)
 {
     const glm::vec3 average = glm::max(texture.average, glm::vec3(0));
+    if (!texture.takes_light_value)
+        return glow_factor(texture, scales) * average;
     if ((texinfo.flags & formats::SURF_LIGHT) && texinfo.value > 0)
         return scales.face * float(texinfo.value) * strength_of(texture) * normalise_colour(average)
             * texture.emissive_factor;
@@ -72,9 +80,10 @@ glm::vec3 average_radiance(const BspTexinfo& texinfo, const FaceTexture& texture
 // What the texture is multiplied by, so that the average over it is average_radiance.
 glm::vec3 emission_factor(const BspTexinfo& texinfo, const FaceTexture& texture, const EmissionScales& scales)
 {
-    if (is_glowing(texinfo, texture))
-        return glm::vec3(scales.glow * texture.emissive_factor);
-    if (!has_light_value(texinfo))
+    const bool has_value = has_light_value(texinfo);
+    if (is_glowing(texinfo, texture) || (has_value && !texture.takes_light_value))
+        return glm::vec3(glow_factor(texture, scales));
+    if (!has_value)
         return glm::vec3(0);
     const float greatest = max_component(texture.average);
     return greatest > 0
@@ -191,9 +200,11 @@ float scale_of_parts(
 
 } // namespace
 
-uint32_t face_lightstyle(const formats::BspFace& face)
+uint32_t face_lightstyle(const formats::BspFace& face, const FaceTexture& texture)
 {
     constexpr uint8_t steady = 0, no_lightmap = 255;
+    if (!texture.takes_lightstyles)
+        return steady;
     for (const uint8_t style : face.styles)
         if (style != steady && style != no_lightmap)
             return style;
@@ -225,7 +236,7 @@ std::vector<shared::Emitter> emitters_of_face(
     const FaceTexture& texture = source.textures[of_map.texinfo];
     const bool is_sky = classify(texinfo) == Emission::sky;
     const bool glows = is_glowing(texinfo, texture);
-    const float glow = source.scales.glow * texture.emissive_factor;
+    const float glow = glow_factor(texture, source.scales);
     const glm::vec3 radiance = is_sky ? average_radiance(texinfo, texture, source.scales)
         : glows                       ? glow * texture.average
                                       : face_radiance(source, of_map.texinfo);
@@ -243,7 +254,7 @@ std::vector<shared::Emitter> emitters_of_face(
         emitter.p2 = triangle.corners[2];
         emitter.type = emitter_type(texinfo);
         emitter.area = area_of(triangle);
-        emitter.lightstyle = is_sky ? 0 : face_lightstyle(of_map);
+        emitter.lightstyle = is_sky ? 0 : face_lightstyle(of_map, texture);
         emitter.radiance
             = triangle.part == FaceTriangle::whole ? radiance : scale * texture.parts[size_t(triangle.part)].average;
         emitters.push_back(emitter);

@@ -68,8 +68,9 @@ bool has_light_value(const formats::BspTexinfo& texinfo);
 // Whether a face without a light value shines where its texture's bright parts are.
 bool is_glowing(const formats::BspTexinfo& texinfo, const FaceTexture& texture);
 
-// What a switched or flickering lamp goes with: the face's first lightstyle that is not the steady one. 0: none is.
-uint32_t face_lightstyle(const formats::BspFace& face);
+// What a switched or flickering lamp goes with: the face's first lightstyle that is not the steady one. 0: none is, or
+// the texture takes none.
+uint32_t face_lightstyle(const formats::BspFace& face, const FaceTexture& texture);
 
 // Average radiance of a SURF_LIGHT texinfo's front, 0 of others; of an animation's frame that is brightest.
 glm::vec3 frame_radiance(const EmissionSource& source, uint32_t texinfo);

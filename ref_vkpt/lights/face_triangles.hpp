@@ -31,10 +31,14 @@ struct FaceTexture {
     glm::ivec2 size { 64 }; // texels of texinfo space
     glm::vec3 average { 0.5f }; // linear RGB 0..1
     bool missing = false; // a stand-in
+    bool has_holes = false; // whatever the map's flags say
     std::vector<BrightPart> parts; // where it shines; none: all over
     bool glows = false; // its parts shine on faces without a light value, too
     TextureMaps maps; // with an emissive one, `average` and `parts` are that one's, and so is the texture that shines
     float emissive_factor = 1; // times what shines by it
+    float default_radiance = 1; // times what shines without the map's light value
+    bool takes_light_value = true; // the map's; else lamps shine as bright as the texture glows without one
+    bool takes_lightstyles = true; // else lamps are steady
 };
 
 // A face's outline where it is drawn, used for geometry and emitters alike: Bsp::face_polygon, but for liquids that

@@ -138,4 +138,12 @@ std::vector<BrightPart> find_bright_parts(const formats::Image& image, AlphaMean
     return parts;
 }
 
+formats::Image keep_bright_texels(formats::Image image, int threshold)
+{
+    for (formats::Rgba8& texel : image.pixels)
+        if (std::max({ texel.r, texel.g, texel.b }) < threshold)
+            texel = { 0, 0, 0, texel.a };
+    return image;
+}
+
 } // namespace vkpt

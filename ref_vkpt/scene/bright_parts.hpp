@@ -15,4 +15,7 @@ namespace vkpt {
 // then.
 std::vector<BrightPart> find_bright_parts(const formats::Image& image, AlphaMeaning alpha = AlphaMeaning::opacity);
 
+// Texels whose greatest component is below `threshold` (1 to 255) become black.
+formats::Image keep_bright_texels(formats::Image image, int threshold);
+
 } // namespace vkpt

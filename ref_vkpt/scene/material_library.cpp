@@ -56,7 +56,11 @@ MaterialSettings make_settings(const Attributes& attributes)
     settings.bump_scale = std::clamp(number_of(attributes, "bump_scale", 1), 0.0f, steepest);
     settings.metalness_factor = std::clamp(number_of(attributes, "metalness_factor", 1), 0.0f, 1.0f);
     settings.emissive_factor = std::clamp(number_of(attributes, "emissive_factor", 1), 0.0f, max_emissive);
+    settings.default_radiance = std::clamp(number_of(attributes, "default_radiance", 1), 0.0f, max_emissive);
+    settings.takes_light_value = number_of(attributes, "bsp_radiance", 1) > 0;
+    settings.takes_lightstyles = number_of(attributes, "light_styles", 1) > 0;
     settings.base_file = word_of(attributes, "texture_base");
+    settings.mask_file = word_of(attributes, "texture_mask");
     settings.normals_file = word_of(attributes, "texture_normals");
     settings.emissive_file = word_of(attributes, "texture_emissive");
     settings.attributes = attributes;

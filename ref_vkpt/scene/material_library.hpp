@@ -19,10 +19,12 @@ struct MaterialSettings {
     float bump_scale = 1; // of the normal map's tilt
     float metalness_factor = 1; // times the alpha of the normal map
     float emissive_factor = 1; // times what glows
+    float default_radiance = 1; // times what glows without the map's light value
+    bool takes_light_value = true, takes_lightstyles = true; // see FaceTexture
     bool is_screen = false; // shows what a camera sees
     glm::vec4 screen_area { 11 / 256.0f, 14 / 256.0f, 245 / 256.0f, 148 / 256.0f }; // left, top, right, bottom of 1
     // Files of the game; empty: not said.
-    std::string base_file, normals_file, emissive_file;
+    std::string base_file, mask_file, normals_file, emissive_file;
     std::map<std::string, std::string, std::less<>> attributes; // all, as they are written
 };
 

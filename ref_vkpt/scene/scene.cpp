@@ -179,13 +179,19 @@ FaceTexture describe(const Texture& texture, const MaterialSettings* material)
     face.packed_size = texture.packed_size;
     face.size = { texture.width, texture.height };
     face.missing = texture.missing;
+    face.has_holes = texture.has_holes;
     face.maps = maps_of(texture);
     const bool has_map = face.maps.emissive.slot != 0;
     const Texture& shining = has_map ? *texture.emissive : texture;
     face.average = shining.average;
     face.parts = shining.parts;
     face.glows = has_map || is_glowing(texture, material);
-    face.emissive_factor = has_map && material ? material->emissive_factor : 1;
+    if (material) {
+        face.emissive_factor = has_map ? material->emissive_factor : 1;
+        face.default_radiance = material->default_radiance;
+        face.takes_light_value = material->takes_light_value;
+        face.takes_lightstyles = material->takes_lightstyles;
+    }
     return face;
 }
 

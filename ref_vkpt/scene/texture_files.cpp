@@ -170,6 +170,8 @@ std::optional<LoadedTexture> TextureFiles::load(std::string_view name, TextureUs
         if ((use == TextureUse::skin && wish.alpha == AlphaMeaning::opacity) || use == TextureUse::sky)
             for (formats::Rgba8& pixel : texture->image.pixels)
                 pixel.a = 255;
+        if (use == TextureUse::wall && wish.retexturing && !wish.mask.empty())
+            cut_holes(*texture, wish.mask, budget);
         return texture;
     }
     return std::nullopt;
@@ -233,6 +235,24 @@ std::optional<LoadedTexture> TextureFiles::load_original(
         report_(describe(error));
         return std::nullopt;
     }
+}
+
+void TextureFiles::cut_holes(LoadedTexture& texture, const std::string& mask, PixelBudget& budget) const
+{
+    const std::optional<LoadedTexture> loaded = load_replacement(use_forward_slashes(mask), {}, budget);
+    if (!loaded)
+        return report_(fmt::format("texture_mask {} of {} is missing or unusable", mask, texture.path));
+    constexpr uint8_t least_solid = 128;
+    const formats::Image& holes = loaded->image;
+    formats::Image& image = texture.image;
+    for (int y = 0; y < image.height; y++)
+        for (int x = 0; x < image.width; x++) {
+            const int column = int(int64_t(x) * holes.width / image.width),
+                      row = int(int64_t(y) * holes.height / image.height);
+            image.pixels[size_t(y) * size_t(image.width) + size_t(x)].a
+                = holes.at(column, row).r >= least_solid ? 255 : 0;
+        }
+    texture.has_holes = true;
 }
 
 formats::Palette make_neutral_palette()

@@ -30,6 +30,7 @@ enum class AlphaMeaning : uint8_t { opacity, other };
 struct TextureWish {
     bool retexturing = false; // replacements are preferred
     std::string file; // full path of the replacement, with any of the usual endings; empty: beside the original
+    std::string mask; // of walls: path of a picture that is dark where the texture has holes; empty: it has none
     AlphaMeaning alpha = AlphaMeaning::opacity;
     bool doubled = false; // 8-bit originals come at twice their size
 };
@@ -39,6 +40,7 @@ struct LoadedTexture {
     std::string file; // what was read
     formats::Image image;
     int width = 0, height = 0; // of the original: texture coordinates and 2D sizes refer to these
+    bool has_holes = false; // by a mask: alpha is 0 there, else 255
 };
 
 // How many pixels the textures of a level may have together, because an archive of a megabyte can ask for gigabytes: so
@@ -91,6 +93,7 @@ private:
     std::optional<LoadedTexture> load_replacement(
         const std::string& file_path, const std::string& path, PixelBudget& budget) const;
     std::optional<LoadedTexture> load_original(const std::string& path, bool doubled, PixelBudget& budget) const;
+    void cut_holes(LoadedTexture& texture, const std::string& mask, PixelBudget& budget) const;
 
     LoadFile load_file_;
     Report report_;

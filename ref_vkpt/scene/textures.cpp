@@ -50,6 +50,16 @@ VkFormat format_of(TextureUse use)
     return is_flat(use) || use == TextureUse::normals ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8G8B8A8_SRGB;
 }
 
+TextureWish make_wish(const MaterialSettings& settings)
+{
+    TextureWish wish;
+    wish.retexturing = cvars::values().r_retexturing != 0;
+    wish.doubled = cvars::values().r_scale8bittextures != 0;
+    wish.file = settings.base_file;
+    wish.mask = settings.mask_file;
+    return wish;
+}
+
 char letter_of(TextureUse use) { return "WMSPYNE"[size_t(use)]; }
 
 } // namespace
@@ -60,7 +70,7 @@ TextureMaps maps_of(const Texture& texture)
     if (const Texture* normals = texture.normals) {
         maps.normals = { normals->slot, normals->packed_size };
         maps.has_metalness = normals->has_alpha;
-        maps.texture_has_roughness = texture.has_alpha;
+        maps.texture_has_roughness = texture.has_alpha && !texture.has_holes;
     }
     if (const Texture* emissive = texture.emissive; emissive && emissive->brightest > 0)
         maps.emissive = { emissive->slot, emissive->packed_size };
@@ -94,17 +104,29 @@ const Texture* TextureStore::find(std::string_view name, TextureUse use)
 {
     Names& names = names_[size_t(use)];
     Texture* texture = nullptr;
-    if (const auto known = names.find(name); known != names.end())
+    if (const auto known = names.find(name);
+        known != names.end() && !(known->second && is_outdated(*known->second, name)))
         texture = known->second;
     else
-        names.emplace(name, texture = load(name, use));
+        names.insert_or_assign(std::string(name), texture = load(name, use));
     if (texture && may_have_maps(use) && texture->registration != registration_) {
         // This map's materials may say something else.
         texture->normals = find_map(name, use, TextureUse::normals);
-        texture->emissive = find_map(name, use, TextureUse::emissive);
+        texture->emissive = find_emissive(name, use);
     }
     touch(texture);
     return texture;
+}
+
+// Whether this map's materials ask for other files than those that it was made of.
+bool TextureStore::is_outdated(const Texture& texture, std::string_view name) const
+{
+    if (!may_have_maps(texture.use) || texture.registration == registration_)
+        return false;
+    const MaterialSettings* settings = find_settings(library_, name, texture.use);
+    const MaterialSettings none;
+    const MaterialSettings& wanted = settings ? *settings : none;
+    return texture.base_file != wanted.base_file || texture.mask_file != wanted.mask_file;
 }
 
 std::array<const Texture*, 6> TextureStore::find_sky(std::string_view name)
@@ -152,18 +174,48 @@ const Texture* TextureStore::find_map(std::string_view name, TextureUse use, Tex
     return found;
 }
 
+const Texture* TextureStore::find_emissive(std::string_view name, TextureUse use)
+{
+    const Texture* found = find_map(name, use, TextureUse::emissive);
+    if (found || use != TextureUse::skin) // walls shine in parts of the texture itself: FaceTexture::glows
+        return found;
+    const MaterialSettings* settings = find_settings(library_, name, use);
+    return settings && settings->glow_threshold > 0 ? find_bright_texels(name, *settings) : nullptr;
+}
+
+const Texture* TextureStore::find_bright_texels(std::string_view skin, const MaterialSettings& settings)
+{
+    Names& names = names_[size_t(TextureUse::emissive)];
+    const std::string name = fmt::format("{}, texels from {}", skin, settings.glow_threshold);
+    if (const auto known = names.find(name); known != names.end()) {
+        touch(known->second);
+        return known->second;
+    }
+    TextureWish wish = make_wish(settings);
+    wish.alpha = AlphaMeaning::other;
+    std::optional<LoadedTexture> loaded = files_.load(skin, TextureUse::skin, wish);
+    if (!loaded)
+        return nullptr;
+    loaded->image = keep_bright_texels(std::move(loaded->image), settings.glow_threshold);
+    Texture described;
+    described.name = name;
+    described.use = TextureUse::emissive;
+    return names[name] = add(std::move(described), *loaded);
+}
+
 Texture* TextureStore::load(std::string_view name, TextureUse use)
 {
-    TextureWish wish;
-    wish.retexturing = cvars::values().r_retexturing != 0;
-    wish.doubled = cvars::values().r_scale8bittextures != 0;
-    const Texture *normals = nullptr, *emissive = nullptr;
+    Texture described;
+    described.name = name;
+    described.use = use;
+    const MaterialSettings* settings = may_have_maps(use) ? find_settings(library_, name, use) : nullptr;
+    TextureWish wish = make_wish(settings ? *settings : MaterialSettings());
     if (may_have_maps(use)) {
-        normals = find_map(name, use, TextureUse::normals);
-        emissive = find_map(name, use, TextureUse::emissive);
-        wish.alpha = normals ? AlphaMeaning::other : AlphaMeaning::opacity;
-        if (const MaterialSettings* settings = find_settings(library_, name, use))
-            wish.file = settings->base_file;
+        described.base_file = wish.file;
+        described.mask_file = wish.mask;
+        described.normals = find_map(name, use, TextureUse::normals);
+        described.emissive = find_emissive(name, use);
+        wish.alpha = described.normals ? AlphaMeaning::other : AlphaMeaning::opacity;
     }
     const std::optional<LoadedTexture> loaded = files_.load(name, use, wish);
     if (!loaded) {
@@ -177,29 +229,34 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
             engine::print_developer(line);
         return use == TextureUse::wall ? make_missing_wall(name) : nullptr;
     }
+    return add(std::move(described), *loaded);
+}
+
+// `described` has its name, use and maps. nullptr: there is no room.
+Texture* TextureStore::add(Texture&& described, const LoadedTexture& loaded)
+{
     Texture* texture = take_entry();
     if (!texture)
         return nullptr;
-    texture->name = name;
-    texture->path = loaded->path;
-    texture->material = formats::material_name(loaded->path);
-    texture->file = loaded->file;
-    texture->use = use;
-    texture->normals = normals;
-    texture->emissive = emissive;
+    described.registration = texture->registration;
+    *texture = std::move(described);
+    texture->path = loaded.path;
+    texture->material = formats::material_name(loaded.path);
+    texture->file = loaded.file;
+    texture->has_holes = loaded.has_holes;
     const int limit = int(gpu_.device.properties.limits.maxImageDimension2D);
     try {
-        if (use != TextureUse::normals && (loaded->image.width > limit || loaded->image.height > limit))
-            upload(*texture, shrink_texture(loaded->image, limit));
+        if (texture->use != TextureUse::normals && (loaded.image.width > limit || loaded.image.height > limit))
+            upload(*texture, shrink_texture(loaded.image, limit));
         else
-            upload(*texture, loaded->image);
+            upload(*texture, loaded.image);
     } catch (...) {
         texture->image = Image(); // which has no place among the bindings yet
         release(*texture);
         throw;
     }
-    texture->width = loaded->width;
-    texture->height = loaded->height;
+    texture->width = loaded.width;
+    texture->height = loaded.height;
     return texture;
 }
 
@@ -258,7 +315,7 @@ void TextureStore::upload_levels(Texture& texture, const formats::Image& first,
 
 void TextureStore::measure(Texture& texture, const formats::Image& pixels) const
 {
-    const bool has_opacity = !texture.normals && texture.use != TextureUse::emissive;
+    const bool has_opacity = texture.use != TextureUse::emissive && (!texture.normals || texture.has_holes);
     const AlphaMeaning alpha = has_opacity ? AlphaMeaning::opacity : AlphaMeaning::other;
     const TextureMeasure measure = measure_texture(pixels, alpha);
     texture.average = measure.average;

@@ -21,6 +21,7 @@
 namespace vkpt {
 
 class MaterialLibrary;
+struct MaterialSettings;
 
 // The engine holds pointers to these and sorts entities by them: addresses are stable and ascend in the order of
 // loading.
@@ -29,6 +30,7 @@ struct Texture {
     std::string path; // of the original texture: "textures/e1u1/floor.wal"
     std::string file; // what was read; empty: missing
     std::string material; // formats::material_name of `path`
+    std::string base_file, mask_file; // that its material asked for
     TextureUse use = TextureUse::wall;
     uint32_t slot = 0; // bindless index
     uint32_t packed_size = 0x10001; // of what is in the slot, see shared::Material::texture_size
@@ -39,6 +41,7 @@ struct Texture {
     std::optional<PaintedSun> sun; // of skies
     uint8_t brightest = 0; // component of all texels
     bool has_alpha = false;
+    bool has_holes = false; // its material's mask has cut them
     bool missing = false; // grey in place of a wall that was not found
     // Of walls and skins: its normal map, and the picture of what of it glows.
     const Texture* normals = nullptr;
@@ -92,8 +95,13 @@ public:
 private:
     using Names = std::map<std::string, Texture*, std::less<>>; // nullptr: searched and not found
 
+    bool is_outdated(const Texture& texture, std::string_view name) const;
     Texture* load(std::string_view name, TextureUse use);
+    Texture* add(Texture&& described, const LoadedTexture& loaded);
     const Texture* find_map(std::string_view name, TextureUse use, TextureUse map);
+    // What of a wall or skin glows: its picture, or of skins the bright texels that their material speaks of.
+    const Texture* find_emissive(std::string_view name, TextureUse use);
+    const Texture* find_bright_texels(std::string_view skin, const MaterialSettings& settings);
     Texture* make_missing_wall(std::string_view name);
     Texture* take_entry();
     void release(Texture& texture);

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <map>
+#include <span>
 
 namespace vkpt {
 
@@ -78,7 +79,7 @@ void append_face(MapGeometry& geometry, const World& world, size_t face, size_t 
         const bool is_dark = is_beside && texture.maps.emissive.slot == 0;
         triangle.material = texinfo_index;
         triangle.emitter = is_beside ? shared::EMITTER_UNLISTED : part.emitter;
-        triangle.lightstyle = is_dark ? lightstyle_none : face_lightstyle(bsp.faces[face]);
+        triangle.lightstyle = is_dark ? lightstyle_none : face_lightstyle(bsp.faces[face], texture);
         triangle.cluster = cluster;
         triangle.cache_face = model == 0 ? uint32_t(face) + 1 : 0;
         triangle.medium = medium;
@@ -169,6 +170,14 @@ std::vector<FaceTexture> find_textures(const Bsp& bsp, const FindFaceTexture& fi
         textures[i] = entry->second;
     }
     return textures;
+}
+
+// Faces whose texture has holes by its material are as those that the map says it of.
+void take_holes(Bsp& bsp, std::span<const FaceTexture> textures)
+{
+    for (size_t i = 0; i < textures.size(); i++)
+        if (textures[i].has_holes)
+            bsp.texinfos[i].flags |= SURF_ALPHATEST;
 }
 
 // The emitters of the world model; those of animated textures have their rows.
@@ -274,6 +283,7 @@ std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, 
     world.fog_boxes = find_fog_boxes(entities, world.bsp.name, world.messages);
 
     world.textures = find_textures(world.bsp, find_texture);
+    take_holes(world.bsp, world.textures);
     for (const BspTexinfo& texinfo : world.bsp.texinfos)
         world.material_names.push_back(material_name(texinfo.texture));
     world.faces = FaceTriangles(world.bsp, world.textures);

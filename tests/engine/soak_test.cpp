@@ -218,13 +218,16 @@ public:
             EXPECT_EQ(handles_[i], handles_[warm_up_rounds - 1]) << "open files after round " << i + 1;
     }
 
-    // The last half of the rounds against the first: the median, which is most rounds' state, and the least, which
-    // holds least of what is only kept for a while.
+    // The last third of the rounds against the one before: the median, which is most rounds' state, and the least,
+    // which holds least of what is only kept for a while. In the first third heaps fill with holes, until what is
+    // freed and what is asked for fit.
     void expect_flat_memory() const
     {
         ASSERT_GE(memory_.size(), min_rounds);
-        const auto middle = memory_.begin() + std::ptrdiff_t(warm_up_rounds + (memory_.size() - warm_up_rounds) / 2);
-        const std::vector<double> before(memory_.begin() + warm_up_rounds, middle), after(middle, memory_.end());
+        const size_t warm_up = std::max(warm_up_rounds, memory_.size() / 3);
+        const auto begin = memory_.begin() + std::ptrdiff_t(warm_up),
+                   middle = begin + std::ptrdiff_t((memory_.size() - warm_up) / 2);
+        const std::vector<double> before(begin, middle), after(middle, memory_.end());
         constexpr double mebibyte = 1 << 20;
         std::printf("median %.1f MiB, then %.1f; least %.1f MiB, then %.1f\n", find_median(before) / mebibyte,
             find_median(after) / mebibyte, std::ranges::min(before) / mebibyte, std::ranges::min(after) / mebibyte);

@@ -221,6 +221,36 @@ TEST(Emitters, GlowWithoutALightValueWherePicturesAreBright)
     EXPECT_EQ(extract_emitters(bsp, make_glowing(), scales).first_of_face[0], -1);
 }
 
+// What a material says of the map's own words: bsp_radiance 0, default_radiance, light_styles 0.
+TEST(Emitters, GoWithTheirMaterial)
+{
+    formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true)); // plain, 100, 200, a sky
+    bsp.faces[1].styles[1] = 40;
+    const EmissionScales scales { .face = 0.01f, .sky = 3, .glow = 2 };
+    const auto radiance_of = [](const StaticEmitters& emitters, size_t face) {
+        return emitters.emitters[size_t(emitters.first_of_face[face])].radiance.x;
+    };
+    FaceTexture texture = reddish; // brightest: 0.4
+    texture.default_radiance = 5;
+    const StaticEmitters by_map = extract_emitters(bsp, texture, scales);
+    EXPECT_FLOAT_EQ(radiance_of(by_map, 1), 1) << "the map's value goes before it";
+    EXPECT_EQ(by_map.emitters[size_t(by_map.first_of_face[1])].lightstyle, 40u);
+    texture.takes_light_value = false;
+    texture.takes_lightstyles = false;
+    const StaticEmitters emitters = extract_emitters(bsp, texture, scales);
+    for (const size_t face : { 1, 2 }) {
+        EXPECT_FLOAT_EQ(radiance_of(emitters, face), 2 * 5 * 0.4f);
+        EXPECT_EQ(emitters.face_emission[bsp.faces[face].texinfo], glm::vec3(2 * 5));
+    }
+    EXPECT_EQ(emitters.emitters[size_t(emitters.first_of_face[1])].lightstyle, 0u);
+    EXPECT_EQ(emitters.first_of_face[0], -1) << "without a light value there is no lamp";
+    texture.default_radiance = 0;
+    EXPECT_EQ(extract_emitters(bsp, texture, scales).first_of_face[1], -1);
+    FaceTexture glowing = make_glowing();
+    glowing.default_radiance = 0.5f;
+    EXPECT_FLOAT_EQ(radiance_of(extract_emitters(bsp, glowing, scales), 0), 2 * 0.5f * 0.8f);
+}
+
 TEST(Emitters, BrushModelsAreSeparate)
 {
     formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));

@@ -79,6 +79,12 @@ void GameFolder::add(const std::string& name, const std::vector<std::byte>& byte
     folder_.write("baseq2/" + name, { reinterpret_cast<const char*>(bytes.data()), bytes.size() });
 }
 
+void GameFolder::add_text(const std::string& name, std::string_view text) const
+{
+    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+    add(name, { bytes, bytes + text.size() });
+}
+
 void GameFolder::add_wall(const std::string& name, uint8_t index) const
 {
     formats::WallInfo info;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
+#include <string_view>
 
 namespace vkpt::tests {
 
@@ -26,6 +27,7 @@ public:
 
     // `name` is a path below baseq2.
     void add(const std::string& name, const std::vector<std::byte>& bytes) const;
+    void add_text(const std::string& name, std::string_view text) const;
     void add_wall(const std::string& name, uint8_t index) const; // textures/NAME.wal, one colour
     // textures/NAME.wal and, with alpha, NAME.tga: columns of 8 texels, by turns of this colour and holes.
     void add_fence(const std::string& name, uint8_t index) const;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace vkpt::tests {
 namespace {
@@ -124,9 +125,7 @@ TEST_F(Lamps, GlowWhereTheirPictureIsBright)
         session.draw();
         EXPECT_GT(session.capture().mean().y, 0.3 * average);
     }
-    const std::string text = "spot:\n    synth_emissive 1\n";
-    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-    folder_.add("maps/lamps.mat", { bytes, bytes + text.size() });
+    folder_.add_text("maps/lamps.mat", "spot:\n    synth_emissive 1\n");
     Session session(folder_, matte);
     session.load_map("lamps");
     EXPECT_NEAR(measure(session).on_floor / on_floor, 1, 0.02);
@@ -142,11 +141,6 @@ protected:
             for (int x = from; x < to; x++)
                 picture.pixels[size_t(y) * 32 + size_t(x)] = colour;
         folder_.add(file, formats::write_tga(picture));
-    }
-    void add_text(const std::string& name, const std::string& text) const
-    {
-        const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-        folder_.add(name, { bytes, bytes + text.size() });
     }
     // Of a wall "board", which is grey, over the floor.
     Light measure_board(uint32_t flags = 0, int value = 0)
@@ -170,7 +164,7 @@ TEST_F(Emission, OfAWallIsWhatItsPictureShows)
     const Light light = measure_board();
     EXPECT_NEAR(light.seen, double(EmissionScales().glow), 0.02);
     EXPECT_NEAR(light.on_floor / light.seen, form_factor, 0.0003);
-    add_text("maps/board.mat", "board:\n    emissive_factor 0.5\n");
+    folder_.add_text("maps/board.mat", "board:\n    emissive_factor 0.5\n");
     const Light half = measure_board();
     EXPECT_NEAR(half.seen / light.seen, 0.5, 0.01);
     EXPECT_NEAR(half.on_floor / light.on_floor, 0.5, 0.01);
@@ -179,7 +173,7 @@ TEST_F(Emission, OfAWallIsWhatItsPictureShows)
 // Its bright parts are lamps of their own.
 TEST_F(Emission, ComesFromThePicturesBrightParts)
 {
-    add_text("maps/board.mat", "board:\n    texture_emissive glow/spot\n");
+    folder_.add_text("maps/board.mat", "board:\n    texture_emissive glow/spot\n");
     add_light("glow/spot.tga", { 255, 255, 255, 255 }, 8, 16);
     const Light light = measure_board();
     EXPECT_NEAR(light.on_floor / (double(EmissionScales().glow) / 16 * form_factor), 1, 0.05);
@@ -197,6 +191,34 @@ TEST_F(Emission, OfALampIsItsLightValue)
     EXPECT_NEAR(measure_board(formats::SURF_LIGHT, 500).on_floor / plain.on_floor, 1, 0.02);
 }
 
+// A material may say that a lamp shines by its picture alone, how bright that is, and that it is steady.
+TEST_F(Emission, GoesWithTheMaterial)
+{
+    const double plain = measure_board(formats::SURF_LIGHT, 500).seen;
+    folder_.add_text("maps/board.mat", "board:\n    default_radiance 3\n");
+    EXPECT_NEAR(measure_board(formats::SURF_LIGHT, 500).seen / plain, 1, 0.01);
+    EXPECT_EQ(measure_board().seen, 0);
+    folder_.add_text("maps/board.mat", "board:\n    bsp_radiance 0\n    default_radiance 3\n");
+    add_light("textures/board_light.tga", { 255, 255, 255, 255 });
+    for (const Light light : { measure_board(formats::SURF_LIGHT, 500), measure_board() }) {
+        EXPECT_NEAR(light.seen, 3 * double(EmissionScales().glow), 0.06);
+        EXPECT_NEAR(light.on_floor / light.seen, form_factor, 0.0003);
+    }
+    folder_.add_text("maps/lamps.mat", "lamp:\n    light_styles 0\n");
+    add_lamp(lamp_);
+    formats::Bsp bsp = map_.finish();
+    for (formats::BspFace& face : bsp.faces)
+        if (face.texinfo == lamp_)
+            face.styles[1] = 40;
+    folder_.add_map("lamps", bsp);
+    Session session(folder_, matte);
+    session.load_map("lamps");
+    session.light_style(40, 0);
+    const Light steady = measure(session);
+    EXPECT_NEAR(steady.seen, 500 * 0.0095, 0.05);
+    EXPECT_NEAR(steady.on_floor / steady.seen, form_factor, 0.0003);
+}
+
 // A model's skin glows, and bounce rays find it.
 TEST_F(Emission, OfSkinsIsSeenAndBounces)
 {
@@ -207,7 +229,7 @@ TEST_F(Emission, OfSkinsIsSeenAndBounces)
         if (mapped) {
             Session::end_idle();
             add_light("models/cube_light.tga", { 0, 255, 0, 255 });
-            add_text("materials/baseq2.mat", "models/cube:\n    emissive_factor 4\n");
+            folder_.add_text("materials/baseq2.mat", "models/cube:\n    emissive_factor 4\n");
         }
         Session session(folder_, { { "pt_bounces", "1" }, { "pt_roughness_default", "1" } });
         session.load_map("lamps");
@@ -225,6 +247,26 @@ TEST_F(Emission, OfSkinsIsSeenAndBounces)
     }
     EXPECT_EQ(on_floor[0], 0);
     EXPECT_GT(on_floor[1], 0.02);
+}
+
+// Where no picture says what of a skin glows, a material may choose its bright texels.
+TEST_F(Emission, OfSkinsIsTheirBrightTexels)
+{
+    const std::string white = folder_.add_cube("white", 8, white_index), grey = folder_.add_cube("grey", 8, 128);
+    folder_.add_map("lamps", map_.finish());
+    Session::end_idle();
+    folder_.add_text(
+        "materials/baseq2.mat", "models/white,\nmodels/grey:\n    synth_emissive 1\n    emissive_factor 3\n");
+    Session session(folder_, matte);
+    session.load_map("lamps");
+    for (const auto& [cube, glow] : { std::pair(white, 3 * EmissionScales().glow), std::pair(grey, 0.0f) }) {
+        engine::Entity entity = make_entity(session.module().register_model(cube.c_str()), { 0, 0, 12 });
+        session.view.entities = &entity;
+        session.view.entity_count = 1;
+        session.look({ 0, 1, 60 }, { 0, 0, 0 }, 10);
+        session.draw();
+        EXPECT_NEAR(session.capture().mean().y, glow, 0.1f) << cube;
+    }
 }
 
 // A button's picture is chosen by its entity's frame.

@@ -29,11 +29,6 @@ protected:
     }
     ~Materials() override { Session::end_idle(); }
 
-    void add_text(const std::string& name, const std::string& text) const
-    {
-        const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-        folder_.add(name, { bytes, bytes + text.size() });
-    }
     // Radiance of the floor.
     static double see_floor(Session& session)
     {
@@ -62,7 +57,7 @@ TEST_F(Materials, ComeFromFiles)
         session.load_map("floor");
         plain = see_floor(session);
     }
-    add_text(
+    folder_.add_text(
         "materials/baseq2.mat", "textures/test/floor:\n    base_factor 0.5\n    roughness_override 0.4\n    shine 3\n");
     {
         Session session(folder_, matte_full);
@@ -73,7 +68,7 @@ TEST_F(Materials, ComeFromFiles)
         EXPECT_NEAR(find_roughness(session), 0.4, 0.01);
     }
     // The map's own goes before the game's.
-    add_text("maps/floor.mat", "test/floor:\n    roughness_override 1\n");
+    folder_.add_text("maps/floor.mat", "test/floor:\n    roughness_override 1\n");
     Session session(folder_, matte_full);
     session.load_map("floor");
     EXPECT_NEAR(see_floor(session) / plain, 0.5, 0.01);
@@ -113,8 +108,8 @@ TEST_F(Materials, AreSavedAndReadAgain)
     std::filesystem::remove(written);
     EXPECT_NE(text.str().find("test/floor:\n    roughness_override 0.3\n"), std::string::npos) << text.str();
     Session::end_idle();
-    add_text("vkpt/materials.mat", text.str());
-    add_text("materials/baseq2.mat", "test/floor:\n    roughness_override 0.6\n");
+    folder_.add_text("vkpt/materials.mat", text.str());
+    folder_.add_text("materials/baseq2.mat", "test/floor:\n    roughness_override 0.6\n");
     Session session(folder_, matte_full);
     session.load_map("floor");
     EXPECT_NEAR(find_roughness(session), 0.3, 0.01);

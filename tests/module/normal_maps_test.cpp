@@ -4,6 +4,7 @@
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -42,11 +43,6 @@ protected:
     {
         add_normals(
             "textures/floor_n.tga", [&](int, int) { return normal; }, alpha);
-    }
-    void add_text(const std::string& name, const std::string& text) const
-    {
-        const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-        folder_.add(name, { bytes, bytes + text.size() });
     }
     Session open() const
     {
@@ -123,7 +119,7 @@ TEST_F(NormalMaps, TiltAlongTheTexturesAxes)
 TEST_F(NormalMaps, AreScaledByMaterialAndCvar)
 {
     add_tilt({ 0.6f, 0, 0.8f });
-    add_text("maps/floor.mat", "floor:\n    bump_scale 0.5\n");
+    folder_.add_text("maps/floor.mat", "floor:\n    bump_scale 0.5\n");
     Session session = open();
     session.load_map("floor");
     look(session);
@@ -220,9 +216,11 @@ TEST_F(NormalMaps, AreNamedByMaterials)
     add_normals("textures/floor_n.tga", [](int, int) { return glm::vec3(0, 0.6f, 0.8f); });
     formats::Image picture { 64, 64, std::vector<formats::Rgba8>(64 * 64, { 0, 255, 0, 255 }) };
     folder_.add("bumps/green.png", formats::write_png(picture));
-    add_text(
+    std::ranges::fill(picture.pixels, formats::Rgba8 { 255, 0, 0, 255 });
+    folder_.add("bumps/red.png", formats::write_png(picture));
+    folder_.add_text(
         "materials/baseq2.mat", "textures/floor:\n    texture_normals bumps/steep.tga\n    texture_base bumps/green\n");
-    add_text("maps/next.mat", "floor:\n    texture_normals bumps/none\n");
+    folder_.add_text("maps/next.mat", "floor:\n    texture_normals bumps/none\n    texture_base bumps/red\n");
     Session session = open();
     session.load_map("floor");
     look(session);
@@ -233,11 +231,12 @@ TEST_F(NormalMaps, AreNamedByMaterials)
     EXPECT_TRUE(session.has_line("texture_normals bumps/none of floor is missing or unusable"));
     look(session);
     expect_near(find_normal(session), { 0, 0, 1 });
+    expect_near(show(session, "albedo"), { 1, 0, 0 });
 }
 
 TEST_F(NormalMaps, DamagedOnesAreNamedAndLeftOut)
 {
-    add_text("textures/floor_n.png", "\x89PNG no more");
+    folder_.add_text("textures/floor_n.png", "\x89PNG no more");
     Session session = open();
     session.load_map("floor");
     EXPECT_TRUE(session.has_line("textures/floor_n.png is damaged at byte"));

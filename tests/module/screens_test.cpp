@@ -62,11 +62,6 @@ protected:
                  { "red", red_index }, { "green", green_index }, { "blue", blue_index }, { "screen", uint8_t(90) } })
             folder_.add_wall(name, index);
     }
-    void add_text(const std::string& name, const std::string& text) const
-    {
-        const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-        folder_.add(name, { bytes, bytes + text.size() });
-    }
     static std::string camera_line(glm::vec3 from, glm::vec3 at)
     {
         const glm::vec3 way = at - from;
@@ -75,8 +70,8 @@ protected:
     void start(const formats::Bsp& bsp, const std::string& cameras, const CvarList& cvars = plain)
     {
         folder_.add_map("screens", bsp);
-        add_text("maps/screens.mat", screen_material);
-        add_text("maps/cameras/screens.txt", cameras);
+        folder_.add_text("maps/screens.mat", screen_material);
+        folder_.add_text("maps/cameras/screens.txt", cameras);
         session_ = nullptr;
         session_ = std::make_unique<Session>(folder_, cvars);
         session_->load_map("screens");
@@ -147,7 +142,7 @@ TEST_F(Screens, HaveARim)
     session.look(camera_eye, camera_target, 120);
     session.draw();
     EXPECT_LT(difference(whole, session.accumulate(64)), small_difference);
-    add_text("maps/screens.mat", std::string(screen_material) + "    screen_left 0.5\n");
+    folder_.add_text("maps/screens.mat", std::string(screen_material) + "    screen_left 0.5\n");
     session.load_map("screens");
     const Radiance half = see_screen();
     session.set("pt_cameras", 0);

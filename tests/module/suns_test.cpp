@@ -15,12 +15,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 const CvarList matte_sunlit { { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "pt_sky_scale", "0" } };
 
-void add_text(const GameFolder& folder, const std::string& name, const std::string& text)
-{
-    const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-    folder.add(name, { bytes, bytes + text.size() });
-}
-
 class Suns : public testing::Test {
 protected:
     static constexpr float roof_height = 200;
@@ -111,13 +105,13 @@ TEST_F(Suns, AreFoundByEverySampler)
 TEST_F(Suns, AreAddedByFiles)
 {
     add_map({ { "_sun_light", "128" }, { "_sun_color", "1 1 1" } });
-    add_text(folder_, "maps/suns.lights", R"({ "classname" "worldspawn" "_sun_light" "64" })");
+    folder_.add_text("maps/suns.lights", R"({ "classname" "worldspawn" "_sun_light" "64" })");
     {
         Session session(folder_, matte_sunlit);
         session.load_map("suns");
         EXPECT_NEAR(measure(session, 100).y, 0.5, 0.005);
     }
-    add_text(folder_, "maps/suns.lights", R"({ "classname" "worldspawn" "_sun_light" "64)");
+    folder_.add_text("maps/suns.lights", R"({ "classname" "worldspawn" "_sun_light" "64)");
     Session session(folder_, matte_sunlit);
     session.load_map("suns");
     EXPECT_TRUE(session.has_line("maps/suns.lights"));

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <utility>
+#include <vector>
 
 namespace vkpt {
 namespace {
@@ -83,6 +85,15 @@ TEST(BrightParts, OfAnyPicture)
     ASSERT_EQ(parts.size(), 1u);
     EXPECT_NEAR(parts[0].mins.x, 10.0f / 37, 1.0f / 32);
     EXPECT_NEAR(parts[0].maxs.y, 40.0f / 91, 1.0f / 32);
+}
+
+TEST(BrightTexels, AreKeptAsTheyAre)
+{
+    formats::Image image { 4, 1, { { 215, 0, 0, 255 }, { 214, 214, 214, 9 }, { 0, 10, 220, 0 }, { 0, 0, 0, 255 } } };
+    image = keep_bright_texels(std::move(image), 215);
+    const std::vector<formats::Rgba8> wanted { { 215, 0, 0, 255 }, { 0, 0, 0, 9 }, { 0, 10, 220, 0 },
+        { 0, 0, 0, 255 } };
+    EXPECT_TRUE(image.pixels == wanted);
 }
 
 } // namespace

@@ -199,6 +199,29 @@ TEST_F(PictureFilesTest, ReplacementWithoutOriginalHasItsOwnSize)
     EXPECT_FALSE(pictures.load("new", TextureUse::image, originals_only));
 }
 
+TEST_F(PictureFilesTest, MasksCutHolesInWalls)
+{
+    add_wall("textures/a.wal", 8, 4, 3);
+    formats::Image mask = make_plain(4, 2, { 127, 255, 255, 255 });
+    mask.pixels[1].r = mask.pixels[6].r = 128;
+    files["masks/a.png"] = formats::write_png(mask);
+    TextureWish wish = with_replacements;
+    wish.mask = "masks/a";
+    const auto wall = make().load("a", TextureUse::wall, wish);
+    ASSERT_TRUE(wall && wall->has_holes);
+    for (int y = 0; y < 4; y++)
+        for (int x = 0; x < 8; x++) {
+            const bool is_solid = (x / 2 == 1 && y / 2 == 0) || (x / 2 == 2 && y / 2 == 1);
+            EXPECT_EQ(wall->image.at(x, y).a, is_solid ? 255 : 0) << x << ' ' << y;
+        }
+    wish.retexturing = false;
+    EXPECT_FALSE(make().load("a", TextureUse::wall, wish)->has_holes);
+    wish = with_replacements;
+    wish.mask = "masks/none";
+    EXPECT_FALSE(make().load("a", TextureUse::wall, wish)->has_holes);
+    EXPECT_TRUE(reported("texture_mask masks/none of textures/a.wal is missing"));
+}
+
 TEST_F(PictureFilesTest, SmallerOrDamagedReplacementIsNamedAndPassedOver)
 {
     add_wall("textures/a.wal", 64, 64, 3);
