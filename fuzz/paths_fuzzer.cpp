@@ -39,7 +39,8 @@ void find_pictures(const std::string& name, unsigned present)
     TextureFiles files(load, [](std::string_view) {});
     for (size_t use = 0; use < texture_use_count; use++) {
         fuzz::require(!TextureFiles::original_paths(name, TextureUse(use)).empty(), "every picture has a path");
-        fuzz::use(files.load(name, TextureUse(use), { (present & 1) != 0, {}, AlphaMeaning::opacity }));
+        fuzz::use(files.load(
+            name, TextureUse(use), { .retexturing = (present & 1) != 0, .mask = (present & 2) ? "masks/a" : "" }));
     }
 }
 

@@ -225,7 +225,7 @@ uint32_t Recorder::number_picture(std::string_view name, TextureUse use)
     const auto [known, is_new] = known_pictures_.try_emplace({ use, std::string(name) });
     auto& [number, size] = known->second;
     if (is_new)
-        if (const auto picture = pictures_.load(name, use, { retexturing_, {}, AlphaMeaning::opacity })) {
+        if (const auto picture = pictures_.load(name, use, { .retexturing = retexturing_ })) {
             number = ++picture_count_;
             size = { picture->width, picture->height };
         }
