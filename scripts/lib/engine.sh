@@ -208,13 +208,14 @@ use_data() {
 
 has_display() { [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; }
 
-# start_xvfb WIDTH HEIGHT: on a free display; exports DISPLAY.
+# start_xvfb WIDTH HEIGHT: on a free display; exports DISPLAY. Keys do not repeat (-r): those that scripts press may be down for
+# long where the machine is slow.
 start_xvfb() {
     local number_file=$home_dir/display
     has Xvfb || die "Xvfb is not installed (package xvfb)"
     rm -f "$number_file"
     as_player touch "$number_file"
-    ( exec_as_player env HOME="$home_dir" Xvfb -displayfd 3 -screen 0 "$1x$2x24" -nolisten tcp -noreset 3>"$number_file" ) \
+    ( exec_as_player env HOME="$home_dir" Xvfb -displayfd 3 -screen 0 "$1x$2x24" -nolisten tcp -noreset -r 3>"$number_file" ) \
         </dev/null >"$log_dir/xvfb.log" 2>&1 &
     xvfb_pid=$!
     while [[ ! -s $number_file ]] && kill -0 "$xvfb_pid" 2>/dev/null; do sleep 0.05; done

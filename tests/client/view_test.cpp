@@ -93,7 +93,7 @@ protected:
             dup2(nothing, 2);
             const std::string descriptor = std::to_string(number[1]);
             execlp("Xvfb", "Xvfb", "-displayfd", descriptor.c_str(), "-screen", "0", "1280x960x24", "-nolisten", "tcp",
-                "-noreset", nullptr);
+                "-noreset", "-r", nullptr);
             _exit(127);
         }
         xvfb = Child(child);
