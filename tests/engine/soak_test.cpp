@@ -218,21 +218,20 @@ public:
             EXPECT_EQ(handles_[i], handles_[warm_up_rounds - 1]) << "open files after round " << i + 1;
     }
 
-    // The last third of the rounds against the one before: the median, which is most rounds' state, and the least,
-    // which holds least of what is only kept for a while. In the first third heaps fill with holes, until what is
-    // freed and what is asked for fit.
+    // The median of the last third of the rounds against that of the third before. In the first third heaps fill with
+    // holes, until what is freed and what is asked for fit. A single round, as the least, is off by several per cent:
+    // how much free memory lies between what is used hangs on the order in which threads asked for it.
     void expect_flat_memory() const
     {
         ASSERT_GE(memory_.size(), min_rounds);
         const size_t warm_up = std::max(warm_up_rounds, memory_.size() / 3);
         const auto begin = memory_.begin() + std::ptrdiff_t(warm_up),
                    middle = begin + std::ptrdiff_t((memory_.size() - warm_up) / 2);
-        const std::vector<double> before(begin, middle), after(middle, memory_.end());
+        const double before = find_median(std::vector<double>(begin, middle)),
+                     after = find_median(std::vector<double>(middle, memory_.end()));
         constexpr double mebibyte = 1 << 20;
-        std::printf("median %.1f MiB, then %.1f; least %.1f MiB, then %.1f\n", find_median(before) / mebibyte,
-            find_median(after) / mebibyte, std::ranges::min(before) / mebibyte, std::ranges::min(after) / mebibyte);
-        EXPECT_LT(find_median(after), find_median(before) * (1 + max_growth));
-        EXPECT_LT(std::ranges::min(after), std::ranges::min(before) * (1 + max_growth));
+        std::printf("median %.1f MiB, then %.1f\n", before / mebibyte, after / mebibyte);
+        EXPECT_LT(after, before * (1 + max_growth));
     }
 
 private:
