@@ -38,10 +38,15 @@ bool is_flat(TextureUse use) { return use == TextureUse::image; }
 
 bool may_have_maps(TextureUse use) { return use == TextureUse::wall || use == TextureUse::skin; }
 
-// Of the material of a texture that is asked for by this name.
-const MaterialSettings* find_settings(const MaterialLibrary* library, std::string_view name, TextureUse use)
+// Of the material of a texture that is asked for by this name; those that say nothing where it has none.
+const MaterialSettings& settings_of(const MaterialLibrary* library, std::string_view name, TextureUse use)
 {
-    return library ? library->find(formats::material_name(TextureFiles::original_paths(name, use).front())) : nullptr;
+    static const MaterialSettings none;
+    if (!library || !may_have_maps(use))
+        return none;
+    const MaterialSettings* found
+        = library->find(formats::material_name(TextureFiles::original_paths(name, use).front()));
+    return found ? *found : none;
 }
 
 // 2D is blended in display space; everything that is lit is read as linear light.
@@ -121,11 +126,9 @@ const Texture* TextureStore::find(std::string_view name, TextureUse use)
 // Whether this map's materials ask for other files than those that it was made of.
 bool TextureStore::is_outdated(const Texture& texture, std::string_view name) const
 {
-    if (!may_have_maps(texture.use) || texture.registration == registration_)
+    if (texture.registration == registration_)
         return false;
-    const MaterialSettings* settings = find_settings(library_, name, texture.use);
-    const MaterialSettings none;
-    const MaterialSettings& wanted = settings ? *settings : none;
+    const MaterialSettings& wanted = settings_of(library_, name, texture.use);
     return texture.base_file != wanted.base_file || texture.mask_file != wanted.mask_file;
 }
 
@@ -164,8 +167,8 @@ void TextureStore::touch(const Texture* texture)
 const Texture* TextureStore::find_map(std::string_view name, TextureUse use, TextureUse map)
 {
     const bool is_normals = map == TextureUse::normals;
-    const MaterialSettings* settings = find_settings(library_, name, use);
-    const std::string file = !settings ? "" : is_normals ? settings->normals_file : settings->emissive_file;
+    const MaterialSettings& settings = settings_of(library_, name, use);
+    const std::string& file = is_normals ? settings.normals_file : settings.emissive_file;
     if (file.empty())
         return find(TextureFiles::map_path(name, use, map), map);
     const Texture* found = find(file, map);
@@ -179,8 +182,8 @@ const Texture* TextureStore::find_emissive(std::string_view name, TextureUse use
     const Texture* found = find_map(name, use, TextureUse::emissive);
     if (found || use != TextureUse::skin) // walls shine in parts of the texture itself: FaceTexture::glows
         return found;
-    const MaterialSettings* settings = find_settings(library_, name, use);
-    return settings && settings->glow_threshold > 0 ? find_bright_texels(name, *settings) : nullptr;
+    const MaterialSettings& settings = settings_of(library_, name, use);
+    return settings.glow_threshold > 0 ? find_bright_texels(name, settings) : nullptr;
 }
 
 const Texture* TextureStore::find_bright_texels(std::string_view skin, const MaterialSettings& settings)
@@ -208,8 +211,7 @@ Texture* TextureStore::load(std::string_view name, TextureUse use)
     Texture described;
     described.name = name;
     described.use = use;
-    const MaterialSettings* settings = may_have_maps(use) ? find_settings(library_, name, use) : nullptr;
-    TextureWish wish = make_wish(settings ? *settings : MaterialSettings());
+    TextureWish wish = make_wish(settings_of(library_, name, use));
     if (may_have_maps(use)) {
         described.base_file = wish.file;
         described.mask_file = wish.mask;

@@ -29,6 +29,17 @@ protected:
         map_.add(rectangle({ 0, 0, 0 }, { 200, 0, 0 }, { 0, 200, 0 }), map_.add_material("floor"));
     }
     void add_lamp(uint16_t material) { map_.add(rectangle({ 0, 0, 100 }, { 0, 16, 0 }, { 16, 0, 0 }), material); }
+    // A lamp that goes with this lightstyle.
+    static constexpr int switched = 40;
+    void add_switched_map()
+    {
+        add_lamp(lamp_);
+        formats::Bsp bsp = map_.finish();
+        for (formats::BspFace& face : bsp.faces)
+            if (face.texinfo == lamp_)
+                face.styles[1] = switched;
+        folder_.add_map("lamps", bsp);
+    }
     // The dark picture and the lamp's take turns.
     void add_animated_map()
     {
@@ -60,26 +71,21 @@ protected:
 
 TEST_F(Lamps, GoWithTheirSwitch)
 {
-    add_lamp(lamp_);
-    formats::Bsp bsp = map_.finish();
-    for (formats::BspFace& face : bsp.faces)
-        if (face.texinfo == lamp_)
-            face.styles[1] = 40;
-    folder_.add_map("lamps", bsp);
+    add_switched_map();
     Session session(folder_, matte);
     session.load_map("lamps");
     const Light on = measure(session);
     EXPECT_NEAR(on.seen, 500 * 0.0095, 0.05);
     EXPECT_NEAR(on.on_floor / on.seen, form_factor, 0.0003);
-    session.light_style(40, 0.25f);
+    session.light_style(switched, 0.25f);
     const Light dim = measure(session);
     EXPECT_NEAR(dim.on_floor / on.on_floor, 0.25, 0.005);
     EXPECT_NEAR(dim.seen / on.seen, 0.25, 0.005);
-    session.light_style(40, 0);
+    session.light_style(switched, 0);
     const Light off = measure(session);
     EXPECT_EQ(off.on_floor, 0);
     EXPECT_EQ(off.seen, 0);
-    session.light_style(40, 1);
+    session.light_style(switched, 1);
     session.light_style(0, 0); // another one's
     EXPECT_NEAR(measure(session).on_floor / on.on_floor, 1, 0.005);
 }
@@ -205,15 +211,10 @@ TEST_F(Emission, GoesWithTheMaterial)
         EXPECT_NEAR(light.on_floor / light.seen, form_factor, 0.0003);
     }
     folder_.add_text("maps/lamps.mat", "lamp:\n    light_styles 0\n");
-    add_lamp(lamp_);
-    formats::Bsp bsp = map_.finish();
-    for (formats::BspFace& face : bsp.faces)
-        if (face.texinfo == lamp_)
-            face.styles[1] = 40;
-    folder_.add_map("lamps", bsp);
+    add_switched_map();
     Session session(folder_, matte);
     session.load_map("lamps");
-    session.light_style(40, 0);
+    session.light_style(switched, 0);
     const Light steady = measure(session);
     EXPECT_NEAR(steady.seen, 500 * 0.0095, 0.05);
     EXPECT_NEAR(steady.on_floor / steady.seen, form_factor, 0.0003);
