@@ -3,11 +3,13 @@
 
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/exports.hpp"
+#include "ref_vkpt/free_memory.hpp"
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/scene_contents.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 namespace vkpt {
 
@@ -258,6 +260,8 @@ void print_info()
     engine::print("memory (MiB)   geometry {:.1f}, acceleration {:.1f}, lights {:.1f}, images {:.1f}, staging {:.1f}",
         mib(info.geometry_bytes), mib(info.acceleration_bytes), mib(info.light_bytes), mib(info.image_bytes),
         mib(info.staging_bytes));
+    if (const std::optional<HeapMemory> heaps = measure_heaps())
+        engine::print("heaps (MiB)    {:.1f} used, {:.1f} free", mib(heaps->used), mib(heaps->free));
     if (info.nearest_rays + info.visibility_rays > 0)
         engine::print(
             "rays           {} for the nearest hit, {} for visibility", info.nearest_rays, info.visibility_rays);

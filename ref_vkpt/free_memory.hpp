@@ -6,11 +6,19 @@
 #include <chrono>
 #include <cstdint>
 #include <future>
+#include <optional>
 
 namespace vkpt {
 
 // Gives it back to the system.
 void give_back_free_memory();
+
+// Bytes that the process has asked of the C library and not freed, and those that lie free in its heaps.
+struct HeapMemory {
+    uint64_t used = 0, free = 0;
+};
+// None where the C library does not tell.
+std::optional<HeapMemory> measure_heaps();
 
 // Once what was loaded has long been in use.
 class FreeMemory {

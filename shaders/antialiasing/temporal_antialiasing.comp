@@ -15,6 +15,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Exp
 // each reading of it blurs, and reflections in it stay behind.
 const float max_frames = 32.0, max_moving_frames = 5.0;
 const float moving_pixels = 0.25;
+// By how much a frame makes the average worth more. At rest less than one: newer frames count for more, the last of n
+// for 2 / (n + 2), as the denoiser knows more of the light with each, and its first ones spread bright light into dark
+// lines.
+const float growth_at_rest = 0.5;
 // Standard deviations of the neighbourhood that the history may lie off its mean where the image moves. At rest it
 // may be all that the neighbourhood shows: of a lamp as small as a pixel most frames show one pixel in nine.
 const float max_deviations = 1.25;
@@ -160,7 +164,7 @@ void resolve_pixel(uvec2 pixel, uint index)
     float knee = moved * moving_knee * (exposure.v.valid != 0u ? exposure.v.exposure : 1.0);
     Neighbourhood now = look_around(ivec2(rendered), middle, knee);
     vec3 result = now.here;
-    float frames = now.certainty;
+    float frames = now.certainty; // that the result is worth
     Reach reach = Reach(now.brightest, 0u, 0u);
     if ((frame.flags & FRAME_HISTORY) != 0u && on_screen) {
         vec3 off = now.deviation * max_deviations;
@@ -181,8 +185,8 @@ void resolve_pixel(uvec2 pixel, uint index)
             known = luminance(limited) < 0.5 * luminance(old) ? quick_min(known, 1.0) : known;
             old = limited;
         }
-        frames += known;
-        result = mix(old, now.here, now.certainty / quick_max(frames, 1e-3));
+        result = mix(old, now.here, now.certainty / quick_max(known + now.certainty, 1e-3));
+        frames = known + mix(growth_at_rest, 1.0, moved) * now.certainty;
         frames = quick_min(frames, mix(max_frames, max_moving_frames, moved) - 1.0);
     }
     vec3 radiance = quick_min(expand(result, knee), vec3(60000.0)); // 16 bits end soon after

@@ -120,7 +120,7 @@ TEST_F(Filters, EveryTraceBackendGivesTheSamePicture)
         for (const std::string& backend : backends) {
             session_->set("pt_trace", backend);
             session_->load_map("room");
-            session_->draw(8);
+            session_->draw(24);
             const Radiance picture = session_->capture();
             EXPECT_EQ(count_broken(picture), 0u) << backend;
             if (first.pixels.empty())
