@@ -43,13 +43,28 @@ uint find_sample(uint index, PrimarySurface primary)
     return found;
 }
 
+// A repeated sample tells nothing new of light that has not changed. So where the last view found that next to none
+// has, a stratum repeats one in one view of four only: another of 2 x 2 strata each time, whose neighbours count for
+// it.
+const float min_changed = 0.05;
+// Frames that a pixel has been known for once its view, too, has compared repeated samples.
+const float min_compared_frames = 1.5;
+
+bool repeats_now(uvec2 stratum, uint number, uint there)
+{
+    uint turn = hash_pcg4(uvec4(stratum >> 1u, frame.frame_index, 0x2545f491u)).x >> 30u;
+    vec2 changed = changed_share_of_stratum(number);
+    return turn == ((stratum.x & 1u) | (stratum.y & 1u) << 1u) || max(changed.x, changed.y) >= min_changed
+        || unpack_moments(load_previous_moments(there)).frames.x < min_compared_frames;
+}
+
 void replay_stratum(uvec2 stratum, uint number)
 {
     uvec2 pixel = pixel_of_block(stratum_block(stratum), 0u);
     uint index = pixel_index(min(pixel, frame.size - 1u));
     PrimarySurface primary = load_primary_surface(index);
     uint there = primary.depth < 0.0 || !is_on_screen(pixel) ? no_pixel : find_sample(index, primary);
-    if (there == no_pixel) {
+    if (there == no_pixel || !repeats_now(stratum, number, there)) {
         store_replayed(number, vec2(-1.0));
         return;
     }

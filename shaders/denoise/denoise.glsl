@@ -80,12 +80,18 @@ BounceBlock stratum_block(uvec2 stratum)
 
 uvec2 stratum_pixel(uvec2 stratum) { return min(pixel_of_block(stratum_block(stratum), 0u), frame.size - 1u); }
 
-// How much of either lobe's light has changed around a pixel, by the repeated samples: 0 to 1.
+// How much of either lobe's light has changed around a stratum, by the repeated samples: 0 to 1.
+vec2 changed_share_of_stratum(uint number)
+{
+    vec4 gradient = load_gradient_b(number);
+    return quick_min(abs(gradient.xz) / quick_max(gradient.yw, vec2(1e-10)), vec2(1.0));
+}
+
+// The same around a pixel.
 vec2 changed_share(uvec2 pixel)
 {
     uvec2 stratum = divide_whole(pixel, stratum_size());
-    vec4 gradient = load_gradient_b(stratum.y * stratum_count().x + stratum.x);
-    return quick_min(abs(gradient.xz) / quick_max(gradient.yw, vec2(1e-10)), vec2(1.0));
+    return changed_share_of_stratum(stratum.y * stratum_count().x + stratum.x);
 }
 
 // main() for passes over strata: run(stratum, its number).

@@ -40,6 +40,17 @@ protected:
         return session;
     }
 
+    // Fifty lights, of these intensities.
+    void add_lights(float of_most, float of_one)
+    {
+        MapBuilder map;
+        map.add_room({ -256, -256, 0 }, { 256, 256, 256 }, map.add_material("wall"));
+        for (int i = 0; i < 49; i++)
+            map.add_point_light({ float(i % 7) * 60 - 180, float(i / 7) * 60 - 180, 250 }, of_most);
+        map.add_point_light({ 60, 40, 200 }, of_one);
+        folder_.add_map("lights", map.finish());
+    }
+
     // The wall right under a ledge is dark for a pixel or two, and bright below.
     void add_ledge()
     {
@@ -99,6 +110,28 @@ TEST_F(Denoiser, GradientOfAFrozenSceneIsZero)
     }
 }
 
+// A repeated sample is one less that tells something new: few are repeated while nothing changes.
+TEST_F(Denoiser, StillLightRepeatsFewSamples)
+{
+    add_lights(40, 40);
+    Session session(folder_,
+        { { "pt_light_sampler", "uniform" }, { "pt_seed", "0" }, { "pt_bounces", "0" }, { "flt_taa", "off" } },
+        { 320, 240 });
+    session.load_map("lights");
+    session.look({ -120, -100, 90 }, { 20, 20, 0 });
+    const Radiance reference = session.accumulate(600);
+    session.set("pt_accumulate", "0");
+    const auto error_of = [&](const char* mode) {
+        session.set("flt_denoiser", mode);
+        session.load_map("lights");
+        session.draw(24);
+        return error_between(session.capture(), reference);
+    };
+    const double excess = error_of("asvgf") / error_of("svgf") - 1;
+    RecordProperty("excess", std::to_string(excess));
+    EXPECT_LT(excess, 0.08); // .03; .25 with one pixel of nine
+}
+
 TEST_F(Denoiser, OnlyAsvgfFollowsALightThatGoesOut)
 {
     const auto share_left = [&](const char* mode, const char* pixels) {
@@ -152,12 +185,7 @@ double measure_grain(const Radiance& picture)
 // varies.
 TEST_F(Denoiser, SpreadsRareSamplesOfAFirstFrame)
 {
-    MapBuilder map;
-    map.add_room({ -256, -256, 0 }, { 256, 256, 256 }, map.add_material("wall"));
-    for (int i = 0; i < 49; i++)
-        map.add_point_light({ float(i % 7) * 60 - 180, float(i / 7) * 60 - 180, 250 }, 1);
-    map.add_point_light({ 60, 40, 200 }, 1000);
-    folder_.add_map("lights", map.finish());
+    add_lights(1, 1000);
     Session session(
         folder_, { { "pt_light_sampler", "uniform" }, { "pt_bounces", "0" }, { "flt_taa", "off" } }, { 160, 120 });
     session.set("flt_denoiser", "svgf");
