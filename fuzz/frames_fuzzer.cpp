@@ -139,15 +139,17 @@ private:
         }
     }
 
-    // The numbers as the engine's structure has them, but for the pointers.
+    // As the engine's structure has it, with handles that are anything or that there are.
     void add_entity(fuzz::Input& input)
     {
         if (entities_.size() == size_t(engine::max_entities))
             return;
         const auto which = input.take<uint8_t>();
         auto entity = input.take<engine::Entity>();
-        entity.model = models_[which % models_.size()];
-        entity.skin = which & 0x80 ? const_cast<Texture*>(skin_) : nullptr;
+        if (!(which & 0x40)) {
+            entity.model = models_[which % models_.size()];
+            entity.skin = which & 0x80 ? const_cast<Texture*>(skin_) : nullptr;
+        }
         entities_.push_back(entity);
     }
 

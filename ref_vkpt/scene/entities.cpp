@@ -143,7 +143,7 @@ void SnapshotBuilder::add_entity(const Entity& entity)
     if (entity.flags & RF_BEAM)
         return add_beam(entity);
     const auto* model = static_cast<const Model*>(entity.model);
-    if (!model || !model->registration) // a handle of an earlier map
+    if (!model)
         return add_null_model(entity);
     if (const auto* brush = std::get_if<Model::Brush>(&model->shape))
         add_brush(entity, *brush);
@@ -203,8 +203,6 @@ shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Mode
 {
     shared::Material material = plain_material();
     const Texture* skin = static_cast<const Texture*>(entity.skin);
-    if (skin && !skin->registration) // a handle of an earlier map
-        skin = nullptr;
     if (!skin && !part.skins.empty()) {
         const size_t number = size_t(std::max(entity.skin_number, 0));
         skin = part.skins[number < part.skins.size() ? number : 0];

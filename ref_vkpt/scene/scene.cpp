@@ -12,6 +12,7 @@
 #include "ref_vkpt/pass_statistics.hpp"
 #include "ref_vkpt/scene/entities.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
+#include "ref_vkpt/scene/handles.hpp"
 #include "ref_vkpt/scene/screens.hpp"
 
 #include <algorithm>
@@ -499,10 +500,24 @@ MapLights& Scene::map_lights()
     return *map_lights_;
 }
 
+Scene::CheckedView Scene::check_handles(const engine::RefDef& refdef) const
+{
+    CheckedView view { { refdef.entities, refdef.entities + refdef.entity_count }, refdef };
+    for (engine::Entity& entity : view.entities) {
+        const Model* model = find_handle(entity.model, models_.data(), models_.size());
+        entity.model = model && model->registration != 0 ? const_cast<Model*>(model) : nullptr;
+        entity.skin = const_cast<Texture*>(textures_.of_handle(entity.skin));
+    }
+    view.refdef.entities = view.entities.data();
+    return view;
+}
+
 SceneSnapshot Scene::take_snapshot(
-    const engine::RefDef& refdef, ViewLights& lights, const engine::RefDef* player, bool looks_around)
+    const engine::RefDef& given, ViewLights& lights, const engine::RefDef* player, bool looks_around)
 {
     const CvarValues& cvars = cvars::values();
+    const CheckedView checked = check_handles(given), checked_player = check_handles(player ? *player : given);
+    const engine::RefDef &refdef = checked.refdef, &eye = checked_player.refdef;
     SceneSnapshot snapshot;
     snapshot.looks_around = looks_around;
     snapshot.time = refdef.time;
@@ -526,13 +541,13 @@ SceneSnapshot Scene::take_snapshot(
         if (cvars.pt_cameras != 0)
             snapshot.screens = find_screens(*world_, materials_, refdef.time, snapshot.materials);
         snapshot.sky = make_sky(refdef.time);
-        player_body = find_player_body(player ? *player : refdef);
+        player_body = find_player_body(eye);
         for (engine::Entity& part : player_body)
             part.flags &= player ? ~engine::RF_VIEWERMODEL : ~0;
         world_->animated_lights.append_rows(snapshot.lightstyles, refdef.time);
         add_suns(snapshot, find_suns_of_moment(snapshot.sky), sky_.average);
         if (cvars.pt_flashlight != 0)
-            snapshot.emitters.push_back(make_flashlight(player ? *player : refdef));
+            snapshot.emitters.push_back(make_flashlight(eye));
     }
     add_entities(snapshot, refdef, player_body, textures_, defaults);
     if (snapshot.world)

@@ -97,6 +97,12 @@ private:
     void find_textures(Model& model);
     shared::Sky make_sky(float time) const;
     Model* find_model(std::string_view name);
+    // A refdef whose entities have no handles but those of this map, or nullptr.
+    struct CheckedView {
+        std::vector<engine::Entity> entities;
+        engine::RefDef refdef;
+    };
+    CheckedView check_handles(const engine::RefDef& refdef) const;
     std::vector<engine::Entity> find_player_body(const engine::RefDef& refdef);
     void find_sky_sun();
     void set_physical_sky();

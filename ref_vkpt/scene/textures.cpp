@@ -5,6 +5,7 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/scene/bright_parts.hpp"
+#include "ref_vkpt/scene/handles.hpp"
 #include "ref_vkpt/scene/material_library.hpp"
 #include "ref_vkpt/scene/normal_maps.hpp"
 
@@ -370,6 +371,12 @@ void TextureStore::end_registration()
     for (size_t i = 0; i < capacity_; i++)
         if (entries_[i].registration != 0 && is_unused(entries_[i]))
             release(entries_[i]);
+}
+
+const Texture* TextureStore::of_handle(const void* handle) const
+{
+    const Texture* texture = find_handle(handle, entries_.get(), capacity_);
+    return texture && texture->registration != 0 ? texture : nullptr;
 }
 
 void TextureStore::release(Texture& texture)

@@ -73,6 +73,9 @@ public:
     // Marks a texture found earlier as used by this map.
     void touch(const Texture* texture);
 
+    // nullptr: the handle is none of this store's, or of an earlier map.
+    const Texture* of_handle(const void* handle) const;
+
     const Texture& white() const { return *white_; }
     // The game's. Alpha of entry 255 is 0.
     const formats::Palette& palette() const { return files_.palette(); }

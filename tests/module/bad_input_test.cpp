@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 namespace vkpt::tests {
 namespace {
@@ -194,6 +196,35 @@ TEST_F(BadInput, HandlesOfAnEarlierMapAreDrawnAsPlaceholders)
         session.draw();
         EXPECT_FALSE(session.capture() == empty);
     }
+}
+
+// The engine keeps explosions' handles over a restart of video: what they point at is gone with the module that made
+// them.
+TEST_F(BadInput, HandlesOfAnEarlierModuleAreDrawnAsPlaceholders)
+{
+    Session& session = start();
+    const std::string cube = folder_.add_cube("cube", 8, red_index);
+    session.files().add_file(cube, folder_.path() / "baseq2" / cube);
+    expect_good_map_works();
+    void* const model = session.module().register_model(cube.c_str());
+    ASSERT_TRUE(model);
+    const Radiance empty = session.capture();
+    const long page = sysconf(_SC_PAGESIZE);
+    void* const gone = mmap(nullptr, size_t(page), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    ASSERT_NE(gone, MAP_FAILED);
+    for (void* const handle : { gone, static_cast<void*>(static_cast<char*>(model) + 8) }) {
+        engine::Entity entities[] = { make_entity(handle, { 0, 0, 40 }), make_entity(model, { 40, 0, 40 }) };
+        entities[1].skin = handle;
+        engine::Entity weapon = make_entity(handle, { 0, 0, 40 }, engine::RF_WEAPONMODEL);
+        for (engine::Entity* const shown : { &entities[0], &entities[1], &weapon }) {
+            session.view.entities = shown;
+            session.view.entity_count = 1;
+            session.draw();
+            EXPECT_FALSE(session.capture() == empty);
+        }
+    }
+    session.view.entity_count = 0;
+    munmap(gone, size_t(page));
 }
 
 // What the engine's entities may hold after a network hiccup.
