@@ -16,7 +16,7 @@ Draws frames of our map and of our demo on GPUs that are not there: Debian's mes
 driver compiles every shader and records every command, and nothing is executed. So pictures and times mean nothing; what counts is
 that every call is valid (the validation layer is on), that nothing fails, and what the compiler made of each pass: a table of
 registers, spills, code size and waves. What is over its budget in scripts/gpu_budgets.txt fails: a pass, and the device memory that
-our map takes at 1920x1080, measured with query.
+our map takes at two sizes, measured with query.
 
   GPU      navi21 navi31 vangogh vega10 raven polaris10 (AMD)
   BACKEND  software, query, pipeline, or auto: what the module takes by itself
@@ -96,16 +96,16 @@ draw() {
         --set pt_trace="$2" --set pt_validation=1 --set flt_denoiser=asvgf --set flt_taa=upscale
 }
 
-# check_memory GPU: what our map takes of the device's memory at 1920x1080 with the default settings, where there is a budget for it.
+# check_memory GPU: what our map takes of the device's memory with the default settings, at the sizes where there is a budget for it.
 check_memory() {
-    local most taken
-    most=$(awk -v gpu="$1" '$1 == gpu && $2 == "memory" { print $3 }' "$budgets")
-    [[ -n $most ]] || return
-    run_on "$1" "$vkpt" bench maps/vkpt1.bsp --basedir "$base_folder" --size 1920x1080 --frames 2 --warmup 0 --set pt_trace=query
-    taken=$(sed -nE 's/^memory +([0-9]+) MiB of the device.*/\1/p' "$folder/console")
-    [[ -n $taken ]] || { fail "$1: memory was not measured: $(tail -n 4 "$folder/console")"; return; }
-    say "$1: $taken MiB of the device at 1920x1080"
-    ((taken <= most)) || fail "$1: $taken MiB of the device at 1920x1080, budget $most"
+    local size most taken
+    while read -r size most; do
+        run_on "$1" "$vkpt" bench maps/vkpt1.bsp --basedir "$base_folder" --size "$size" --frames 2 --warmup 0 --set pt_trace=query
+        taken=$(sed -nE 's/^memory +([0-9]+) MiB of the device.*/\1/p' "$folder/console")
+        [[ -n $taken ]] || { fail "$1: memory was not measured: $(tail -n 4 "$folder/console")"; continue; }
+        say "$1: $taken MiB of the device at $size"
+        ((taken <= most)) || fail "$1: $taken MiB of the device at $size, budget $most"
+    done < <(awk -v gpu="$1" '$1 == gpu && $2 == "memory" { print $3, $4 }' "$budgets")
 }
 
 # A line a pass from the driver's figures: PASS VGPRS SGPRS SPILLED CODE SCRATCH WAVES. Of the parts of a ray pipeline the most

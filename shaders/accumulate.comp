@@ -15,7 +15,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Dar
 ReflectedLight reflected_light(uvec2 pixel, uint index, Surface surface)
 {
     if ((frame.flags & FRAME_DENOISED) == 0u)
-        return load_reflected_light(index);
+        return fetch_reflected_light(index);
     FilteredLight light;
     if (frame.cvars.flt_denoiser == DENOISER_TEMPORAL)
         light = unpack_filtered(load_filtered(index));
@@ -52,7 +52,7 @@ vec3 shown_light(ReflectedLight light, Surface surface)
 // How wrong the light cache is there, which is all that indirect_light has stored (FRAME_CACHE_BIAS).
 vec3 cache_bias(uint index, PrimarySurface primary)
 {
-    ReflectedLight bias = load_reflected_light(index);
+    ReflectedLight bias = fetch_reflected_light(index);
     return primary.depth < 0.0
         ? vec3(0.0)
         : unpack_light3(load_throughput(index)) * (primary.surface.albedo * bias.diffuse + bias.specular);
@@ -60,7 +60,7 @@ vec3 cache_bias(uint index, PrimarySurface primary)
 
 vec3 compose_radiance(uvec2 pixel, uint index, PrimarySurface primary)
 {
-    vec3 radiance = load_emitted(index);
+    vec3 radiance = unpack_floats3(load_emitted(index));
     if (primary.depth >= 0.0)
         radiance += unpack_light3(load_throughput(index))
             * shown_light(reflected_light(pixel, index, primary.surface), primary.surface);

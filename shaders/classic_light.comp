@@ -83,7 +83,8 @@ void light_pixel(uvec2 pixel, uint index)
     if (primary.depth < 0.0)
         return;
     vec3 light = find_baked_light(primary.surface) * primary.surface.albedo;
-    store_emitted(index, load_emitted(index) + unpack_light3(load_throughput(index)) * light);
+    vec3 emitted = unpack_floats3(load_emitted(index)) + unpack_light3(load_throughput(index)) * light;
+    store_emitted(index, pack_floats3(emitted));
     store_position(index, vec4(primary.surface.position, DEPTH_UNLIT));
     add_traced_rays(index);
 }

@@ -9,14 +9,14 @@
 
 void light_pixel(uvec2 pixel, uint index)
 {
-    ReflectedLight light = ReflectedLight(vec3(0.0), vec3(0.0));
+    ReflectedLight light = no_reflected_light;
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth >= 0.0) {
         LightRandom random = light_random(random_of_pixel(pixel, index), 0u);
         light = sample_direct_light(primary.surface, primary.cluster, random, bsdf_ray_count() > 0u);
         add_traced_rays(index);
     }
-    store_reflected_light(index, light);
+    keep_reflected_light(index, light);
 }
 
 VKPT_RUN_OVER_PIXELS(light_pixel)

@@ -5,7 +5,6 @@
 // One pixel of 2 x 2; accumulate.comp spreads it over the others.
 #include "lib/frame.glsl"
 #include "lib/fog.glsl"
-#include "lib/packing.glsl"
 #include "lib/pixel_random.glsl"
 #include "lib/reprojection.glsl"
 #include "lib/scattered_light.glsl"
@@ -50,7 +49,7 @@ void march_pixel(uvec2 half_pixel, uint half_index)
     }
     float phase = henyey_greenstein(dot(ray.direction, frame.scene.to_sun));
     vec3 light = frame.scene.sun_irradiance * (sum * step * phase * frame.cvars.pt_god_rays);
-    store_scattered(half_index, uvec2(pack_light2(light.xy), pack_light2(vec2(light.z, length))));
+    store_scattered(half_index, vec4(light, length));
     add_traced_rays(pixel_index(pixel));
 }
 

@@ -105,7 +105,7 @@ vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixe
             lights = static_lights(list);
         else if (known)
             lights = dynamic_lights(list);
-        ReflectedLight direct = ReflectedLight(vec3(0.0), vec3(0.0));
+        ReflectedLight direct = no_reflected_light;
         if (light_count(lights) > 0u)
             direct = sample_lights(lights, path.surface, random, !known && path.vertex < bsdf_ray_count());
         vec3 traced = direct.diffuse * path.surface.albedo + direct.specular;
@@ -252,15 +252,17 @@ FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary)
 void add_light(uint index, Surface s, FoundLight found, float scale)
 {
     store_specular_hit_distance(index, found.specular_hit_distance);
-    if (shows_cache_bias())
-        store_reflected_light(index, ReflectedLight(vec3(0.0), vec3(0.0)));
-    if (found.pdf <= 0.0)
+    bool bias_alone = shows_cache_bias();
+    if (found.pdf <= 0.0 && !bias_alone)
         return;
-    BsdfValue reflected = evaluate_bsdf(s, found.direction);
-    vec3 radiance = found.radiance * (scale / found.pdf);
-    ReflectedLight light = load_reflected_light(index);
-    store_reflected_light(index,
-        ReflectedLight(light.diffuse + reflected.diffuse * radiance, light.specular + reflected.specular * radiance));
+    ReflectedLight light = bias_alone ? no_reflected_light : fetch_reflected_light(index);
+    if (found.pdf > 0.0) {
+        BsdfValue reflected = evaluate_bsdf(s, found.direction);
+        vec3 radiance = found.radiance * (scale / found.pdf);
+        light.diffuse += reflected.diffuse * radiance;
+        light.specular += reflected.specular * radiance;
+    }
+    keep_reflected_light(index, light);
 }
 
 // Narrower lobes reflect something else one pixel on: such surfaces send rays of their own.
@@ -282,7 +284,7 @@ bool was_seen(uvec2 pixel)
         return false;
     uint index = pixel_index(pixel), there;
     ReprojectionQuery query
-        = make_query(load_features(index), unpack_upper_halves(load_depth_gradient(index)), load_reprojected(index));
+        = make_query(load_features(index), unpack_upper_halves(load_depth_gradient(index)), fetch_place(index));
     return shows_surface(query, nearest_in_last_view(query.shown.xy), there);
 }
 

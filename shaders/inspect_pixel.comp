@@ -25,8 +25,9 @@ LightRandom choice_random(uint n, uint lane)
 void write_surface(PrimarySurface primary, uint light_count, uint choices)
 {
     Surface s = primary.surface;
-    InspectedSurfaceBuffer(push.surface).v = InspectedSurface(s.position, primary.depth, s.normal, s.roughness,
-        s.geometric_normal, s.metallic, s.albedo, primary.cluster, load_emitted(push.pixel), light_count, choices);
+    InspectedSurfaceBuffer(push.surface).v
+        = InspectedSurface(s.position, primary.depth, s.normal, s.roughness, s.geometric_normal, s.metallic, s.albedo,
+            primary.cluster, unpack_floats3(load_emitted(push.pixel)), light_count, choices);
 }
 
 // All but `picked`, which every lane counts up.

@@ -200,7 +200,7 @@ void store_place(Sight sight, Path path, vec3 seen, vec3 moved)
 {
     ScreenPoint before
         = project(frame.previous_camera, frame.camera.eye + seen - mirrored(path, moved), frame.previous_size);
-    store_reprojected(sight.index, vec3(place_in_last_view(before, sight.offset), before.depth));
+    store_reprojected(sight.index, pack_place(place_in_last_view(before, sight.offset), before.depth));
 }
 
 // How depth changes over the image, of the plane there.
@@ -386,7 +386,7 @@ void see_pixel(uvec2 pixel, uint index)
         store_reprojection(sight, path);
     if ((frame.flags & FRAME_REPLAYED) != 0u)
         store_random_seed(index, uvec2(join_halves(pixel), frame.frame_index));
-    store_emitted(index, path.emitted);
+    store_emitted(index, pack_floats3(path.emitted));
     store_throughput(index, pack_light3(path.throughput) | uvec2(0u, other_layers_bits(path.layers)));
     if (!path.reached_surface) {
         store_position(index, vec4(path.ray.direction, path.unlit_depth));
@@ -395,7 +395,7 @@ void see_pixel(uvec2 pixel, uint index)
     store_position(index, vec4(path.hit.surface.position, path.path_length));
     store_surface(index, path.hit);
     if (frame.cvars.pt_debug_view == DEBUG_VIEW_CACHE)
-        store_emitted(index, show_light_cache(path.hit));
+        store_emitted(index, pack_floats3(show_light_cache(path.hit)));
 }
 
 VKPT_RUN_OVER_PIXELS(see_pixel)

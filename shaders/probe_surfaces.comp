@@ -10,7 +10,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pro
 
 void place_probe(uvec2 pixel, uint index)
 {
-    store_emitted(index, vec3(0.0));
+    store_emitted(index, pack_floats3(vec3(0.0)));
     store_throughput(index, pack_light3(vec3(1.0)));
     store_position(index, vec4(0.0, 0.0, 0.0, -1.0));
     if (index >= frame.probe_count)

@@ -28,7 +28,7 @@ const uint no_pixel = 0xffffffffu;
 // pixels share rays, one of the block.
 uint find_sample(uint index, PrimarySurface primary)
 {
-    ivec2 place = nearest_in_last_view(load_reprojected(index).xy);
+    ivec2 place = nearest_in_last_view(fetch_place(index).xy);
     if (!is_in_last_view(place))
         return no_pixel;
     BounceBlock block = bounce_block_of(uvec2(place));
@@ -50,12 +50,12 @@ const float min_changed = 0.05;
 // Frames that a pixel has been known for once its view, too, has compared repeated samples.
 const float min_compared_frames = 1.5;
 
-bool repeats_now(uvec2 stratum, uint number, uint there)
+bool repeats_now(uvec2 stratum, uint number, Moments known)
 {
     uint turn = hash_pcg4(uvec4(stratum >> 1u, frame.frame_index, 0x2545f491u)).x >> 30u;
     vec2 changed = changed_share_of_stratum(number);
     return turn == ((stratum.x & 1u) | (stratum.y & 1u) << 1u) || max(changed.x, changed.y) >= min_changed
-        || unpack_moments(load_previous_moments(there)).frames.x < min_compared_frames;
+        || known.frames.x < min_compared_frames;
 }
 
 void replay_stratum(uvec2 stratum, uint number)
@@ -64,12 +64,12 @@ void replay_stratum(uvec2 stratum, uint number)
     uint index = pixel_index(min(pixel, frame.size - 1u));
     PrimarySurface primary = load_primary_surface(index);
     uint there = primary.depth < 0.0 || !is_on_screen(pixel) ? no_pixel : find_sample(index, primary);
-    if (there == no_pixel || !repeats_now(stratum, number, there)) {
+    Moments known = unpack_moments(load_previous_moments(there == no_pixel ? 0u : there));
+    if (there == no_pixel || !repeats_now(stratum, number, known)) {
         store_replayed(number, vec2(-1.0));
         return;
     }
-    ReflectedLight before = load_reflected_light(there);
-    store_replayed(number, vec2(luminance(before.diffuse), luminance(before.specular)));
+    store_replayed(number, known.newest);
     store_position(index, vec4(load_previous_position(there).xyz, primary.depth));
     store_normals(index, load_previous_normals(there));
     store_surface(index, load_previous_surface(there));

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <type_traits>
 
 namespace vkpt {
 
@@ -11,23 +10,17 @@ namespace {
 
 uint32_t area(glm::uvec2 size) { return size.x * size.y; }
 
-// CPU drivers read and write 64-bit words.
-template <class Element> constexpr size_t element_bytes(bool gpu_lanes)
-{
-    return std::is_same_v<Element, glm::vec3> && !gpu_lanes ? sizeof(glm::vec4) : sizeof(Element);
-}
-
 // By name.
 namespace bytes_of {
 using namespace shared;
-#define VKPT_SCREEN_BUFFER(type, name)                                                                                 \
-    constexpr size_t name(bool gpu_lanes) { return element_bytes<type>(gpu_lanes); }
+#define VKPT_SCREEN_BUFFER(type, name) constexpr size_t name = sizeof(type);
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
 } // namespace bytes_of
+// What is read as texels is read as its lender's.
 #define VKPT_SCREEN_BUFFER(type, name)
 #define VKPT_BORROWED_BUFFER(type, name, lender)                                                                       \
-    static_assert(bytes_of::name(true) <= bytes_of::lender(true) && bytes_of::name(false) <= bytes_of::lender(false));
+    static_assert(bytes_of::name == bytes_of::lender || bytes_of::name == sizeof(uint32_t));
 #include "shaders/shared/screen_buffers.def"
 #undef VKPT_SCREEN_BUFFER
 
@@ -89,9 +82,7 @@ void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::
         return shared::ScreenBuffer { buffer.address(), row, 0 };
     };
     using namespace shared;
-    const bool gpu_lanes = gpu.device.traits.gpu_lanes;
-#define VKPT_ROW(type, name, elements)                                                                                 \
-    rows_.name = renew_row(row_##name, elements, element_bytes<type>(gpu_lanes), #name);
+#define VKPT_ROW(type, name, elements) rows_.name = renew_row(row_##name, elements, sizeof(type), #name);
 #define VKPT_SCREEN_BUFFER(type, name) VKPT_ROW(type, name, room.pixels)
 #define VKPT_STRATUM_BUFFER(type, name) VKPT_ROW(type, name, room.strata)
 #define VKPT_COUNTED_BUFFER(type, name) VKPT_ROW(type, name, room.counted_pixels)

@@ -8,6 +8,7 @@
 #include "../lib/frame.glsl"
 #include "../lib/bsdf.glsl"
 #include "../lib/packing.glsl"
+#include "../lib/reprojection.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
@@ -154,7 +155,7 @@ void resolve_pixel(uvec2 pixel, uint index)
 {
     vec2 middle = (vec2(pixel) + 0.5) * vec2(frame.size) / vec2(frame.resolved_size);
     uvec2 rendered = min(uvec2(whole_to_int(floor(middle))), frame.size - 1u);
-    vec2 place = load_reprojected(pixel_index(rendered)).xy;
+    vec2 place = fetch_place(pixel_index(rendered)).xy;
     vec2 way = (place + 0.5) / vec2(frame.previous_size) - (vec2(rendered) + 0.5) / vec2(frame.size);
     place = vec2(pixel) + way * vec2(frame.resolved_size);
     bool on_screen = all(greaterThanEqual(place, vec2(-0.5))) && all(lessThan(place, vec2(frame.resolved_size) - 0.5));
@@ -173,7 +174,7 @@ void resolve_pixel(uvec2 pixel, uint index)
         vec3 old = sample_history(place, knee);
         bool is_expected = false;
         if (is_at_rest) {
-            reach = unpack_reach(load_previous_reach(index));
+            reach = unpack_reach(load_reach(index));
             is_expected = update_reach(reach, now.brightest);
         }
         vec3 limited = quick_min(quick_max(old, lowest), highest);

@@ -6,6 +6,7 @@
 #define VKPT_LIB_DENOISE
 
 #include "../lib/bounce_blocks.glsl"
+#include "../lib/reflected_light.glsl"
 #include "../lib/reprojection.glsl"
 #include "../lib/surfaces.glsl"
 
@@ -104,6 +105,7 @@ struct Moments {
     vec2 specular;
     vec2 frames; // how many the light's average is worth: diffuse, specular
     float specular_hit_distance; // average, to what the specular lobe shows; 0: unknown
+    vec2 newest; // luminance of the newest sample as it was taken: diffuse, specular
 };
 
 // Frames are kept in 8 bits each: up to 36 of them, in sevenths.
@@ -113,13 +115,15 @@ uvec4 pack_moments(Moments m)
 {
     ivec2 frames = min(whole_to_int(floor(m.frames * frame_parts + 0.5)), 255);
     return uvec4(pack_light2(m.diffuse), pack_light2(m.specular),
-        light16_bits(m.specular_hit_distance) | (uint(frames.x) << 16u) | (uint(frames.y) << 24u), 0u);
+        light16_bits(m.specular_hit_distance) | (uint(frames.x) << 16u) | (uint(frames.y) << 24u),
+        pack_light2(m.newest));
 }
 
 Moments unpack_moments(uvec4 bits)
 {
     return Moments(unpack_light2(bits.x), unpack_light2(bits.y),
-        vec2((bits.z >> 16u) & 255u, bits.z >> 24u) * (1.0 / frame_parts), unpack_light2(bits.z).x);
+        vec2((bits.z >> 16u) & 255u, bits.z >> 24u) * (1.0 / frame_parts), unpack_light2(bits.z).x,
+        unpack_light2(bits.w));
 }
 
 #endif

@@ -13,8 +13,7 @@ void compare_stratum(uvec2 stratum, uint number)
     uvec2 pixel = stratum_pixel(stratum);
     uint index = pixel_index(pixel);
     if (before.x >= 0.0 && is_own_sample(load_random_seed(index))) {
-        ReflectedLight light = load_reflected_light(index);
-        vec2 now = vec2(luminance(light.diffuse), luminance(light.specular));
+        vec2 now = unpack_light2(pack_light2(luminances(fetch_reflected_light(index)))); // as `before` was kept
         vec2 change = now - before, greater = max(now, before);
         gradient = vec4(change.x, greater.x, change.y, greater.y);
         if (any(isnan(gradient)) || any(isinf(gradient)))

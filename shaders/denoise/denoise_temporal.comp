@@ -55,8 +55,8 @@ void add_layer_history(inout History sum, inout float total, ReprojectionQuery q
 // to look for what the surface showed. Its moments are mean and mean square.
 History find_history(uint index, ReprojectionQuery query, vec2 at)
 {
-    History none
-        = History(FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0), 0.0));
+    History none = History(
+        FilteredLight(vec3(0.0), 0.0, vec3(0.0), 0.0), Moments(vec2(0.0), vec2(0.0), vec2(0.0), 0.0, vec2(0.0)));
     if ((frame.flags & FRAME_HISTORY) == 0u)
         return none;
     at = clamp(at, vec2(-2.0), vec2(frame.previous_size) + 2.0);
@@ -118,12 +118,12 @@ vec3 limit_firefly(vec3 light, vec3 known, float frames, float changed)
 // stayed dark: anti-aliasing's jitter takes its history away in most frames.
 ReflectedLight light_around(uvec2 pixel)
 {
-    ReflectedLight sum = ReflectedLight(vec3(0.0), vec3(0.0));
+    ReflectedLight sum = no_reflected_light;
     ROLLED_FOR (int tap = 0; tap < 9; tap++) {
         uvec2 at = uvec2(ivec2(pixel) + (ivec2(tap % 3, tap / 3) - 1) * 2);
         if (tap == 4 || !is_on_screen(at))
             continue;
-        ReflectedLight light = load_reflected_light(pixel_index(at));
+        ReflectedLight light = fetch_reflected_light(pixel_index(at));
         bool nonfinite = is_nonfinite(light.diffuse) || is_nonfinite(light.specular);
         sum.diffuse += nonfinite ? vec3(0.0) : light.diffuse * 0.125;
         sum.specular += nonfinite ? vec3(0.0) : light.specular * 0.125;
@@ -209,14 +209,15 @@ void accumulate_pixel(uvec2 pixel, uint index)
     }
     Surface surface; // its material alone
     unpack_material(load_surface(index), surface);
-    ReflectedLight reflected = load_reflected_light(index);
+    ReflectedLight reflected = fetch_reflected_light(index);
+    vec2 newest = luminances(reflected);
     vec3 diffuse = reflected.diffuse, specular = reflected.specular / specular_tint(surface);
     if (is_nonfinite(diffuse) || is_nonfinite(specular)) {
         count_nonfinite_pixel();
         diffuse = specular = vec3(0.0); // or it would stay in the history
     }
     uint depth_gradient = load_depth_gradient(index);
-    ReprojectionQuery query = make_query(features, unpack_upper_halves(depth_gradient), load_reprojected(index));
+    ReprojectionQuery query = make_query(features, unpack_upper_halves(depth_gradient), fetch_place(index));
     History history = find_history(index, query, query.shown.xy);
     float specular_hit_distance = update_specular_hit_distance(index, history.moments.specular_hit_distance);
     vec3 direction = perspective_direction(pixel, frame.pixel_offset);
@@ -254,7 +255,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
     store_light(index, pack_filtered(light));
     store_moments(index,
         pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),
-            vec2(specular_moments.x, sqrt(specular_moments.y)), frames, specular_hit_distance)));
+            vec2(specular_moments.x, sqrt(specular_moments.y)), frames, specular_hit_distance, newest)));
     // One ray's distance tells little: beside an edge it ends near, and light that mixes with no neighbours is a speck.
     if (frames.y < min_frames && specular_hit_distance > 0.0)
         reach = find_lobe_reach(surface.roughness, path_length, quick_max(specular_hit_distance, path_length));

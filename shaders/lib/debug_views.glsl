@@ -29,7 +29,7 @@ vec3 unavailable_colour(uvec2 pixel) { return vec3((pixel.x + pixel.y) / 8u % 2u
 // Direction as hue, distance as brightness: 16 pixels a frame are full.
 vec3 motion_colour(uvec2 pixel, uint index)
 {
-    vec2 moved = vec2(pixel) - load_reprojected(index).xy;
+    vec2 moved = vec2(pixel) - fetch_place(index).xy;
     if (dot(moved, moved) > 1e8)
         return vec3(0.0); // it was behind the camera
     float turn = atan(moved.y, moved.x) / 6.2831853;
@@ -82,7 +82,7 @@ vec3 debug_colour(int view, uvec2 pixel, uint index, float exposure)
     const float max_rays = 16.0, longest_list = 256.0;
     PrimarySurface primary = load_primary_surface(index);
     if (view == DEBUG_VIEW_EMISSION || view == DEBUG_VIEW_CACHE) // see primary_visibility
-        return load_emitted(index);
+        return unpack_floats3(load_emitted(index));
     if (view == DEBUG_VIEW_CACHE_BIAS)
         return (frame.flags & FRAME_CACHE_BIAS) != 0u ? cache_bias_colour(index, exposure) : unavailable_colour(pixel);
     if (view == DEBUG_VIEW_RAYS)
@@ -102,7 +102,7 @@ vec3 debug_colour(int view, uvec2 pixel, uint index, float exposure)
     case DEBUG_VIEW_LIST_LENGTH:
         return heat_colour(float(light_count(open_light_list(light_tables(), primary.cluster))) / longest_list);
     case DEBUG_VIEW_IRRADIANCE:
-        return load_reflected_light(index).diffuse;
+        return fetch_reflected_light(index).diffuse;
     case DEBUG_VIEW_ROUGHNESS:
         return vec3(s.roughness, s.metallic, 0.0);
     }

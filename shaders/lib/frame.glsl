@@ -44,7 +44,6 @@ VKPT_ELEMENT(uint)
 #undef VKPT_ELEMENT
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ElementWords { uint64_t v[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PackedVectors { vec3 v[]; };
 
 uvec2 load_element(uint64_t address, uint index, uvec2 unused) { return unpack32(ElementWords(address).v[index]); }
 void store_element(uint64_t address, uint index, uvec2 value) { ElementWords(address).v[index] = pack64(value); }
@@ -60,21 +59,6 @@ void store_element(uint64_t address, uint index, uvec4 value)
 }
 void store_element(uint64_t address, uint index, vec2 value) { store_element(address, index, floatBitsToUint(value)); }
 void store_element(uint64_t address, uint index, vec4 value) { store_element(address, index, floatBitsToUint(value)); }
-// On the CPU driver 16 bytes apart.
-void store_element(uint64_t address, uint index, vec3 value)
-{
-    if (has_gpu_lanes)
-        PackedVectors(address).v[index] = value;
-    else
-        store_element(address, index, vec4(value, 0.0));
-}
-void store_element(uint64_t address, uint index, ReflectedLight value)
-{
-    uint64_t words = address + uint64_t(index * 24u);
-    store_element(words, 0u, value.diffuse.xy);
-    store_element(words, 1u, vec2(value.diffuse.z, value.specular.x));
-    store_element(words, 2u, value.specular.yz);
-}
 
 // An element of a screen buffer. Texels may be fetched at any time: a pass must not load what it has stored.
 layout(set = 3, binding = 0) uniform utextureBuffer screen_texels[SCREEN_BUFFER_COUNT];
@@ -99,18 +83,6 @@ vec4 load_element(ScreenBuffer buffer_, uint index, vec4 unused)
 }
 uint load_element(ScreenBuffer buffer_, uint index, uint unused) { return load_element(buffer_.address, index, 0u); }
 float load_element(ScreenBuffer buffer_, uint index, float unused) { return load_element(buffer_.address, index, 0.0); }
-vec3 load_element(ScreenBuffer buffer_, uint index, vec3 unused)
-{
-    return has_gpu_lanes ? PackedVectors(buffer_.address).v[index] : load_element(buffer_, index, vec4(0.0)).xyz;
-}
-ReflectedLight load_element(ScreenBuffer buffer_, uint index, ReflectedLight unused)
-{
-    uint64_t words = buffer_.address + uint64_t(index * 24u);
-    vec2 a = uintBitsToFloat(load_element(words, 0u, uvec2(0u))),
-         b = uintBitsToFloat(load_element(words, 1u, uvec2(0u))),
-         c = uintBitsToFloat(load_element(words, 2u, uvec2(0u)));
-    return ReflectedLight(vec3(a, b.x), vec3(b.y, c));
-}
 
 // load_NAME(pixel index) and store_NAME(pixel index, value) for every screen buffer
 #define VKPT_SCREEN_BUFFER(type, name)                                                                                 \

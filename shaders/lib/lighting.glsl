@@ -9,6 +9,7 @@
 
 #include "filtered_rays.glsl"
 #include "light_choice.glsl"
+#include "reflected_light.glsl"
 // First surfaces' lights are also weighed by what earlier shadow rays tell of them. At the ends of bounce rays that
 // would gain next to nothing.
 #if defined(VKPT_LIGHTS_FIRST_SURFACES) && defined(VKPT_SAMPLER_WEIGHS_VISIBILITY)
@@ -66,7 +67,7 @@ struct ChosenLight {
 ReflectedLight sample_list(
     LightListView list, Surface s, LightRandom random, bool bsdf_ray_follows, out ChosenLight chosen)
 {
-    ReflectedLight result = ReflectedLight(vec3(0.0), vec3(0.0));
+    ReflectedLight result = no_reflected_light;
     chosen = ChosenLight(0u, vec3(0.0));
     LightOptions options = light_options();
 #ifdef VKPT_USES_VISIBILITY
@@ -123,7 +124,7 @@ ReflectedLight sample_list(LightListView list, Surface s, LightRandom random, bo
 ReflectedLight sample_lights(LightListView list, Surface s, LightRandom random, bool bsdf_ray_follows)
 {
 #ifdef VKPT_SAMPLER_NEWCOMERS_APART
-    ReflectedLight sum = ReflectedLight(vec3(0.0), vec3(0.0));
+    ReflectedLight sum = no_reflected_light;
     uint parts = has_newcomers(list) ? 2u : 1u;
     ROLLED_FOR (uint i = 0u; i < parts; i++) {
         ReflectedLight part

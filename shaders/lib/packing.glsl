@@ -49,6 +49,39 @@ vec2 unpack_upper_halves(uint bits) { return uintBitsToFloat(uvec2(bits << 16u, 
 uint pack_direction(vec3 direction) { return pack_snorm2(direction_to_octahedron(direction)); }
 vec3 unpack_direction(uint bits) { return octahedron_to_direction(unpack_snorm2(bits)); }
 
+// Three floats in 21 bits each: sign, 8 bits of exponent, 12 of mantissa, rounded. Infinite and NaN stay that, but for
+// NaNs whose mantissa is nearly all ones: 0.
+uint float21_bits(float x) { return (floatBitsToUint(x) + 0x400u) >> 11u; }
+uvec2 pack_floats3(vec3 v)
+{
+    uint x = float21_bits(v.x), y = float21_bits(v.y), z = float21_bits(v.z);
+    return uvec2(x | (y << 21u), (y >> 11u) | (z << 10u));
+}
+vec3 unpack_floats3(uvec2 bits)
+{
+    return uintBitsToFloat(
+        uvec3(bits.x << 11u, ((bits.x >> 21u) << 11u) | (bits.y << 22u), (bits.y << 1u) & 0xfffff800u));
+}
+
+// A place on the screen, in pixels, and a depth: 22 bits for x and y each, in 256ths of a pixel, and 20 for the depth,
+// a float without sign and the last 11 bits. Places beyond a screen of up to 16,375 pixels in width and height are
+// moved to where they still are beyond it; depths below 0 become 0.
+const float place_parts = 256.0f, first_place = -8.0f, last_place = 16375.0f;
+uvec2 pack_place(vec2 place, float depth)
+{
+    vec2 parts = (clamp(place, first_place, last_place) - first_place) * place_parts;
+    uvec2 at = floatBitsToUint(parts + unsigned_whole_base) & 0x3fffffu;
+    uint depth_bits = (floatBitsToUint(quick_max(depth, 0.0f)) + 0x400u) >> 11u;
+    return uvec2(at.x | (at.y << 22u), (at.y >> 10u) | (depth_bits << 12u));
+}
+// x, y, depth
+vec3 unpack_place(uvec2 bits)
+{
+    ivec2 at = ivec2(int(bits.x & 0x3fffffu), int((bits.x >> 22u) | ((bits.y & 0xfffu) << 10u)));
+    vec2 place = vec2(at) * (1.0f / place_parts) + first_place;
+    return vec3(place.x, place.y, uintBitsToFloat((bits.y >> 12u) << 11u));
+}
+
 // A half float that is not negative, from its 16 bits. Denormal ones are 0 where the device flushes floats.
 float unpack_positive_half(uint bits) { return uintBitsToFloat(bits << 13u) * 5.192296858534828e33f; }
 

@@ -8,6 +8,9 @@
 #include "pixel_random.glsl"
 #include "projection.glsl"
 
+// Place in the last view, whole numbers being its pixels' samples, and depth there; see pack_place.
+vec3 fetch_place(uint index) { return unpack_place(load_reprojected(index)); }
+
 // From -1 to 1, y down: a place in a pixel, `offset` from its corner.
 vec2 screen_place(uvec2 pixel, vec2 offset) { return (vec2(pixel) + offset) / vec2(frame.size) * 2.0 - 1.0; }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The buffer `scattered`: one element for 2 x 2 pixels, row by row; radiance, then the length that was
-// looked along (16 bits each).
+// looked along.
 #ifndef VKPT_LIB_SCATTERED_LIGHT
 #define VKPT_LIB_SCATTERED_LIGHT
 
 #include "frame.glsl"
-#include "packing.glsl"
 
 const float scattering_far = 4096.0; // where nothing is seen
 
@@ -19,10 +18,9 @@ vec3 spread_scattered(uvec2 pixel, float depth)
     float weights = 0.0;
     ROLLED_FOR (int i = 0; i < 9; i++) {
         uvec2 at = uvec2(clamp(centre + ivec2(i % 3, i / 3) - 1, ivec2(0), ivec2(size) - 1));
-        uvec2 element = load_scattered(at.y * size.x + at.x);
-        vec2 blue_length = unpack_light2(element.y);
-        float off = abs(blue_length.y - length) / (0.1 * length + 8.0), weight = 1.0 / (1.0 + off * off);
-        sum += weight * vec3(unpack_light2(element.x), blue_length.x);
+        vec4 element = load_scattered(at.y * size.x + at.x);
+        float off = abs(element.w - length) / (0.1 * length + 8.0), weight = 1.0 / (1.0 + off * off);
+        sum += weight * element.rgb;
         weights += weight;
     }
     return sum / weights;

@@ -106,13 +106,6 @@ struct FrameStatistics {
 VKPT_CONST uint BLOOM_FIRST_STEP
     = 4u; // the pyramid's first level has a pixel for so many of the image's, in either direction
 
-// Light that a surface reflects: diffuse without albedo.
-struct ReflectedLight {
-    vec3 diffuse;
-    vec3 specular;
-};
-VKPT_ASSERT_SIZE(ReflectedLight, 24);
-
 // One level of the bloom's pyramid, which is made smaller from, or added to, another (push constants).
 struct BloomPush {
     uint64_t source; // uvec2: rgb, 16 bits each; 0: the image's radiance

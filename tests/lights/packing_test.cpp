@@ -133,5 +133,43 @@ TEST_F(Packing, LightKeepsTenBitsAndIsNeverBroken)
     EXPECT_LT(unpack_light2(pack_light2(vec2(0, -1))).x, 1e-14f);
 }
 
+TEST_F(Packing, ThreeFloatsKeepTwelveBitsAndTheirSigns)
+{
+    const auto there_and_back = [](const vec3& v) { return unpack_floats3(pack_floats3(v)); };
+    double off = 0;
+    for (int i = 0; i < 100000; i++) {
+        vec3 v;
+        for (int k = 0; k < 3; k++)
+            v[k] = std::copysign(std::exp2(next(-60, 60)), next(-1, 1));
+        const vec3 back = there_and_back(v);
+        for (int k = 0; k < 3; k++) {
+            ASSERT_NEAR(back[k], v[k], std::abs(v[k]) / 8000);
+            off += (double(back[k]) - double(v[k])) / double(v[k]) / 300000;
+        }
+    }
+    EXPECT_LT(std::abs(off), 1e-6); // rounded, not cut
+    EXPECT_EQ(there_and_back(vec3(0, 1, -0.5f)), vec3(0, 1, -0.5f));
+    const float infinity = std::numeric_limits<float>::infinity();
+    const vec3 broken = there_and_back(vec3(infinity, std::numeric_limits<float>::quiet_NaN(), 1));
+    EXPECT_EQ(broken.x, infinity);
+    EXPECT_TRUE(std::isnan(broken.y));
+    EXPECT_EQ(broken.z, 1);
+}
+
+TEST_F(Packing, PlacesKeepA256thOfAPixelAndStayOnTheirSideOfTheEdge)
+{
+    for (int i = 0; i < 100000; i++) {
+        const vec2 place(next(-8, 16375), next(-8, 16375));
+        const float depth = std::exp2(next(-10, 20));
+        const vec3 back = unpack_place(pack_place(place, depth));
+        ASSERT_NEAR(back.x, place.x, 0.51f / 256 + 0.001f); // floats near 16,000 have steps of a thousandth
+        ASSERT_NEAR(back.y, place.y, 0.51f / 256 + 0.001f);
+        ASSERT_NEAR(back.z, depth, depth / 8000);
+    }
+    EXPECT_EQ(unpack_place(pack_place(vec2(1919, 0), 64)), vec3(1919, 0, 64));
+    EXPECT_EQ(unpack_place(pack_place(vec2(-1e6f), -5)), vec3(-8, -8, 0));
+    EXPECT_EQ(unpack_place(pack_place(vec2(1e9f, 20000), 1)), vec3(16375, 16375, 1));
+}
+
 } // namespace
 } // namespace vkpt::test
