@@ -28,10 +28,11 @@ const float max_deviations = 1.25;
 const float sample_fall = 2.3;
 
 // Radiance is averaged as it is where the image stands still, or edges of lamps would lose most of their light, and
-// small lamps all but vanish. In motion what is bright counts less: each reading of the history spreads a lamp by a
-// part of a pixel, which would be seen, and few frames are averaged, so that its edge would flicker. `knee`: 1 / the
-// luminance that counts half; moving_knee, relative to 1 / exposure, leaves the least error beside lamps.
-const float moving_knee = 0.1;
+// small lamps all but vanish. In motion what is bright counts less in the average, as few frames are averaged and a
+// lamp's edge would flicker, and much less between pixels of the history: each reading spreads a lamp by a part of a
+// pixel, of which little remains so. `knee`: 1 / the luminance that counts half, in motion these, relative to
+// 1 / exposure.
+const float moving_knee = 0.01, moving_reading_knee = 3.0;
 vec3 compress(vec3 radiance, float knee) { return radiance / (1.0 + knee * luminance(radiance)); }
 vec3 expand(vec3 colour, float knee) { return colour / quick_max(1.0 - knee * luminance(colour), 1e-4); }
 
@@ -49,9 +50,9 @@ uvec2 load_old(ivec2 pixel)
 }
 vec3 old_radiance(ivec2 pixel, float knee) { return compress(unpack_light3(load_old(pixel)), knee); }
 
-// At a place whose whole numbers are pixels: bicubic, so that a moving image does not blur, but for the four corners,
-// which count for less than 0.5 % each; and within the range of the nearest four, or there would be a dark seam around
-// lamps.
+// At a place whose whole numbers are pixels, compressed by `knee`: bicubic, so that a moving image does not blur, but
+// for the four corners, which count for less than 0.5 % each; and within the range of the nearest four, or there would
+// be a dark seam around lamps.
 vec3 sample_history(vec2 place, float knee)
 {
     vec2 corner = floor(place), part = place - corner;
@@ -171,7 +172,8 @@ void resolve_pixel(uvec2 pixel, uint index)
         vec3 off = now.deviation * max_deviations;
         vec3 lowest = mix(now.least, quick_max(now.mean - off, vec3(0.0)), moved);
         vec3 highest = mix(now.most, now.mean + off, moved);
-        vec3 old = sample_history(place, knee);
+        float reading_knee = knee * (moving_reading_knee / moving_knee);
+        vec3 old = compress(expand(sample_history(place, reading_knee), reading_knee), knee);
         bool is_expected = false;
         if (is_at_rest) {
             reach = unpack_reach(load_reach(index));

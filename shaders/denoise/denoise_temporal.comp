@@ -246,7 +246,6 @@ void accumulate_pixel(uvec2 pixel, uint index)
     vec2 now = vec2(luminance(diffuse), luminance(specular));
     vec2 diffuse_moments = mix(history.moments.diffuse, vec2(now.x, now.x * now.x), moment_share.x);
     vec2 specular_moments = mix(history.moments.specular, vec2(now.y, now.y * now.y), moment_share.y);
-
     FilteredLight light;
     light.diffuse = mix(history.light.diffuse, diffuse, share.x);
     light.specular = mix(history.light.specular, specular, share.y);

@@ -114,22 +114,30 @@ TEST_F(Denoiser, GradientOfAFrozenSceneIsZero)
 TEST_F(Denoiser, StillLightRepeatsFewSamples)
 {
     add_lights(40, 40);
-    Session session(folder_,
-        { { "pt_light_sampler", "uniform" }, { "pt_seed", "0" }, { "pt_bounces", "0" }, { "flt_taa", "off" } },
-        { 320, 240 });
-    session.load_map("lights");
-    session.look({ -120, -100, 90 }, { 20, 20, 0 });
-    const Radiance reference = session.accumulate(600);
-    session.set("pt_accumulate", "0");
+    const auto begin = [&](const char* mode) {
+        auto session = std::make_unique<Session>(folder_,
+            CvarList { { "pt_light_sampler", "uniform" }, { "pt_seed", "0" }, { "pt_bounces", "0" },
+                { "flt_taa", "off" }, { "flt_denoiser", mode } },
+            glm::ivec2(320, 240));
+        session->load_map("lights");
+        session->look({ -120, -100, 90 }, { 20, 20, 0 });
+        return session;
+    };
+    const Radiance reference = begin("off")->accumulate(300);
     const auto error_of = [&](const char* mode) {
-        session.set("flt_denoiser", mode);
-        session.load_map("lights");
-        session.draw(24);
-        return error_between(session.capture(), reference);
+        double sum = 0;
+        for (const int frames_before : { 1, 8, 21 }) { // other random numbers
+            const auto session = begin(mode);
+            session->draw(frames_before);
+            session->load_map("lights");
+            session->draw(24);
+            sum += error_between(session->capture(), reference);
+        }
+        return sum;
     };
     const double excess = error_of("asvgf") / error_of("svgf") - 1;
     RecordProperty("excess", std::to_string(excess));
-    EXPECT_LT(excess, 0.08); // .03; .25 with one pixel of nine
+    EXPECT_LT(excess, 0.14); // .06; .21 with one pixel of nine
 }
 
 TEST_F(Denoiser, OnlyAsvgfFollowsALightThatGoesOut)
