@@ -9,6 +9,7 @@
 #include "formats/image.hpp"
 #include "tests/module/game_folder.hpp"
 #include "tests/module/map_builder.hpp"
+#include "tests/module/picture.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -187,24 +188,12 @@ Picture make_reference(const Options& options, const Journey& journey, int frame
     return picture;
 }
 
-// Relative squared error of x / (1 + x), so that neither the lamps nor a single bright path decide alone.
-double relative_error(std::span<const float> picture, std::span<const float> reference)
-{
-    double sum = 0;
-    const auto map_tone = [](double x) { return x / (1 + x); };
-    for (size_t i = 0; i < picture.size(); i++) {
-        const double t = map_tone(reference[i]), d = map_tone(picture[i]) - t;
-        sum += d * d / (t * t + 0.01);
-    }
-    return sum / double(picture.size());
-}
-
 // What relative_error sums, per pixel: black 0, white 0.25 and more.
 void save_error_map(const Options& options, const Picture& picture, const Picture& reference, const std::string& path)
 {
     formats::Image image { options.width, options.height, {} };
     for (size_t i = 0; i < picture.size(); i += 3) {
-        const double error = relative_error({ &picture[i], 3 }, { &reference[i], 3 });
+        const double error = tests::relative_error({ &picture[i], 3 }, { &reference[i], 3 });
         const auto grey = uint8_t(255 * std::min(1.0, 4 * error));
         image.pixels.push_back({ grey, grey, grey, 255 });
     }
@@ -251,7 +240,7 @@ Errors measure(
             last.push_back({ options.width, options.height, run.radiance() });
         if (!is_checked(options, frame))
             continue;
-        errors.error += relative_error(run.radiance(), references.at(frame)) / options.checks;
+        errors.error += tests::relative_error(run.radiance(), references.at(frame)) / options.checks;
         errors.flip += flip_error(options, run.radiance(), references.at(frame)) / options.checks;
     }
     if (last.size() > 1) {

@@ -16,7 +16,7 @@ void light_pixel(uvec2 pixel, uint index)
         light = sample_direct_light(primary.surface, primary.cluster, random, bsdf_ray_count() > 0u);
         add_traced_rays(index);
     }
-    keep_reflected_light(index, light);
+    store_reflected_light(index, light);
 }
 
 VKPT_RUN_OVER_PIXELS(light_pixel)

@@ -262,7 +262,7 @@ void add_light(uint index, Surface s, FoundLight found, float scale)
         light.diffuse += reflected.diffuse * radiance;
         light.specular += reflected.specular * radiance;
     }
-    keep_reflected_light(index, light);
+    store_reflected_light(index, light);
 }
 
 // Narrower lobes reflect something else one pixel on: such surfaces send rays of their own.

@@ -64,12 +64,15 @@ void replay_stratum(uvec2 stratum, uint number)
     uint index = pixel_index(min(pixel, frame.size - 1u));
     PrimarySurface primary = load_primary_surface(index);
     uint there = primary.depth < 0.0 || !is_on_screen(pixel) ? no_pixel : find_sample(index, primary);
-    Moments known = unpack_moments(load_previous_moments(there == no_pixel ? 0u : there));
-    if (there == no_pixel || !repeats_now(stratum, number, known)) {
+    if (there == no_pixel) {
         store_replayed(number, vec2(-1.0));
         return;
     }
-    store_replayed(number, known.newest);
+    Moments known = unpack_moments(load_previous_moments(there));
+    bool repeats = repeats_now(stratum, number, known);
+    store_replayed(number, repeats ? known.newest : vec2(-1.0));
+    if (!repeats)
+        return;
     store_position(index, vec4(load_previous_position(there).xyz, primary.depth));
     store_normals(index, load_previous_normals(there));
     store_surface(index, load_previous_surface(there));

@@ -2,7 +2,6 @@
 #include "ref_vkpt/frame/view_buffers.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace vkpt {
 
@@ -76,8 +75,7 @@ void ViewBuffers::reserve_pixels(const Gpu& gpu, const Bindings& bindings, glm::
     const auto renew_row = [&](Row row, size_t elements, size_t element_bytes, const char* name) {
         Buffer& buffer = buffers_[row];
         renew(buffer, std::max(elements, size_t(1)) * element_bytes, name);
-        const bool as_texels = gpu.device.reads_texels() && std::has_single_bit(element_bytes);
-        if (as_texels)
+        if (gpu.device.reads_texels())
             texels_.bind(gpu, row, &buffer, uint32_t(element_bytes / sizeof(uint32_t)));
         return shared::ScreenBuffer { buffer.address(), row, 0 };
     };

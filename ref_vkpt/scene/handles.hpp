@@ -8,12 +8,14 @@
 
 namespace vkpt {
 
-// The element of an array that a handle is the address of; nullptr: none.
+// The element in use (registration is not 0) that a handle is the address of; nullptr: none.
 template <class Element> const Element* find_handle(const void* handle, const Element* first, size_t count)
 {
     const uintptr_t offset = reinterpret_cast<uintptr_t>(handle) - reinterpret_cast<uintptr_t>(first);
-    return offset % sizeof(Element) == 0 && offset / sizeof(Element) < count ? first + offset / sizeof(Element)
-                                                                             : nullptr;
+    if (offset % sizeof(Element) != 0 || offset / sizeof(Element) >= count)
+        return nullptr;
+    const Element* element = first + offset / sizeof(Element);
+    return element->registration != 0 ? element : nullptr;
 }
 
 } // namespace vkpt

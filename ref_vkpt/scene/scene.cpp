@@ -504,8 +504,7 @@ Scene::CheckedView Scene::check_handles(const engine::RefDef& refdef) const
 {
     CheckedView view { { refdef.entities, refdef.entities + refdef.entity_count }, refdef };
     for (engine::Entity& entity : view.entities) {
-        const Model* model = find_handle(entity.model, models_.data(), models_.size());
-        entity.model = model && model->registration != 0 ? const_cast<Model*>(model) : nullptr;
+        entity.model = const_cast<Model*>(find_handle(entity.model, models_.data(), models_.size()));
         entity.skin = const_cast<Texture*>(textures_.of_handle(entity.skin));
     }
     view.refdef.entities = view.entities.data();
@@ -516,8 +515,10 @@ SceneSnapshot Scene::take_snapshot(
     const engine::RefDef& given, ViewLights& lights, const engine::RefDef* player, bool looks_around)
 {
     const CvarValues& cvars = cvars::values();
-    const CheckedView checked = check_handles(given), checked_player = check_handles(player ? *player : given);
-    const engine::RefDef &refdef = checked.refdef, &eye = checked_player.refdef;
+    const CheckedView checked = check_handles(given);
+    const std::optional<CheckedView> checked_player
+        = player ? std::optional(check_handles(*player)) : std::nullopt; // else as `checked`
+    const engine::RefDef &refdef = checked.refdef, &eye = checked_player ? checked_player->refdef : refdef;
     SceneSnapshot snapshot;
     snapshot.looks_around = looks_around;
     snapshot.time = refdef.time;

@@ -375,8 +375,7 @@ void TextureStore::end_registration()
 
 const Texture* TextureStore::of_handle(const void* handle) const
 {
-    const Texture* texture = find_handle(handle, entries_.get(), capacity_);
-    return texture && texture->registration != 0 ? texture : nullptr;
+    return find_handle(handle, entries_.get(), capacity_);
 }
 
 void TextureStore::release(Texture& texture)

@@ -163,7 +163,8 @@ void resolve_pixel(uvec2 pixel, uint index)
     float moved = quick_min(length(place - vec2(pixel)) * (1.0 / moving_pixels), 1.0);
     ExposureBuffer exposure = ExposureBuffer(frame.exposure); // of the last view
     bool is_at_rest = moved < 0.1 && frame.size == frame.resolved_size;
-    float knee = moved * moving_knee * (exposure.v.valid != 0u ? exposure.v.exposure : 1.0);
+    float knee_scale = moved * (exposure.v.valid != 0u ? exposure.v.exposure : 1.0), knee = moving_knee * knee_scale,
+          reading_knee = moving_reading_knee * knee_scale;
     Neighbourhood now = look_around(ivec2(rendered), middle, knee);
     vec3 result = now.here;
     float frames = now.certainty; // that the result is worth
@@ -172,7 +173,6 @@ void resolve_pixel(uvec2 pixel, uint index)
         vec3 off = now.deviation * max_deviations;
         vec3 lowest = mix(now.least, quick_max(now.mean - off, vec3(0.0)), moved);
         vec3 highest = mix(now.most, now.mean + off, moved);
-        float reading_knee = knee * (moving_reading_knee / moving_knee);
         vec3 old = compress(expand(sample_history(place, reading_knee), reading_knee), knee);
         bool is_expected = false;
         if (is_at_rest) {

@@ -22,7 +22,7 @@ ReflectedLight fetch_reflected_light(uint index)
     return ReflectedLight(unpack_floats3(bits.xy), unpack_floats3(bits.zw));
 }
 
-void keep_reflected_light(uint index, ReflectedLight light)
+void store_reflected_light(uint index, ReflectedLight light)
 {
     store_reflected_light(index, uvec4(pack_floats3(light.diffuse), pack_floats3(light.specular)));
 }

@@ -416,14 +416,7 @@ TEST(Flight, LeavesLittleErrorWhereLampsPass)
     for (int sample = 0; sample < 150; sample++)
         session.host().draw_frame(scene.view(width, height, float(frames) / 60));
     const Radiance converged = session.capture();
-    // As docs/denoiser.md has it.
-    double error = 0;
-    for (size_t i = 0; i < live.pixels.size(); i++)
-        for (int channel = 0; channel < 3; channel++) {
-            const double x = double(live.pixels[i][channel]), y = double(converged.pixels[i][channel]),
-                         right = y / (1 + y), off = x / (1 + x) - right;
-            error += off * off / (right * right + 0.01) / (3 * double(live.pixels.size()));
-        }
+    const double error = relative_error(live, converged);
     RecordProperty("error", std::to_string(error));
     EXPECT_LT(error, 0.034); // .028; .055 if the history is read as it is averaged
 }

@@ -39,6 +39,24 @@ double error_between(const Radiance& picture, const Radiance& reference)
     return sum / double(picture.pixels.size());
 }
 
+double relative_error(std::span<const float> picture, std::span<const float> reference)
+{
+    double sum = 0;
+    const auto map_tone = [](double x) { return x / (1 + x); };
+    for (size_t i = 0; i < picture.size(); i++) {
+        const double t = map_tone(double(reference[i])), d = map_tone(double(picture[i])) - t;
+        sum += d * d / (t * t + 0.01);
+    }
+    return sum / double(picture.size());
+}
+
+double relative_error(const Radiance& picture, const Radiance& reference)
+{
+    const auto numbers
+        = [](const Radiance& radiance) { return std::span(&radiance.pixels.data()->x, 3 * radiance.pixels.size()); };
+    return relative_error(numbers(picture), numbers(reference));
+}
+
 CameraRay camera_ray(const engine::RefDef& view, glm::vec2 place)
 {
     const float pitch = glm::radians(view.view_angles[0]), yaw = glm::radians(view.view_angles[1]);

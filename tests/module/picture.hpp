@@ -8,6 +8,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 namespace vkpt::tests {
@@ -26,6 +27,11 @@ size_t count_broken(const Radiance& picture);
 bool is_black(const Radiance& picture);
 // Mean square difference of luminance; both are of one size.
 double error_between(const Radiance& picture, const Radiance& reference);
+
+// Relative squared error of x / (1 + x), so that neither lamps nor a single bright path decide alone
+// (docs/denoiser.md). Radiance, all components.
+double relative_error(std::span<const float> picture, std::span<const float> reference);
+double relative_error(const Radiance& picture, const Radiance& reference);
 
 struct CameraRay {
     glm::vec3 origin, direction;
