@@ -291,8 +291,8 @@ bool init_context(void* sdl_window)
     running = std::make_unique<Module>(graphics_settings(sdl_window));
     start_failed = false;
     const Device& device = running->graphics.device;
-    engine::print("ref_vkpt: {} ({}), Vulkan {}", device.properties.deviceName, device.driver,
-        describe_api_version(device.properties.apiVersion));
+    engine::print("ref_vkpt: {} ({}), Vulkan {}{}", device.properties.deviceName, device.driver,
+        describe_api_version(device.properties.apiVersion), device.async_queue ? ", a second queue for compute" : "");
     running->frame.set_trace_backend(running->trace_choice.choose(cvars::values().pt_trace));
     if (sdl_window)
         running->overlay.take_keys();

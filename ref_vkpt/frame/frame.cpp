@@ -226,6 +226,14 @@ void Frame::fill_scene(shared::FrameUniforms& uniforms, VkCommandBuffer commands
         uniforms.flags |= shared::FRAME_WIPE;
 }
 
+// For what the device does about a frame's scene before its shaders run: nothing, where the CPU builds the trees and
+// writes right into the device's memory.
+VkCommandBuffer Frame::upload_commands()
+{
+    const bool has_work = trace_backend() != TraceBackend::software || !graphics_.device.maps_all_memory;
+    return has_work && cvars::values().pt_async != 0 ? graphics_.async_commands() : graphics_.commands();
+}
+
 shared::FrameUniforms Frame::begin_query(
     VkCommandBuffer commands, View& view, const Viewpoint& from, const SceneSnapshot& scene, const GpuWorld& gpu_world)
 {
@@ -288,7 +296,7 @@ void Frame::record_view(
     begin_filters(uniforms, view, scene, gpu_world, average);
     view.size = uniforms.resolved_size;
     view.radiance = &view.buffers.buffer_of(uniforms.screen.accumulated);
-    fill_scene(uniforms, graphics_.commands(), view, scene, gpu_world);
+    fill_scene(uniforms, upload_commands(), view, scene, gpu_world);
     if (has_world) {
         view.rendered_size = size;
         light_cache.begin_frame(graphics_.commands(), uniforms, *gpu_world, average);

@@ -69,6 +69,7 @@ private:
         const GpuWorld* gpu_world, bool average) const;
     void fill_scene(shared::FrameUniforms& uniforms, VkCommandBuffer commands, const View& view,
         const SceneSnapshot& scene, const GpuWorld* gpu_world);
+    VkCommandBuffer upload_commands();
     void record(
         VkCommandBuffer commands, const View& view, const shared::FrameUniforms& uniforms, bool average_is_complete);
     void record_clear_ray_counts(VkCommandBuffer commands) const;

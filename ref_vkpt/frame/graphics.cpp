@@ -50,11 +50,22 @@ Graphics::~Graphics() { vkDeviceWaitIdle(device.handle); }
 
 void Graphics::create_slot(Slot& slot)
 {
-    slot.pool = make_command_pool(device);
+    slot.pool = make_command_pool(device, device.queue_family);
     slot.commands = make_command_buffer(device, slot.pool);
     slot.show_commands = make_command_buffer(device, slot.pool);
     renew_fence(slot.finished);
     renew_fence(slot.shown);
+    if (!device.async_queue)
+        return;
+    slot.async_pool = make_command_pool(device, device.async_family());
+    slot.async_commands = make_command_buffer(device, slot.async_pool);
+    renew_async_semaphore(slot);
+}
+
+void Graphics::renew_async_semaphore(Slot& slot)
+{
+    const VkSemaphoreCreateInfo info { VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO };
+    VKPT_RENEW(slot.async_done, vkCreateSemaphore, device.handle, info);
 }
 
 void Graphics::renew_fence(Fence& fence)
@@ -71,8 +82,39 @@ void Graphics::submit(const VkSubmitInfo& info, Fence& fence)
     if (const VkResult result = vkQueueSubmit(device.queue, 1, &info, fence); result < 0) {
         renew_fence(fence); // which nothing signals now
         swapchain_outdated_ = true; // nor is its image given back
+        if (device.async_queue) { // nor does anything wait for the other queue
+            vkDeviceWaitIdle(device.handle);
+            renew_async_semaphore(slots_[slot_]);
+        }
         check_vulkan(result, "vkQueueSubmit");
     }
+}
+
+VkCommandBuffer Graphics::async_commands()
+{
+    Slot& slot = slots_[slot_];
+    if (!device.async_queue)
+        return slot.commands;
+    if (!std::exchange(slot.has_async, true)) {
+        VKPT_CHECK(vkResetCommandPool(device.handle, slot.async_pool, 0));
+        begin_commands(slot.async_commands);
+        // What the other queue wrote before: the map's structures.
+        record_memory_barrier(slot.async_commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
+            VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT);
+    }
+    return slot.async_commands;
+}
+
+// Waits for nothing: what it uses belongs to the slot, whose last frame has finished.
+void Graphics::submit_async(Slot& slot)
+{
+    VKPT_CHECK(vkEndCommandBuffer(slot.async_commands));
+    const VkSemaphore done = slot.async_done;
+    VkSubmitInfo info { VK_STRUCTURE_TYPE_SUBMIT_INFO };
+    info.commandBufferCount = info.signalSemaphoreCount = 1;
+    info.pCommandBuffers = &slot.async_commands;
+    info.pSignalSemaphores = &done;
+    VKPT_CHECK(vkQueueSubmit(device.async_queue, 1, &info, VK_NULL_HANDLE));
 }
 
 VkExtent2D Graphics::size() const
@@ -212,6 +254,14 @@ void Graphics::end_frame()
     VkSubmitInfo info { VK_STRUCTURE_TYPE_SUBMIT_INFO };
     info.commandBufferCount = 1;
     info.pCommandBuffers = &slot.commands;
+    const VkSemaphore async_done = slot.async_done;
+    const VkPipelineStageFlags shaders = device.shader_stages();
+    if (std::exchange(slot.has_async, false)) {
+        submit_async(slot);
+        info.waitSemaphoreCount = 1;
+        info.pWaitSemaphores = &async_done;
+        info.pWaitDstStageMask = &shaders;
+    }
     submit(info, slot.finished);
     if (shows)
         show(slot);

@@ -54,6 +54,9 @@ public:
     // Whether nobody can see what is drawn now: the window is minimised.
     bool is_hidden() const;
     VkCommandBuffer commands() const { return slots_[slot_].commands; }
+    // For what the frame's shaders need and the last frame's do not touch: runs beside the last frame where the device
+    // has a queue for it, and is done before this frame's shaders run.
+    VkCommandBuffer async_commands();
     uint32_t slot() const { return slot_; }
     // Frames submitted since the start.
     uint64_t frame_number() const { return frame_number_; }
@@ -94,10 +97,17 @@ private:
         VkCommandBuffer commands = VK_NULL_HANDLE;
         VkCommandBuffer show_commands = VK_NULL_HANDLE; // the copy into the window's image
         Fence finished, shown;
+        // Of the device's other queue, where it has one.
+        CommandPool async_pool;
+        VkCommandBuffer async_commands = VK_NULL_HANDLE;
+        Semaphore async_done;
+        bool has_async = false; // something was recorded
     };
     void create_slot(Slot& slot);
     void renew_fence(Fence& fence);
+    void renew_async_semaphore(Slot& slot);
     void submit(const VkSubmitInfo& info, Fence& fence);
+    void submit_async(Slot& slot);
     bool can_show() const;
     void show(Slot& slot);
     bool follow_window();

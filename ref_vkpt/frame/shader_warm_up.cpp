@@ -57,7 +57,7 @@ private:
     TexelSet screen_texels_ = make_screen_texels(gpu_, bindings_);
     Pipelines pipelines_ { gpu_, bindings_, "" };
     Buffer uniforms_;
-    CommandPool pool_ = make_command_pool(*device_);
+    CommandPool pool_ = make_command_pool(*device_, device_->queue_family);
     VkCommandBuffer commands_ = make_command_buffer(*device_, pool_);
 };
 

@@ -3,10 +3,10 @@
 
 namespace vkpt {
 
-CommandPool make_command_pool(const Device& device)
+CommandPool make_command_pool(const Device& device, uint32_t queue_family)
 {
     VkCommandPoolCreateInfo info { VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO };
-    info.queueFamilyIndex = device.queue_family;
+    info.queueFamilyIndex = queue_family;
     CommandPool pool;
     VKPT_RENEW(pool, vkCreateCommandPool, device.handle, info);
     return pool;

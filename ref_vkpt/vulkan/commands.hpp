@@ -7,7 +7,7 @@
 
 namespace vkpt {
 
-CommandPool make_command_pool(const Device& device);
+CommandPool make_command_pool(const Device& device, uint32_t queue_family);
 QueryPool make_timestamp_pool(const Device& device, uint32_t count);
 // Lives as long as the pool.
 VkCommandBuffer make_command_buffer(const Device& device, VkCommandPool pool);

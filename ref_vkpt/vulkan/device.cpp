@@ -95,7 +95,7 @@ std::vector<VkExtensionProperties> device_extensions(VkPhysicalDevice device)
     return extensions;
 }
 
-std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice device)
+std::vector<VkQueueFamilyProperties> queue_families_of(VkPhysicalDevice device)
 {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
@@ -228,7 +228,7 @@ Candidate examine(VkPhysicalDevice device, const std::string& name_part)
     vkGetPhysicalDeviceProperties2(device, &about);
     const VkPhysicalDeviceProperties& properties = about.properties;
     Candidate candidate { device, properties.deviceName, "", properties.deviceType,
-        rank_queue_families(queue_families(device)) };
+        rank_queue_families(queue_families_of(device)) };
     Features has, use;
     if (candidate.name.find(name_part) == std::string::npos)
         candidate.why_not = fmt::format("is not pt_device \"{}\"", name_part);
@@ -424,6 +424,13 @@ void Device::choose_physical_device(const DeviceSettings& settings)
     read_queue_and_memory();
 }
 
+std::vector<uint32_t> Device::queue_families() const
+{
+    if (async_family() == queue_family)
+        return { queue_family };
+    return { queue_family, async_family() };
+}
+
 void Device::read_queue_and_memory()
 {
     VkPhysicalDeviceVulkan12Properties v12 { VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES };
@@ -434,7 +441,9 @@ void Device::read_queue_and_memory()
     max_textures = std::min(
         v12.maxPerStageDescriptorUpdateAfterBindSampledImages, v12.maxDescriptorSetUpdateAfterBindSampledImages);
     traits = find_traits(properties);
-    timestamp_bits = queue_families(physical)[queue_family].timestampValidBits;
+    const std::vector<VkQueueFamilyProperties> families = queue_families_of(physical);
+    timestamp_bits = families[queue_family].timestampValidBits;
+    async_place_ = find_async_queue(families, queue_family);
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
     maps_all_memory = vkpt::maps_all_memory(memory);
     identity = identify_driver(physical);
@@ -505,22 +514,28 @@ void Device::create_logical_device()
     }
     read_ray_tracing_limits();
 
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queues { VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO };
-    queues.queueFamilyIndex = queue_family;
-    queues.queueCount = 1;
-    queues.pQueuePriorities = &priority;
+    constexpr float priorities[] = { 1, 1 };
+    std::vector<VkDeviceQueueCreateInfo> queues;
+    for (const uint32_t family : queue_families()) {
+        VkDeviceQueueCreateInfo& info
+            = queues.emplace_back(VkDeviceQueueCreateInfo { VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO });
+        info.queueFamilyIndex = family;
+        info.queueCount = family == async_family() && async_place_ ? async_place_->index + 1 : 1;
+        info.pQueuePriorities = priorities;
+    }
 
     VkDeviceCreateInfo info { VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO };
     info.pNext = &use.core;
-    info.queueCreateInfoCount = 1;
-    info.pQueueCreateInfos = &queues;
+    info.queueCreateInfoCount = uint32_t(queues.size());
+    info.pQueueCreateInfos = queues.data();
     info.enabledExtensionCount = uint32_t(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     VKPT_CHECK(vkCreateDevice(physical, &info, nullptr, &handle));
     if (owns_instance_)
         load_device_functions(handle);
     vkGetDeviceQueue(handle, queue_family, 0, &queue);
+    if (async_place_)
+        vkGetDeviceQueue(handle, async_place_->family, async_place_->index, &async_queue);
 }
 
 void Device::read_ray_tracing_limits()

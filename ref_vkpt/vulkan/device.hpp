@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Instance, physical device, logical device and its one queue.
+// Instance, physical device, logical device, its queue and, where it has one, a second one beside it.
 #pragma once
 
 #include "ref_vkpt/files/pipeline_cache_file.hpp"
@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,11 @@ public:
     VkDevice handle = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     uint32_t queue_family = 0;
+    // For compute, beside `queue`; VK_NULL_HANDLE: the device has no other.
+    VkQueue async_queue = VK_NULL_HANDLE;
+    // The families whose queues use our buffers: one or two.
+    std::vector<uint32_t> queue_families() const;
+    uint32_t async_family() const { return async_place_ ? async_place_->family : queue_family; }
 
     VkPhysicalDeviceProperties properties {};
     VkPhysicalDeviceMemoryProperties memory {};
@@ -105,6 +111,7 @@ private:
     void read_ray_tracing_limits();
     void destroy();
 
+    std::optional<QueuePlace> async_place_;
     std::unique_ptr<CpuDriverSettings> cpu_driver_;
     bool windowed_;
     bool uses_rays_; // the device's own, where it has them

@@ -49,6 +49,17 @@ std::vector<uint32_t> rank_queue_families(std::span<const VkQueueFamilyPropertie
     return ranked;
 }
 
+std::optional<QueuePlace> find_async_queue(std::span<const VkQueueFamilyProperties> families, uint32_t main_family)
+{
+    for (uint32_t i = 0; i < families.size(); i++)
+        if (i != main_family && families[i].queueCount > 0
+            && (families[i].queueFlags & (VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT)) == VK_QUEUE_COMPUTE_BIT)
+            return QueuePlace { i, 0 };
+    if (families[main_family].queueCount > 1)
+        return QueuePlace { main_family, 1 };
+    return std::nullopt;
+}
+
 std::vector<uint32_t> rank_memory_types(
     const VkPhysicalDeviceMemoryProperties& memory, uint32_t type_bits, const MemoryWish& wish)
 {

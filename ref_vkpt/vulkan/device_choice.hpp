@@ -25,6 +25,13 @@ std::optional<size_t> choose_device(std::span<const DeviceFacts> devices);
 // those for compute alone.
 std::vector<uint32_t> rank_queue_families(std::span<const VkQueueFamilyProperties> families);
 
+struct QueuePlace {
+    uint32_t family, index;
+};
+// A queue whose work may run beside that of the main family's first one: a family for compute alone, or else the main
+// family's second queue.
+std::optional<QueuePlace> find_async_queue(std::span<const VkQueueFamilyProperties> families, uint32_t main_family);
+
 // Which memory serves: with all of `required`, better with `preferred`, and better without `avoided`.
 struct MemoryWish {
     VkMemoryPropertyFlags required = 0, preferred = 0, avoided = 0;

@@ -2,6 +2,7 @@
 #include "ref_vkpt/vulkan/resources.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace vkpt {
 
@@ -48,6 +49,11 @@ Buffer::Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind k
             | VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
     if (gpu.device.has_ray_pipeline)
         info.usage |= VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR;
+    const std::vector<uint32_t> families = gpu.device.queue_families();
+    if (families.size() > 1)
+        info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+    info.queueFamilyIndexCount = uint32_t(families.size());
+    info.pQueueFamilyIndices = families.data();
     VKPT_RENEW(handle_, vkCreateBuffer, device, info);
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(device, handle_, &requirements);

@@ -17,7 +17,7 @@ constexpr VkDeviceSize staging_limit = 64u << 20;
 
 Uploader::Uploader(const Gpu& gpu)
     : gpu_(gpu)
-    , pool_(make_command_pool(gpu.device))
+    , pool_(make_command_pool(gpu.device, gpu.device.queue_family))
     , commands_(make_command_buffer(gpu.device, pool_))
 {
     // A level that is dropped for want of memory takes along what the copies recorded so far fill.

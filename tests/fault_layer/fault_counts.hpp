@@ -13,6 +13,9 @@ struct FaultCounts {
     uint32_t acquired = 0, presented = 0, swapchains = 0;
     uint32_t timestamps = 0; // recorded
     uint32_t losses = 0; // of the device
+    // With the fault "async": submissions to the second queue; of them those that waited for nothing while a frame of
+    // the first queue had not been waited for; and frames that waited for one.
+    uint32_t async_submissions = 0, async_beside_a_frame = 0, frames_after_async = 0;
     bool lists_portable = false, enables_portable = false; // portability: asked of the instance, of the device
 };
 

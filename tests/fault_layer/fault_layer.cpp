@@ -11,6 +11,7 @@
 //   gpu N      the device is a GPU with memory of its own, of which the CPU sees N MiB
 //   compute    its queues are for compute and transfers alone
 //   untimed    its queues have no timestamps
+//   async      it has a second family of queues, for compute alone, which is the first queue under another name
 //   portable   it lacks parts of Vulkan, as devices by way of MoltenVK do
 // The layer keeps one table of functions: every device of a test is the same driver's.
 #include "tests/fault_layer/fault_counts.hpp"
@@ -25,6 +26,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <unistd.h>
@@ -44,7 +46,7 @@ bool device_lost;
 vkpt::tests::FaultCounts counts;
 
 struct Pretended {
-    bool is_gpu = false, computes_only = false, is_untimed = false, is_portable = false;
+    bool is_gpu = false, computes_only = false, is_untimed = false, is_async = false, is_portable = false;
     VkDeviceSize seen_bytes = 0; // of its memory, by the CPU
 } pretended;
 
@@ -111,7 +113,7 @@ VkResult VKAPI_CALL create_instance(
     if (result == VK_SUCCESS)
         instance = *made;
     const std::string seen = read_fault("gpu");
-    pretended = { seen != "-", has_fault("compute"), has_fault("untimed"), has_fault("portable"),
+    pretended = { seen != "-", has_fault("compute"), has_fault("untimed"), has_fault("async"), has_fault("portable"),
         VkDeviceSize(std::atol(seen.c_str())) << 20 };
     counts = {};
     counts.lists_portable = (info->flags & VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR) != 0;
@@ -134,6 +136,7 @@ VkResult VKAPI_CALL create_device(
     VkDeviceCreateInfo changed = *info;
     changed.enabledExtensionCount = uint32_t(names.size());
     changed.ppEnabledExtensionNames = names.data();
+    changed.queueCreateInfoCount = 1; // the driver has no other family
     const VkResult result = of_instance<PFN_vkCreateDevice>("vkCreateDevice")(physical, &changed, callbacks, made);
     if (result == VK_SUCCESS) {
         device = *made;
@@ -247,10 +250,73 @@ VkResult VKAPI_CALL map_memory(
 
 // ---- queues and extensions
 
+uint32_t async_family = VK_QUEUE_FAMILY_IGNORED;
+std::set<VkCommandPool> async_pools;
+std::set<VkCommandBuffer> async_commands;
+std::set<VkFence> unfinished; // that nobody has waited for since they were submitted
+
+PFN_vkGetDeviceQueue next_get_queue;
+void VKAPI_CALL get_queue(VkDevice of, uint32_t family, uint32_t index, VkQueue* queue)
+{
+    next_get_queue(of, family == async_family ? 0 : family, index, queue);
+}
+
+PFN_vkCreateCommandPool next_create_pool;
+VkResult VKAPI_CALL create_pool(
+    VkDevice of, const VkCommandPoolCreateInfo* info, const VkAllocationCallbacks* callbacks, VkCommandPool* made)
+{
+    VkCommandPoolCreateInfo changed = *info;
+    changed.queueFamilyIndex = 0;
+    const VkResult result = next_create_pool(of, &changed, callbacks, made);
+    const std::scoped_lock lock(mutex);
+    if (result == VK_SUCCESS && info->queueFamilyIndex == async_family)
+        async_pools.insert(*made);
+    return result;
+}
+
+PFN_vkAllocateCommandBuffers next_allocate_commands;
+VkResult VKAPI_CALL allocate_commands(VkDevice of, const VkCommandBufferAllocateInfo* info, VkCommandBuffer* made)
+{
+    const VkResult result = next_allocate_commands(of, info, made);
+    const std::scoped_lock lock(mutex);
+    if (result == VK_SUCCESS && async_pools.contains(info->commandPool))
+        async_commands.insert(made, made + info->commandBufferCount);
+    return result;
+}
+
+PFN_vkCreateBuffer next_create_buffer;
+VkResult VKAPI_CALL create_buffer(
+    VkDevice of, const VkBufferCreateInfo* info, const VkAllocationCallbacks* callbacks, VkBuffer* made)
+{
+    VkBufferCreateInfo changed = *info;
+    if (pretended.is_async)
+        changed.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    return next_create_buffer(of, &changed, callbacks, made);
+}
+
+void count_submission(const VkSubmitInfo& info, VkFence fence)
+{
+    const std::scoped_lock lock(mutex);
+    if (info.commandBufferCount > 0 && async_commands.contains(info.pCommandBuffers[0])) {
+        counts.async_submissions++;
+        counts.async_beside_a_frame += info.waitSemaphoreCount == 0 && !unfinished.empty();
+    } else {
+        counts.frames_after_async += info.waitSemaphoreCount == 1 && counts.async_submissions > 0;
+        if (fence)
+            unfinished.insert(fence);
+    }
+}
+
 PFN_vkGetPhysicalDeviceQueueFamilyProperties next_families;
 void VKAPI_CALL get_families(VkPhysicalDevice physical, uint32_t* count, VkQueueFamilyProperties* families)
 {
+    const uint32_t room = *count;
     next_families(physical, count, families);
+    if (pretended.is_async && (!families || room > *count)) {
+        if (families)
+            families[*count] = { VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT, 1, 64, { 1, 1, 1 } };
+        async_family = (*count)++;
+    }
     for (uint32_t i = 0; families && i < *count; i++) {
         if (pretended.computes_only)
             families[i].queueFlags = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
@@ -287,7 +353,14 @@ VkResult VKAPI_CALL create_pipelines(VkDevice of, VkPipelineCache cache, uint32_
 // ---- a device that is lost
 
 PFN_vkDeviceWaitIdle next_wait_idle;
-VkResult VKAPI_CALL wait_idle(VkDevice of) { return device_lost ? VK_ERROR_DEVICE_LOST : next_wait_idle(of); }
+VkResult VKAPI_CALL wait_idle(VkDevice of)
+{
+    {
+        const std::scoped_lock lock(mutex);
+        unfinished.clear();
+    }
+    return device_lost ? VK_ERROR_DEVICE_LOST : next_wait_idle(of);
+}
 
 PFN_vkQueueSubmit next_submit;
 VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSubmitInfo* infos, VkFence fence)
@@ -300,6 +373,8 @@ VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSubmitInfo* in
         counts.losses++;
     }
     counts.submissions += count;
+    for (uint32_t i = 0; pretended.is_async && i < count; i++)
+        count_submission(infos[i], fence);
     return device_lost ? VK_ERROR_DEVICE_LOST : next_submit(queue, count, infos, fence);
 }
 
@@ -312,6 +387,10 @@ VkResult VKAPI_CALL queue_wait_idle(VkQueue queue)
 PFN_vkWaitForFences next_wait;
 VkResult VKAPI_CALL wait_for_fences(VkDevice of, uint32_t count, const VkFence* fences, VkBool32 all, uint64_t limit)
 {
+    for (uint32_t i = 0; i < count; i++) {
+        const std::scoped_lock lock(mutex);
+        unfinished.erase(fences[i]);
+    }
     return device_lost ? VK_ERROR_DEVICE_LOST : next_wait(of, count, fences, all, limit);
 }
 
@@ -413,6 +492,10 @@ PFN_vkVoidFunction VKAPI_CALL get_device_function(VkDevice of, const char* name)
 #define VKPT_TAKE(called, kept, ours)                                                                                  \
     if (!std::strcmp(name, called))                                                                                    \
         return take(kept, ours, next);
+    VKPT_TAKE("vkGetDeviceQueue", next_get_queue, get_queue)
+    VKPT_TAKE("vkCreateCommandPool", next_create_pool, create_pool)
+    VKPT_TAKE("vkAllocateCommandBuffers", next_allocate_commands, allocate_commands)
+    VKPT_TAKE("vkCreateBuffer", next_create_buffer, create_buffer)
     VKPT_TAKE("vkAllocateMemory", next_allocate, allocate_memory)
     VKPT_TAKE("vkFreeMemory", next_free, free_memory)
     VKPT_TAKE("vkMapMemory", next_map, map_memory)

@@ -62,6 +62,21 @@ TEST_F(FrameTimes, FollowAGlanceUntilAllAreAskedFor)
     EXPECT_FALSE(has_timed(session, "denoise_gradient"));
 }
 
+TEST_F(FrameTimes, HaveARowForTheBuildsOfStructures)
+{
+    CvarList cvars = filters;
+    cvars.emplace_back("pt_trace", "query");
+    Session session(folder, cvars);
+    begin(session);
+    session.draw(1);
+    if (session.extension().info().trace_backend != std::string("query"))
+        GTEST_SKIP() << "the device traces no rays of its own";
+    EXPECT_TRUE(has_timed(session, "acceleration_structures"));
+    session.set("pt_trace", "software");
+    session.draw(16);
+    EXPECT_FALSE(has_timed(session, "acceleration_structures"));
+}
+
 TEST_F(FrameTimes, AreCollectedByTurns)
 {
     CvarList cvars = filters;

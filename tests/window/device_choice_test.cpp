@@ -34,6 +34,23 @@ TEST(QueueChoice, TakesGraphicsFirstAndComputeAlone)
     EXPECT_TRUE(rank_queue_families(std::vector { family(VK_QUEUE_GRAPHICS_BIT) }).empty());
 }
 
+TEST(QueueChoice, FindsASecondQueueForCompute)
+{
+    const auto family = [](VkQueueFlags flags, uint32_t count) {
+        return VkQueueFamilyProperties { flags, count, 64, { 1, 1, 1 } };
+    };
+    constexpr VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT, compute = VK_QUEUE_COMPUTE_BIT;
+    const auto find = [](const std::vector<VkQueueFamilyProperties>& families, uint32_t main) {
+        const std::optional<QueuePlace> place = find_async_queue(families, main);
+        return place ? std::pair(int(place->family), int(place->index)) : std::pair(-1, -1);
+    };
+    EXPECT_EQ(find({ family(both, 1), family(compute, 4) }, 0), std::pair(1, 0)) << "Radeon";
+    EXPECT_EQ(find({ family(both, 16), family(VK_QUEUE_TRANSFER_BIT, 2), family(compute, 8) }, 0), std::pair(2, 0));
+    EXPECT_EQ(find({ family(both, 4) }, 0), std::pair(0, 1)) << "one family of many queues";
+    EXPECT_EQ(find({ family(both, 1), family(VK_QUEUE_TRANSFER_BIT, 1), family(compute, 0) }, 0), std::pair(-1, -1));
+    EXPECT_EQ(find({ family(compute, 1) }, 0), std::pair(-1, -1));
+}
+
 constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
                                 mapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                                 cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
