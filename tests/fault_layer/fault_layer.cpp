@@ -50,6 +50,14 @@ struct Pretended {
     VkDeviceSize seen_bytes = 0; // of its memory, by the CPU
 } pretended;
 
+// Of the queues of the family that is pretended.
+struct Async {
+    uint32_t family = VK_QUEUE_FAMILY_IGNORED;
+    std::set<VkCommandPool> pools;
+    std::set<VkCommandBuffer> commands;
+    std::set<VkFence> unfinished; // of the other queue: that nobody has waited for since they were submitted
+} async;
+
 // What stands behind the fault's name; "-": there is no such fault now.
 std::string read_fault(std::string_view name)
 {
@@ -116,6 +124,7 @@ VkResult VKAPI_CALL create_instance(
     pretended = { seen != "-", has_fault("compute"), has_fault("untimed"), has_fault("async"), has_fault("portable"),
         VkDeviceSize(std::atol(seen.c_str())) << 20 };
     counts = {};
+    async = {};
     counts.lists_portable = (info->flags & VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR) != 0;
     return result;
 }
@@ -250,15 +259,10 @@ VkResult VKAPI_CALL map_memory(
 
 // ---- queues and extensions
 
-uint32_t async_family = VK_QUEUE_FAMILY_IGNORED;
-std::set<VkCommandPool> async_pools;
-std::set<VkCommandBuffer> async_commands;
-std::set<VkFence> unfinished; // that nobody has waited for since they were submitted
-
 PFN_vkGetDeviceQueue next_get_queue;
 void VKAPI_CALL get_queue(VkDevice of, uint32_t family, uint32_t index, VkQueue* queue)
 {
-    next_get_queue(of, family == async_family ? 0 : family, index, queue);
+    next_get_queue(of, family == async.family ? 0 : family, index, queue);
 }
 
 PFN_vkCreateCommandPool next_create_pool;
@@ -269,8 +273,8 @@ VkResult VKAPI_CALL create_pool(
     changed.queueFamilyIndex = 0;
     const VkResult result = next_create_pool(of, &changed, callbacks, made);
     const std::scoped_lock lock(mutex);
-    if (result == VK_SUCCESS && info->queueFamilyIndex == async_family)
-        async_pools.insert(*made);
+    if (result == VK_SUCCESS && info->queueFamilyIndex == async.family)
+        async.pools.insert(*made);
     return result;
 }
 
@@ -279,8 +283,8 @@ VkResult VKAPI_CALL allocate_commands(VkDevice of, const VkCommandBufferAllocate
 {
     const VkResult result = next_allocate_commands(of, info, made);
     const std::scoped_lock lock(mutex);
-    if (result == VK_SUCCESS && async_pools.contains(info->commandPool))
-        async_commands.insert(made, made + info->commandBufferCount);
+    if (result == VK_SUCCESS && async.pools.contains(info->commandPool))
+        async.commands.insert(made, made + info->commandBufferCount);
     return result;
 }
 
@@ -297,13 +301,13 @@ VkResult VKAPI_CALL create_buffer(
 void count_submission(const VkSubmitInfo& info, VkFence fence)
 {
     const std::scoped_lock lock(mutex);
-    if (info.commandBufferCount > 0 && async_commands.contains(info.pCommandBuffers[0])) {
+    if (info.commandBufferCount > 0 && async.commands.contains(info.pCommandBuffers[0])) {
         counts.async_submissions++;
-        counts.async_beside_a_frame += info.waitSemaphoreCount == 0 && !unfinished.empty();
+        counts.async_beside_a_frame += info.waitSemaphoreCount == 0 && !async.unfinished.empty();
     } else {
         counts.frames_after_async += info.waitSemaphoreCount == 1 && counts.async_submissions > 0;
         if (fence)
-            unfinished.insert(fence);
+            async.unfinished.insert(fence);
     }
 }
 
@@ -315,7 +319,7 @@ void VKAPI_CALL get_families(VkPhysicalDevice physical, uint32_t* count, VkQueue
     if (pretended.is_async && (!families || room > *count)) {
         if (families)
             families[*count] = { VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT, 1, 64, { 1, 1, 1 } };
-        async_family = (*count)++;
+        async.family = (*count)++;
     }
     for (uint32_t i = 0; families && i < *count; i++) {
         if (pretended.computes_only)
@@ -357,7 +361,7 @@ VkResult VKAPI_CALL wait_idle(VkDevice of)
 {
     {
         const std::scoped_lock lock(mutex);
-        unfinished.clear();
+        async.unfinished.clear();
     }
     return device_lost ? VK_ERROR_DEVICE_LOST : next_wait_idle(of);
 }
@@ -389,7 +393,7 @@ VkResult VKAPI_CALL wait_for_fences(VkDevice of, uint32_t count, const VkFence* 
 {
     for (uint32_t i = 0; i < count; i++) {
         const std::scoped_lock lock(mutex);
-        unfinished.erase(fences[i]);
+        async.unfinished.erase(fences[i]);
     }
     return device_lost ? VK_ERROR_DEVICE_LOST : next_wait(of, count, fences, all, limit);
 }
