@@ -238,6 +238,7 @@ shared::FrameUniforms Frame::begin_query(
     VkCommandBuffer commands, View& view, const Viewpoint& from, const SceneSnapshot& scene, const GpuWorld& gpu_world)
 {
     begin(view);
+    graphics_.timer.begin_untimed(graphics_.slot());
     shared::FrameUniforms uniforms = make_uniforms(view, from, from.size);
     fill_scene(uniforms, commands, view, scene, &gpu_world);
     return uniforms;

@@ -105,18 +105,6 @@ VkCommandBuffer Graphics::async_commands()
     return slot.async_commands;
 }
 
-// Waits for nothing: what it uses belongs to the slot, whose last frame has finished.
-void Graphics::submit_async(Slot& slot)
-{
-    VKPT_CHECK(vkEndCommandBuffer(slot.async_commands));
-    const VkSemaphore done = slot.async_done;
-    VkSubmitInfo info { VK_STRUCTURE_TYPE_SUBMIT_INFO };
-    info.commandBufferCount = info.signalSemaphoreCount = 1;
-    info.pCommandBuffers = &slot.async_commands;
-    info.pSignalSemaphores = &done;
-    VKPT_CHECK(vkQueueSubmit(device.async_queue, 1, &info, VK_NULL_HANDLE));
-}
-
 VkExtent2D Graphics::size() const
 {
     if (output)
@@ -257,7 +245,8 @@ void Graphics::end_frame()
     const VkSemaphore async_done = slot.async_done;
     const VkPipelineStageFlags shaders = device.shader_stages();
     if (std::exchange(slot.has_async, false)) {
-        submit_async(slot);
+        // Waits for nothing: what it uses belongs to the slot, whose last frame has finished.
+        submit_commands(device.async_queue, slot.async_commands, async_done);
         info.waitSemaphoreCount = 1;
         info.pWaitSemaphores = &async_done;
         info.pWaitDstStageMask = &shaders;
@@ -302,7 +291,7 @@ void Graphics::run_once(const std::function<void(VkCommandBuffer)>& record)
     VKPT_CHECK(vkResetCommandPool(device.handle, slot.pool, 0));
     begin_commands(slot.commands);
     record(slot.commands);
-    submit_commands(device, slot.commands);
+    submit_commands(device.queue, slot.commands);
     finish();
 }
 

@@ -107,7 +107,6 @@ private:
     void renew_fence(Fence& fence);
     void renew_async_semaphore(Slot& slot);
     void submit(const VkSubmitInfo& info, Fence& fence);
-    void submit_async(Slot& slot);
     bool can_show() const;
     void show(Slot& slot);
     bool follow_window();

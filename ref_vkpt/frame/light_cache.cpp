@@ -131,7 +131,6 @@ void LightCacheKeeper::fill(Graphics& graphics, Frame& frame, View& view, GpuWor
             frame.bind(commands, view, frame.write_uniforms(uniforms));
             record_memory_barrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
                 graphics.device.shader_stages(), VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
-            graphics.timer.begin_untimed(graphics.slot());
             const Pass& pass = find_pass(PassId::update_light_cache);
             frame.recorder().record(pass, pass_steps(pass, uniforms)[0]);
         });

@@ -46,7 +46,6 @@ void SceneQueries::measure_irradiance(std::span<const IrradianceProbe> probes, u
             uniforms.probe_count = uint32_t(probes.size());
             uniforms.flags = (uniforms.flags & shared::FRAME_ALPHA_TEST) | shared::FRAME_PROBES;
             frame.bind(commands, view, frame.write_uniforms(uniforms));
-            graphics.timer.begin_untimed(graphics.slot());
             frame.record_passes(uniforms);
         });
     }
@@ -100,7 +99,6 @@ void SceneQueries::trace_chunk(
         stopwatch.emplace(graphics.device);
     const auto run = [&](uint32_t rounds) {
         graphics.run_once([&](VkCommandBuffer commands) {
-            graphics.timer.begin_untimed(graphics.slot());
             frame.bind(commands, view, offset);
             if (stopwatch)
                 stopwatch->begin(commands);
@@ -139,7 +137,6 @@ bool SceneQueries::inspect_pixel(glm::uvec2 pixel, InspectedSurface& surface, st
     from.size = view.size;
     graphics.run_once([&](VkCommandBuffer commands) {
         const shared::FrameUniforms uniforms = frame.begin_query(commands, view, from, *view.snapshot, gpu_world);
-        graphics.timer.begin_untimed(graphics.slot());
         frame.bind(commands, view, frame.write_uniforms(uniforms));
         const shared::InspectPush push { surface_buffer.address(), light_buffer.address(),
             rendered.y * view.size.x + rendered.x, uint32_t(lights.size()), probability_draws, counted_choices };

@@ -260,8 +260,7 @@ void SceneUpload::write_structures(const Job& job, const MovingTarget& target)
         has_holes[i] = (scene.materials[triangles[i].material].flags & shared::MATERIAL_ALPHA_TEST) != 0;
     const GroupedTriangles moving = group_triangles({ triangles, masks, has_holes, scene.moving.first_id() },
         sorts ? TriangleOrder::halves_quick : TriangleOrder::as_given);
-    // On another queue, and between frames, they are no part of a frame's time.
-    const bool in_frame = graphics_.is_recording() && job.use.commands == graphics_.commands();
+    const bool in_frame = job.use.commands == graphics_.commands(); // else they are no part of the frame's time
     if (in_frame)
         graphics_.timer.mark(job.use.commands, "2d");
     const AccelerationStructures::View view = structures_.record_view(job.use.commands, moving, has_world);

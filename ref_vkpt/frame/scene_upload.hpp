@@ -24,7 +24,7 @@ public:
     // The device has finished the slot's last frame.
     void begin_frame();
     struct Use {
-        VkCommandBuffer commands = VK_NULL_HANDLE;
+        VkCommandBuffer commands = VK_NULL_HANDLE; // for copies and builds
         uint32_t view_number = 0; // in the frame
         TraceBackend backend = TraceBackend::software;
         VkDeviceAddress trace_stack = 0;

@@ -44,7 +44,7 @@ public:
             commands_, bindings_.pipeline_layout(), VK_SHADER_STAGE_ALL, 0, push_constant_bytes, push.data());
         vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_.compute(shader));
         vkCmdDispatch(commands_, 0, 1, 1);
-        submit_commands(*device_, commands_);
+        submit_commands(device_->queue, commands_);
         device_->wait_idle();
     }
 

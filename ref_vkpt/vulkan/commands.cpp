@@ -40,13 +40,15 @@ void begin_commands(VkCommandBuffer commands)
     VKPT_CHECK(vkBeginCommandBuffer(commands, &info));
 }
 
-void submit_commands(const Device& device, VkCommandBuffer commands)
+void submit_commands(VkQueue queue, VkCommandBuffer commands, VkSemaphore done)
 {
     VKPT_CHECK(vkEndCommandBuffer(commands));
     VkSubmitInfo info { VK_STRUCTURE_TYPE_SUBMIT_INFO };
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands;
-    VKPT_CHECK(vkQueueSubmit(device.queue, 1, &info, VK_NULL_HANDLE));
+    info.signalSemaphoreCount = done ? 1 : 0;
+    info.pSignalSemaphores = &done;
+    VKPT_CHECK(vkQueueSubmit(queue, 1, &info, VK_NULL_HANDLE));
 }
 
 } // namespace vkpt

@@ -13,7 +13,7 @@ QueryPool make_timestamp_pool(const Device& device, uint32_t count);
 VkCommandBuffer make_command_buffer(const Device& device, VkCommandPool pool);
 // Starts recording what is submitted once.
 void begin_commands(VkCommandBuffer commands);
-// Ends recording and submits, which makes no fence signalled.
-void submit_commands(const Device& device, VkCommandBuffer commands);
+// Ends recording and submits; `done`, if any, is signalled then, and no fence.
+void submit_commands(VkQueue queue, VkCommandBuffer commands, VkSemaphore done = VK_NULL_HANDLE);
 
 } // namespace vkpt

@@ -520,7 +520,7 @@ void Device::create_logical_device()
         VkDeviceQueueCreateInfo& info
             = queues.emplace_back(VkDeviceQueueCreateInfo { VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO });
         info.queueFamilyIndex = family;
-        info.queueCount = family == async_family() && async_place_ ? async_place_->index + 1 : 1;
+        info.queueCount = async_place_ && async_place_->family == family ? async_place_->index + 1 : 1;
         info.pQueuePriorities = priorities;
     }
 

@@ -96,7 +96,7 @@ void Uploader::flush()
     } const ending { *this };
     record_memory_barrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_READ_BIT);
-    submit_commands(gpu_.device, commands_);
+    submit_commands(gpu_.device.queue, commands_);
     VKPT_CHECK(vkQueueWaitIdle(gpu_.device.queue));
 }
 

@@ -14,23 +14,17 @@ struct AsyncWork {
 
 class AsyncQueue : public FaultyRoom, public testing::WithParamInterface<AsyncWork> {
 protected:
-    AsyncQueue()
-        : cube_path_(folder_.add_cube("cube", 10, red_index))
-    {
-    }
-
     std::unique_ptr<Session> start() const
     {
         auto session = std::make_unique<Session>(folder_, GetParam().settings, glm::ivec2(67, 45));
-        session->load_map("room");
-        session->look({ -100, -100, 80 }, { 60, 60, 20 });
+        enter(*session);
         return session;
     }
 
     // A cube that moves through the room, frame after frame.
     void draw(Session& session, int frames) const
     {
-        engine::Entity cube = make_entity(session.module().register_model(cube_path_.c_str()), { -20, -20, 20 });
+        engine::Entity cube = make_cube(session, { -20, -20, 20 });
         session.view.entities = &cube;
         session.view.entity_count = 1;
         for (int i = 0; i < frames; i++) {
@@ -39,8 +33,6 @@ protected:
         }
         session.view.entity_count = 0;
     }
-
-    std::string cube_path_;
 };
 
 constexpr int frames = 9;
@@ -79,13 +71,13 @@ INSTANTIATE_TEST_SUITE_P(Of, AsyncQueue,
     [](const testing::TestParamInfo<AsyncWork>& info) { return info.param.name; });
 
 // Nothing for the device to do ahead: the CPU builds the trees where the device reads them.
-TEST_F(FaultyRoom, AsyncQueueIsLeftAloneWhereNothingIsToDo)
+using UnusedAsyncQueue = FaultyRoom;
+TEST_F(UnusedAsyncQueue, GetsNothingWhereTheCpuDoesAll)
 {
     const Faults faults("async");
     {
         const auto session = start_in({ 67, 45 });
-        session->load_map("room");
-        session->look({ -100, -100, 80 }, { 60, 60, 20 });
+        enter(*session);
         session->draw(3);
         EXPECT_EQ(Faults::counts().async_submissions, 0u);
     }

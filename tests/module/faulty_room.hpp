@@ -8,12 +8,14 @@
 
 #include <gtest/gtest.h>
 #include <memory>
+#include <string>
 
 namespace vkpt::tests {
 
 class FaultyRoom : public testing::Test {
 protected:
     FaultyRoom()
+        : cube_path_(folder_.add_cube("cube", 10, red_index))
     {
         folder_.add_wall("wall", 180);
         folder_.add_wall("lamp", white_index);
@@ -31,7 +33,20 @@ protected:
         return std::make_unique<Session>(folder_, cvars, size);
     }
 
+    static void enter(Session& session)
+    {
+        session.load_map("room");
+        session.look({ -100, -100, 80 }, { 60, 60, 20 });
+    }
+    engine::Entity make_cube(Session& session, glm::vec3 origin) const
+    {
+        return make_entity(session.module().register_model(cube_path_.c_str()), origin);
+    }
+
     GameFolder folder_;
+
+private:
+    std::string cube_path_;
 };
 
 } // namespace vkpt::tests

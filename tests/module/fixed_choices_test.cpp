@@ -17,8 +17,7 @@ protected:
     std::unique_ptr<Session> start() const
     {
         auto session = start_in({ 48, 32 });
-        session->load_map("room");
-        session->look({ -100, -100, 80 }, { 60, 60, 20 });
+        enter(*session);
         return session;
     }
     // Of any pixel, relative to the brighter one. Loops that the compiler drops are rounded otherwise.

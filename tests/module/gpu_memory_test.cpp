@@ -8,11 +8,6 @@ namespace {
 
 class GpuMemory : public FaultyRoom {
 protected:
-    GpuMemory()
-        : cube_path_(folder_.add_cube("cube", 10, red_index))
-    {
-    }
-
     std::unique_ptr<Session> start() const
     {
         // With one bounce the GPU's shaders have no loop, and round otherwise (FixedChoices). Tiles of 8 x 8 pixels
@@ -25,10 +20,8 @@ protected:
     {
         std::vector<Radiance> pictures;
         for (int round = 0; round < 2; round++) {
-            session.load_map("room");
-            const engine::Entity cube
-                = make_entity(session.module().register_model(cube_path_.c_str()), { 20, -20, 20 });
-            session.look({ -100, -100, 80 }, { 60, 60, 20 });
+            enter(session);
+            const engine::Entity cube = make_cube(session, { 20, -20, 20 });
             for (int frame = 0; frame < 6; frame++) {
                 session.view.entities = &cube;
                 session.view.entity_count = frame % 3 != 2;
@@ -47,8 +40,6 @@ protected:
             EXPECT_TRUE(pictures[i] == expected[i]) << "picture " << i;
         }
     }
-
-    std::string cube_path_;
 };
 
 TEST_F(GpuMemory, OfWhichTheCpuSeesLittleHoldsTheSame)
@@ -98,8 +89,7 @@ TEST_F(GpuMemory, OfALostDeviceTellsThePass)
 {
     const Faults faults("gpu 256");
     const auto session = start();
-    session->load_map("room");
-    session->look({ -100, -100, 80 }, { 60, 60, 20 });
+    enter(*session);
     session->draw(3);
     faults.set("lost");
     session->draw(2);
