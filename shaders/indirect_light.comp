@@ -98,6 +98,10 @@ vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixe
     LightRandom random = light_random(pixel_random, path.vertex);
     LightListView list = open_light_list_for(random, path.cluster);
     vec3 radiance = vec3(0.0);
+    if (known) {
+        float rest = (shows_cache_bias() ? 0.0 : 1.0) - (corrected ? 1.0 / share : 0.0);
+        radiance = rest * reflect_cached_light(path.surface, cached);
+    }
     // Lights that the cache does not know; then those that it does.
     ROLLED_FOR (uint part = shows_cache_bias() ? 1u : 0u; part < (corrected ? 2u : 1u); part++) {
         LightListView lights = list;
@@ -113,17 +117,13 @@ vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixe
         if (!corrects_cache()) // compilers that know it drop the loop
             break;
     }
-    if (!known)
-        return radiance;
-    // With a share of 0 this is the cache's light alone. Only now: shadow rays leave no room for it in registers.
-    float rest = (shows_cache_bias() ? 0.0 : 1.0) - (corrected ? 1.0 / share : 0.0);
-    radiance += rest * reflect_cached_light(path.surface, cached);
-    return shows_cache_bias() ? -radiance : radiance;
+    return known && shows_cache_bias() ? -radiance : radiance;
 }
 
-// Traces a ray and moves the path to what it finds. False: the path has ended.
-bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
+// Traces a ray and moves the path to what it finds, of which `cached` is known. False: the path has ended.
+bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random, out CachedLight cached)
 {
+    cached = nothing_cached;
     Ray ray
         = Ray(offset_ray_origin(path.surface.position, path.surface.geometric_normal), bsdf.direction, 0.0, ray_far);
     vec3 transmittance;
@@ -142,9 +142,8 @@ bool bounce_path(inout BouncePath path, BsdfSample bsdf, Random pixel_random)
     path.met = hit.surface.position;
     path.cluster = hit.cluster;
     path.vertex += 1u;
-    CachedLight cached = find_cached_light(hit);
+    cached = find_cached_light(hit);
     path.guide = cached.guide;
-    path.radiance += path.throughput * reflect_direct_light(path, cached, pixel_random);
     return true;
 }
 
@@ -162,39 +161,43 @@ const uint first_guide_dimension
 // Of the first rays, where there are guides.
 const float guided_share = 0.125;
 
-// The path's first ray, as sample_bsdf draws it or towards a guide.
-BsdfSample choose_first_ray(BouncePath path, Guides guides, bool to_guide, inout GuideSample aim, Random random)
+// The path's next ray, as sample_bsdf draws it or towards a guide.
+struct NextRay {
+    BsdfSample bsdf; // its density that of BSDF rays
+    GuideSample aim;
+};
+
+NextRay choose_next_ray(BouncePath path, Guides guides, bool to_guide, Random random)
 {
-    if (!to_guide) {
-        vec2 xi = next_vec2(random);
-        return sample_bsdf(path.surface, xi, next_float(random));
+    NextRay next;
+    next.aim = GuideSample(0u, vec3(0.0), 0.0);
+    random.dimension += to_guide ? first_guide_dimension + 2u : 0u;
+    vec2 xi = next_vec2(random);
+    if (to_guide) {
+        next.aim = sample_guide(guides, path.surface, xi);
+        next.bsdf.direction = next.aim.direction;
+        next.bsdf.lobe = BSDF_LOBE_DIFFUSE;
+    } else {
+        next.bsdf.direction = sample_bsdf_direction(path.surface, xi, next_float(random), next.bsdf.lobe);
     }
-    random.dimension += first_guide_dimension + 2u;
-    aim = sample_guide(guides, path.surface, next_vec2(random));
-    BsdfSample result;
-    result.direction = aim.direction;
-    result.pdf = aim.pdf;
-    result.value = evaluate_bsdf(path.surface, aim.direction);
-    if (result.value.diffuse <= 0.0 && result.value.specular == vec3(0.0))
-        result.pdf = 0.0;
-    result.lobe = BSDF_LOBE_DIFFUSE;
-    return result;
+    next.bsdf.pdf = pdf_bsdf(path.surface, next.bsdf.direction);
+    next.bsdf.value = evaluate_bsdf(path.surface, next.bsdf.direction);
+    return next;
 }
 
 // The share of what the first ray found that is counted for it: both ways to meet a guide's cell share it by MIS, and a
 // ray that was aimed at one and met something else has found nothing.
-float share_with_other_way(
-    Guides guides, PrimarySurface primary, BouncePath path, bool to_guide, GuideSample aim, BsdfSample first)
+float share_with_other_way(Guides guides, Surface primary, BouncePath path, bool to_guide, NextRay first)
 {
     if (guides.count == 0u || path.guide == 0u)
         return to_guide ? 0.0 : 1.0;
-    float aimed = pdf_guide(guides, primary.surface, path.guide, path.met);
+    float aimed = pdf_guide(guides, primary, path.guide, path.met);
+    float by_chance = first.bsdf.pdf * (1.0 - guided_share);
     if (!to_guide)
-        return mis_weight(first.pdf * (1.0 - guided_share), aimed * guided_share);
+        return mis_weight(by_chance, aimed * guided_share);
     // By the density of the place that was met: rounding may have brought the ray to the next cell.
-    return path.guide == aim.guide && aimed > 0.0
-        ? mis_weight(aimed * guided_share, pdf_bsdf(primary.surface, first.direction) * (1.0 - guided_share))
-            * first.pdf / aimed
+    return path.guide == first.aim.guide && aimed > 0.0
+        ? mis_weight(aimed * guided_share, by_chance) * first.aim.pdf / aimed
         : 0.0;
 }
 
@@ -207,8 +210,9 @@ Guides choose_guide(PrimarySurface primary, Random pixel_random, out bool to_gui
                          // rays
     Random random = random_for_bounce(pixel_random, 2u);
     random.dimension += first_guide_dimension;
-    guides = open_guides(primary.surface, primary.cluster, next_float(random));
-    to_guide = guides.total > 0.0 && next_float(random) < guided_share;
+    vec2 xi = next_vec2(random);
+    guides = open_guides(primary.surface, primary.cluster, xi.x);
+    to_guide = guides.total > 0.0 && xi.y < guided_share;
 #endif
     return guides;
 }
@@ -223,25 +227,29 @@ FoundLight follow_path(uvec2 pixel, uint index, PrimarySurface primary)
     FoundLight found = nothing_found;
     float share = 1.0;
     ROLLED_FOR (uint bounce = 0u; bounce < bsdf_ray_count(); bounce++) {
-        Random random = random_for_bounce(pixel_random, bounce + 2u);
-        GuideSample aim = GuideSample(0u, vec3(0.0), 0.0);
-        BsdfSample bsdf = choose_first_ray(path, guides, to_guide && bounce == 0u, aim, random);
-        if (bsdf.pdf <= 0.0)
+        bool is_aimed = to_guide && bounce == 0u;
+        NextRay next = choose_next_ray(path, guides, is_aimed, random_for_bounce(pixel_random, bounce + 2u));
+        float pdf = is_aimed ? next.aim.pdf : next.bsdf.pdf;
+        if (pdf <= 0.0)
             break;
         if (bounce == 0u) {
-            found.direction = bsdf.direction;
-            found.pdf = bsdf.pdf * (guides.total <= 0.0 ? 1.0 : to_guide ? guided_share : 1.0 - guided_share);
+            found.direction = next.bsdf.direction;
+            found.pdf = pdf * (guides.total <= 0.0 ? 1.0 : to_guide ? guided_share : 1.0 - guided_share);
         } else {
-            path.throughput *= reflected_radiance(path.surface, bsdf.value, vec3(1.0)) / bsdf.pdf;
+            path.throughput *= reflected_radiance(path.surface, next.bsdf.value, vec3(1.0)) / pdf;
         }
-        bool goes_on = bounce_path(path, bsdf, pixel_random);
+        CachedLight cached;
+        bool goes_on = bounce_path(path, next.bsdf, pixel_random, cached);
         if (bounce == 0u) {
-            share = share_with_other_way(guides, primary, path, to_guide, aim, bsdf);
-            if (bsdf.lobe == BSDF_LOBE_SPECULAR)
+            share = share_with_other_way(guides, primary.surface, path, to_guide, next);
+            if (next.bsdf.lobe == BSDF_LOBE_SPECULAR)
                 found.specular_hit_distance = path.ray_length;
         }
+        if (!goes_on || share == 0.0)
+            break;
+        path.radiance += path.throughput * reflect_direct_light(path, cached, pixel_random);
         // The last says nothing new: compilers that know the number drop the loop.
-        if (!goes_on || share == 0.0 || bsdf_ray_count() == 1u)
+        if (bsdf_ray_count() == 1u)
             break;
     }
     add_traced_rays(index);
@@ -294,9 +302,9 @@ bool is_new(BounceBlock block)
 {
     if ((frame.flags & FRAME_HISTORY) == 0u)
         return true;
-    bool seen = was_seen(pixel_of_block(block, 0u));
-    if (!seen)
-        seen = was_seen(pixel_of_block(block, bounce_block_pixels() - 1u));
+    bool seen = false;
+    ROLLED_FOR (uint i = 0u; i < 2u && !seen; i++)
+        seen = was_seen(pixel_of_block(block, i == 0u ? 0u : bounce_block_pixels() - 1u));
     return !seen;
 }
 
@@ -315,11 +323,25 @@ bool are_alike(PrimarySurface a, PrimarySurface b)
 // A bit for each pixel of the block that takes over what its leader finds, the leader included; 0: nobody does.
 uint find_alike(BounceBlock block)
 {
-    PrimarySurface leader = load_block_surface(pixel_of_block(block, 0u));
-    uint alike = are_alike(leader, leader) ? 1u : 0u;
-    ROLLED_FOR (uint i = 1u; i < bounce_block_pixels(); i++)
-        alike |= are_alike(leader, load_block_surface(pixel_of_block(block, i))) ? 1u << i : 0u;
+    PrimarySurface leader;
+    uint alike = 0u;
+    ROLLED_FOR (uint i = 0u; i < bounce_block_pixels(); i++) {
+        PrimarySurface primary = load_block_surface(pixel_of_block(block, i));
+        if (i == 0u)
+            leader = primary;
+        alike |= are_alike(leader, primary) ? 1u << i : 0u;
+    }
     return alike;
+}
+
+// Adds what a path found to the pixels of the block whose bit is set.
+void light_pixels(BounceBlock block, uint bits, FoundLight found, float scale)
+{
+    ROLLED_FOR (uint i = 0u; i < bounce_block_pixels(); i++) {
+        uint index = pixel_index(pixel_of_block(block, i));
+        if ((bits >> i & 1u) != 0u)
+            add_light(index, load_primary_surface(index).surface, found, scale);
+    }
 }
 
 // The leader's path, and those of pixels that do not share. What the leader found goes to the pixels that are like it,
@@ -333,7 +355,6 @@ void light_block(uvec2 number, uint)
     bool shares = pixels > 1u && !is_new(block);
     uint alike = shares ? find_alike(block) : 0u;
     float scale = alike != 0u ? float(pixels) / float(bitCount(alike)) : 1.0;
-    FoundLight found = nothing_found;
     ROLLED_FOR (uint i = 0u; i < pixels; i++) {
         uvec2 pixel = pixel_of_block(block, i);
         uint index = pixel_index(pixel);
@@ -341,13 +362,9 @@ void light_block(uvec2 number, uint)
         bool leads = i == 0u, alone = !shares || sends_own_rays(primary);
         if (primary.depth >= 0.0) {
             if (leads || alone) {
-                FoundLight own = follow_path(pixel, index, primary);
-                add_light(index, primary.surface, own, leads ? scale : 1.0);
-                if (leads)
-                    found = own;
-            } else if ((alike >> i & 1u) != 0u && found.pdf > 0.0) {
-                add_light(index, primary.surface, found, scale);
-            } else {
+                FoundLight found = follow_path(pixel, index, primary);
+                light_pixels(block, leads ? max(alike, 1u) : 1u << i, found, leads ? scale : 1.0);
+            } else if ((alike >> i & 1u) == 0u) {
                 store_specular_hit_distance(index, -1.0);
             }
             // Others' light, and more than its own, is no sample of the pixel that could be repeated.

@@ -9,7 +9,8 @@
 
 uint bounce_block_pixels() { return frame.bounce_block.x * frame.bounce_block.y; }
 
-uvec2 bounce_block_count() { return divide_whole(frame.size + frame.bounce_block - 1u, frame.bounce_block); }
+// A side is 1 or 2: a quotient would need registers of every lane.
+uvec2 bounce_block_count() { return (frame.size + frame.bounce_block - 1u) >> (frame.bounce_block - 1u); }
 
 // A block's pixels in the order of this frame, the leader first. Where the screen's size is odd, some lie outside.
 struct BounceBlock {

@@ -217,18 +217,21 @@ vec3 sample_visible_normal(vec3 normal, vec3 view, float alpha, vec2 xi)
     return normalize(tangent * (alpha * m.x) + bitangent * (alpha * m.y) + normal * quick_max(m.z, 1e-7f));
 }
 
+// Which lobe was drawn: BSDF_LOBE_*.
+vec3 sample_bsdf_direction(Surface s, vec2 xi, float xi_lobe, INOUT(uint) lobe)
+{
+    lobe = xi_lobe < specular_lobe_probability(s) ? BSDF_LOBE_SPECULAR : BSDF_LOBE_DIFFUSE;
+    if (lobe == BSDF_LOBE_DIFFUSE)
+        return sample_cosine_direction(s.normal, xi);
+    vec3 view = view_above_horizon(s);
+    vec3 h = sample_visible_normal(s.normal, view, ggx_alpha(s.roughness), xi);
+    return normalize(h * (2.0f * dot(view, h)) - view);
+}
+
 BsdfSample sample_bsdf(Surface s, vec2 xi, float xi_lobe)
 {
     BsdfSample result;
-    if (xi_lobe < specular_lobe_probability(s)) {
-        vec3 view = view_above_horizon(s);
-        vec3 h = sample_visible_normal(s.normal, view, ggx_alpha(s.roughness), xi);
-        result.direction = normalize(h * (2.0f * dot(view, h)) - view);
-        result.lobe = BSDF_LOBE_SPECULAR;
-    } else {
-        result.direction = sample_cosine_direction(s.normal, xi);
-        result.lobe = BSDF_LOBE_DIFFUSE;
-    }
+    result.direction = sample_bsdf_direction(s, xi, xi_lobe, result.lobe);
     result.pdf = pdf_bsdf(s, result.direction);
     result.value = evaluate_bsdf(s, result.direction);
     return result;

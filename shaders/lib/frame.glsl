@@ -152,6 +152,8 @@ uvec2 place_of_tile(uint tile, uint across)
         ROLLED_FOR (uint i = 0u; i < tiles; i++) {                                                                     \
             if (all(lessThan(pixel, size)))                                                                            \
                 run(pixel, pixel.y* size.x + pixel.x);                                                                 \
+            if (has_gpu_lanes) /* compilers that know it drop the loop */                                              \
+                break;                                                                                                 \
             pixel.x += 8u;                                                                                             \
             if (pixel.x >= tiles_across * 8u)                                                                          \
                 pixel += uvec2(-int(tiles_across) * 8, 8);                                                             \

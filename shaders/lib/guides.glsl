@@ -112,13 +112,15 @@ Guides open_guides(Surface s, int cluster, float xi)
 // The probability that this entry of the list is chosen, whichever subset the random number names.
 float guide_probability(Guides guides, Surface s, uint entry)
 {
-    float weight = weigh_guide(s, entry), total = guides.total;
     uint offset = remainder_whole(entry - guides.first, guides.stride);
-    if (offset != guides.offset) {
-        guides.offset = offset;
-        total = 0.0;
-        ROLLED_FOR (uint i = 0u; offset + i * guides.stride < guides.count; i += 4u)
-            total += sum_of(weigh_group(guides, s, i));
+    bool summed = offset == guides.offset;
+    float weight = 0.0, total = summed ? guides.total : 0.0;
+    ROLLED_FOR (uint place = summed ? entry - guides.first : offset; place < guides.count; place += guides.stride) {
+        float w = weigh_guide(s, guides.first + place);
+        weight = guides.first + place == entry ? w : weight;
+        total += summed ? 0.0 : w;
+        if (summed)
+            break;
     }
     return total > 0.0 ? weight / (total * float(int(guides.stride))) : 0.0;
 }

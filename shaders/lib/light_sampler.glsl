@@ -36,8 +36,9 @@ LightRandom light_random(Random pixel_random, uint vertex)
     Random random = random_for_bounce(pixel_random, vertex + 1u);
     random.dimension += first_light_dimension;
     LightRandom result;
-    result.light = next_float(random);
-    result.point = next_vec2(random);
+    vec3 numbers = next_vec3(random);
+    result.light = numbers.x;
+    result.point = vec2(numbers.y, numbers.z);
     result.more = random_stream(random, vertex + 1u);
     return result;
 }

@@ -10,7 +10,7 @@
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VisibilityCounts { uint v[]; };
 
-// The row of the patch that a surface lies in: a cube of space and the axis that its normal is nearest to, so that
+// The row of the patch that a surface lies in: a cube of space and one of 26 directions of its normal, so that
 // walls have none in common with the floor. A little in front of the surface, as most lie on the cubes' sides.
 uint find_visibility_row(Surface s)
 {

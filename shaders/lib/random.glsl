@@ -139,11 +139,21 @@ float next_float(INOUT(Random) random)
     return value;
 }
 
+// A loop: a number's code is long.
+vec3 next_vec3(INOUT(Random) random)
+{
+    vec3 result = vec3(0.0f);
+    ROLLED_FOR (int i = 0; i < 3; i++)
+        result[i] = next_float(random);
+    return result;
+}
+
 vec2 next_vec2(INOUT(Random) random)
 {
-    float x = next_float(random);
-    float y = next_float(random);
-    return vec2(x, y);
+    vec2 result = vec2(0.0f);
+    ROLLED_FOR (int i = 0; i < 2; i++)
+        result[i] = next_float(random);
+    return result;
 }
 
 #endif

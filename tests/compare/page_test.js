@@ -6,6 +6,7 @@ const assert = require("assert");
 const fs = require("fs");
 const { JSDOM, VirtualConsole } = require("jsdom");
 
+let picturesOnTheirWay = 0;
 const errors = [];
 const virtualConsole = new VirtualConsole();
 virtualConsole.on("jsdomError", error => errors.push(error.detail ?? error));
@@ -18,7 +19,11 @@ function prepare(window) {
         }
         set src(url) {
             assert.match(url, /^data:image\/png;base64,[A-Za-z0-9+/]+=*$/);
-            setTimeout(() => this.onload());
+            picturesOnTheirWay++;
+            setTimeout(() => {
+                picturesOnTheirWay--;
+                this.onload();
+            });
         }
     };
     window.HTMLCanvasElement.prototype.getContext = function () {
@@ -35,7 +40,12 @@ function prepare(window) {
 
 const dom = new JSDOM(fs.readFileSync(process.argv[2], "utf8"), { runScripts: "dangerously", beforeParse: prepare, virtualConsole });
 const { document, Event, MouseEvent, WheelEvent, KeyboardEvent } = dom.window;
-const settle = () => new Promise(resolve => setTimeout(resolve, 50));
+const nextTurn = () => new Promise(resolve => setTimeout(resolve));
+// Until no picture is loading, however slow the machine is: each may ask for others.
+async function settle() {
+    for (let idle = 0; idle < 3; idle = picturesOnTheirWay === 0 ? idle + 1 : 0)
+        await nextTurn();
+}
 const rows = () => [...document.querySelectorAll("#rows tbody tr")];
 const column = name => [...document.querySelectorAll("#rows thead th")].find(th => th.dataset.column === name);
 const values = name => rows().map(row => row.cells[column(name).cellIndex].textContent);
