@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/vulkan/acceleration_structure.hpp"
 
+#include <utility>
+
 namespace vkpt {
 
 AccelerationStructure::AccelerationStructure(
@@ -19,6 +21,13 @@ AccelerationStructure::AccelerationStructure(
     address.accelerationStructure = handle_;
     address_ = vkGetAccelerationStructureDeviceAddressKHR(device, &address);
     gpu.device.name_object(VK_OBJECT_TYPE_ACCELERATION_STRUCTURE_KHR, reinterpret_cast<uint64_t>(handle()), name);
+}
+
+void AccelerationStructure::swap(AccelerationStructure& other) noexcept
+{
+    std::swap(address_, other.address_);
+    memory_.swap(other.memory_);
+    handle_.swap(other.handle_);
 }
 
 } // namespace vkpt

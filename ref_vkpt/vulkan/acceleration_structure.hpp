@@ -12,6 +12,13 @@ public:
     // Not built yet. `bytes`: from vkGetAccelerationStructureBuildSizesKHR.
     AccelerationStructure(
         const Gpu& gpu, VkAccelerationStructureTypeKHR type, VkDeviceSize bytes, std::string_view name);
+    AccelerationStructure(AccelerationStructure&& other) noexcept { swap(other); }
+    AccelerationStructure& operator=(AccelerationStructure other) noexcept
+    {
+        swap(other);
+        return *this;
+    }
+    void swap(AccelerationStructure& other) noexcept;
 
     VkAccelerationStructureKHR handle() const { return handle_; }
     VkDeviceAddress address() const { return address_; }

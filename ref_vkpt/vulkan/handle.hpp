@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Handles that a device made, destroyed with their owner: by then the device must no longer use them.
+// Handles that a device made, destroyed with their owner: by then the device must no longer use them. Whatever owns
+// something of the device (handles, allocations, buffers, images) is empty after a move, and gives back at once what it
+// had when another is moved into it.
 #pragma once
 
 #include "ref_vkpt/vulkan/device.hpp"
@@ -20,17 +22,22 @@ public:
         , raw_(raw)
     {
     }
-    Handle(Handle&& other) noexcept { *this = std::move(other); }
-    Handle& operator=(Handle&& other) noexcept
+    Handle(Handle&& other) noexcept { swap(other); }
+    Handle& operator=(Handle other) noexcept
     {
-        std::swap(device_, other.device_);
-        std::swap(raw_, other.raw_);
+        swap(other);
         return *this;
     }
     ~Handle()
     {
         if (raw_)
             destroy(device_, raw_, nullptr);
+    }
+
+    void swap(Handle& other) noexcept
+    {
+        std::swap(device_, other.device_);
+        std::swap(raw_, other.raw_);
     }
 
     operator Raw() const { return raw_; }

@@ -24,12 +24,13 @@ class Allocation {
 public:
     Allocation() = default;
     Allocation(Allocation&& other) noexcept { swap(other); }
-    Allocation& operator=(Allocation&& other) noexcept
+    Allocation& operator=(Allocation other) noexcept
     {
         swap(other);
         return *this;
     }
     ~Allocation();
+    void swap(Allocation& other) noexcept;
 
     VkDeviceMemory memory() const;
     VkDeviceSize offset() const { return offset_; }
@@ -38,7 +39,6 @@ public:
 
 private:
     friend class MemoryAllocator;
-    void swap(Allocation& other) noexcept;
 
     MemoryAllocator* allocator_ = nullptr;
     struct MemoryBlock* block_ = nullptr;

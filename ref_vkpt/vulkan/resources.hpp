@@ -9,6 +9,7 @@
 #include <cstring>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace vkpt {
 
@@ -30,6 +31,19 @@ public:
     Buffer() = default;
     // At least 16 bytes are made, so that an empty list has an address and a texel, too.
     Buffer(const Gpu& gpu, VkDeviceSize bytes, BufferHome home, MemoryKind kind, std::string_view name);
+    Buffer(Buffer&& other) noexcept { swap(other); }
+    Buffer& operator=(Buffer other) noexcept
+    {
+        swap(other);
+        return *this;
+    }
+    void swap(Buffer& other) noexcept
+    {
+        std::swap(size_, other.size_);
+        std::swap(address_, other.address_);
+        allocation_.swap(other.allocation_);
+        handle_.swap(other.handle_);
+    }
 
     VkBuffer handle() const { return handle_; }
     VkDeviceSize size() const { return size_; }
@@ -70,6 +84,19 @@ class Image {
 public:
     Image() = default;
     Image(const Gpu& gpu, const ImageSettings& settings, std::string_view name);
+    Image(Image&& other) noexcept { swap(other); }
+    Image& operator=(Image other) noexcept
+    {
+        swap(other);
+        return *this;
+    }
+    void swap(Image& other) noexcept
+    {
+        std::swap(settings_, other.settings_);
+        allocation_.swap(other.allocation_);
+        handle_.swap(other.handle_);
+        view_.swap(other.view_);
+    }
 
     VkImage handle() const { return handle_; }
     VkImageView view() const { return view_; }

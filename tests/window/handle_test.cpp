@@ -40,6 +40,15 @@ TEST_F(HandleTest, IsDestroyedOnceByItsLastOwner)
     EXPECT_EQ(destroyed, std::vector { fence(7) });
 }
 
+TEST_F(HandleTest, AMoveEmptiesItsSourceAndDestroysWhatTheTargetHad)
+{
+    TestHandle first(device, fence(1)), second(device, fence(2));
+    first = std::move(second);
+    EXPECT_EQ(destroyed, std::vector { fence(1) });
+    EXPECT_EQ(VkFence(first), fence(2));
+    EXPECT_EQ(VkFence(second), VkFence(VK_NULL_HANDLE));
+}
+
 TEST_F(HandleTest, IsDestroyedBeforeItIsMadeAnew)
 {
     TestHandle handle(device, fence(1));
