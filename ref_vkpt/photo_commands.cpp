@@ -246,8 +246,9 @@ formats::Image cut_out(const formats::Image& window, const Viewpoint& view)
 void take_photograph(Module& m, const PhotoWish& wish, const formats::Image& image)
 {
     const View& view = m.view();
-    Photograph photo { cut_out(image, view.viewpoint), int(view.size.x), int(view.size.y), {} };
-    photo.radiance.resize(size_t(view.size.x) * view.size.y * 3);
+    const glm::uvec2 size = view.radiance_size;
+    Photograph photo { cut_out(image, view.viewpoint), int(size.x), int(size.y), {} };
+    photo.radiance.resize(size_t(size.x) * size.y * 3);
     if (!m.frame.read_radiance(view, photo.radiance.data()))
         return say(m, "no photograph: there is no image yet");
     constexpr uint64_t mebibyte = 1 << 20;

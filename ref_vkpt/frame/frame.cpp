@@ -295,7 +295,7 @@ void Frame::record_view(
     if (!has_world)
         prepare_menu(uniforms);
     begin_filters(uniforms, view, scene, gpu_world, average);
-    view.size = uniforms.resolved_size;
+    view.radiance_size = uniforms.resolved_size;
     view.radiance = &view.buffers.buffer_of(uniforms.screen.accumulated);
     fill_scene(uniforms, upload_commands(), view, scene, gpu_world);
     if (has_world) {
@@ -366,7 +366,7 @@ shared::RayCounts Frame::read_ray_counts() const
 
 bool Frame::read_radiance(const View& view, float* rgb)
 {
-    const size_t pixels = size_t(view.size.x) * view.size.y, bytes = pixels * sizeof(glm::vec4);
+    const size_t pixels = size_t(view.radiance_size.x) * view.radiance_size.y, bytes = pixels * sizeof(glm::vec4);
     if (bytes == 0 || !view.radiance)
         return false;
     const Buffer copy = graphics_.read_back(*view.radiance, bytes);

@@ -35,7 +35,7 @@ void SceneQueries::measure_irradiance(std::span<const IrradianceProbe> probes, u
     graphics.finish();
     frame.reserve(view, from.size);
     view.history.forget();
-    view.size = from.size;
+    view.radiance_size = from.size;
     view.radiance = &view.buffers.buffer_of(view.buffers.rows().accumulated);
     for (uint32_t sample = 0; sample < samples; sample++) {
         view.accumulated_frames = sample;
@@ -122,11 +122,11 @@ void SceneQueries::trace_chunk(
 bool SceneQueries::inspect_pixel(glm::uvec2 pixel, InspectedSurface& surface, std::span<InspectedLight> lights) const
 {
     const glm::ivec2 inside = glm::ivec2(pixel) - view.viewpoint.origin;
-    const glm::uvec2 shown = view.viewpoint.size;
-    if (view.size.x == 0 || inside.x < 0 || inside.y < 0 || uint32_t(inside.x) >= shown.x
+    const glm::uvec2 shown = view.viewpoint.size, rendered = view.rendered_size;
+    if (rendered.x == 0 || inside.x < 0 || inside.y < 0 || uint32_t(inside.x) >= shown.x
         || uint32_t(inside.y) >= shown.y)
         return false;
-    const glm::uvec2 rendered = glm::min(glm::uvec2(inside) * view.size / shown, view.size - 1u);
+    const glm::uvec2 place = glm::min(glm::uvec2(inside) * rendered / shown, rendered - 1u);
     graphics.finish();
     const Buffer surface_buffer(
         graphics.gpu, sizeof surface, BufferHome::readback, MemoryKind::staging, "inspected surface");
@@ -134,12 +134,12 @@ bool SceneQueries::inspect_pixel(glm::uvec2 pixel, InspectedSurface& surface, st
         graphics.gpu, lights.size_bytes(), BufferHome::readback, MemoryKind::staging, "inspected lights");
     std::memset(light_buffer.mapped(), 0, lights.size_bytes());
     Viewpoint from = view.viewpoint;
-    from.size = view.size;
+    from.size = rendered;
     graphics.run_once([&](VkCommandBuffer commands) {
         const shared::FrameUniforms uniforms = frame.begin_query(commands, view, from, *view.snapshot, gpu_world);
         frame.bind(commands, view, frame.write_uniforms(uniforms));
         const shared::InspectPush push { surface_buffer.address(), light_buffer.address(),
-            rendered.y * view.size.x + rendered.x, uint32_t(lights.size()), probability_draws, counted_choices };
+            place.y * rendered.x + place.x, uint32_t(lights.size()), probability_draws, counted_choices };
         const uint32_t groups = (uint32_t(lights.size()) + shared::PIXEL_GROUP_SIZE - 1) / shared::PIXEL_GROUP_SIZE;
         frame.recorder().record(
             find_pass(PassId::inspect_pixel), make_step(push, { {}, std::clamp(groups, 1u, max_groups) }));

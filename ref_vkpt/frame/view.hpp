@@ -31,8 +31,8 @@ struct View {
     Viewpoint viewpoint;
     CvarValues cvars;
     std::string light_sampler;
-    glm::uvec2 size { 0 }; // pixels of `radiance`
-    glm::uvec2 rendered_size { 0 }; // pixels that were rendered of the world
+    glm::uvec2 radiance_size { 0 }; // pixels of `radiance`: of the world, after anti-aliasing, or of a menu
+    glm::uvec2 rendered_size { 0 }; // pixels that were rendered of the world, whose surfaces the buffers still hold
     const Buffer* radiance = nullptr; // nullptr: no image yet
     ViewHistory history;
     bool lists_changed = false;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace vkpt::tests {
@@ -149,6 +150,45 @@ TEST_F(Inspection, ProbabilitiesAreThoseOfThePicks)
     }
     session_->set("pt_seed", 1);
     EXPECT_FALSE(inspect({ 64, 1 })) << "beside the picture";
+}
+
+// In each size that a view is rendered in, and after a menu's smaller one: the same place, to a pixel of that size.
+TEST_F(Inspection, FindsTheSamePlaceInEveryRenderSize)
+{
+    constexpr std::array<glm::uvec2, 4> pixels { { { 32, 40 }, { 5, 44 }, { 60, 30 }, { 20, 20 } } }; // away from edges
+    session_->set("flt_denoiser", "asvgf");
+    session_->set("pt_seed", 0);
+    const auto look = [&] {
+        std::array<InspectedSurface, pixels.size()> seen {};
+        for (size_t i = 0; i < pixels.size(); i++) {
+            EXPECT_TRUE(inspect(pixels[i]));
+            seen[i] = surface_;
+        }
+        return seen;
+    };
+    session_->draw(3);
+    const auto whole = look();
+    for (const char* filter : { "on", "upscale" })
+        for (const int scale : { 67, 50 }) {
+            session_->set("flt_taa", filter);
+            session_->set("pt_render_scale", scale);
+            session_->draw(3);
+            const auto seen = look();
+            for (size_t i = 0; i < pixels.size(); i++)
+                EXPECT_LT(glm::distance(seen[i].position, whole[i].position), 0.12f * whole[i].depth)
+                    << filter << ' ' << scale << ' ' << i;
+        }
+    const auto before = look();
+    engine::RefDef menu = session_->view;
+    menu.flags = engine::RDF_NOWORLDMODEL;
+    menu.width = menu.height = 16;
+    const engine::Exports8& module = session_->module();
+    module.begin_frame(0);
+    module.render_frame(&menu);
+    module.end_frame();
+    const auto after = look();
+    for (size_t i = 0; i < pixels.size(); i++)
+        EXPECT_TRUE(after[i].position == before[i].position) << i;
 }
 
 // What is inspected is no part of the picture.
