@@ -89,6 +89,15 @@ void check_light_sampler()
     cvars::update();
 }
 
+// True: they have changed. Commands read them, too: the light sampler's name may be new though nothing has changed
+// here.
+bool update_settings()
+{
+    const bool changed = cvars::update();
+    check_light_sampler();
+    return changed;
+}
+
 engine::VideoSize wanted_size()
 {
     const CvarValues& cvars = cvars::values();
@@ -304,6 +313,7 @@ void shutdown_context() { close_module(); }
 bool init()
 {
     cvars::register_all();
+    check_light_sampler();
     engine::init_video_menu();
     for (const Command& command : commands)
         engine::add_command(command.name, command.function);
@@ -386,7 +396,7 @@ static void fix_choices(Module& m)
 void begin_registration(std::string_view map)
 {
     Module& m = *running;
-    cvars::update();
+    update_settings();
     // A level that was dropped half-way through a frame leaves one open.
     m.graphics.end_frame();
     m.graphics.finish();
@@ -486,9 +496,8 @@ void begin_frame(float)
     Module& m = *running;
     m.overlay.obey_keys(m.graphics.timer.frame_milliseconds());
     begin_photo_frame(m);
-    if (cvars::update()) {
+    if (update_settings()) {
         m.photo.note_settings();
-        check_light_sampler();
         m.graphics.set_window_wishes(window_wishes());
     }
     if (m.trace_choice.wants_measurement() && m.view().snapshot && !m.graphics.is_recording())

@@ -2,6 +2,7 @@
 #include "ref_vkpt/frame/sampler_choice.hpp"
 
 #include "ref_vkpt/cvars.hpp"
+#include "ref_vkpt/cvars_rows.hpp"
 #include "ref_vkpt/frame/light_cache.hpp"
 #include "shaders/shared/light_sampler.h"
 
@@ -14,7 +15,9 @@ namespace {
 const LightSampler& wanted_sampler()
 {
     const LightSampler* const sampler = find_light_sampler(cvars::values().pt_light_sampler);
-    return sampler ? *sampler : light_samplers()[0]; // until the variable is put right
+    if (sampler)
+        return *sampler;
+    return *find_light_sampler(find_cvar_row("pt_light_sampler")->initial); // until it is put right
 }
 
 bool is_ready(const std::future<SamplerTables>& tables)

@@ -151,6 +151,19 @@ TEST_F(Samplers, AnUnknownNameIsToldAndReplaced)
     EXPECT_TRUE(session_->has_line("there is no pt_light_sampler \"no_such_sampler\""));
     EXPECT_STREQ(session_->host().cvars().get("pt_light_sampler", "", 0)->text, "subset_pps");
     EXPECT_FALSE(is_black(session_->capture()));
+    session_->set("pt_light_sampler", "nor_such_a_one");
+    session_->load_map("lights"); // which reads the settings, too
+    session_->draw();
+    EXPECT_TRUE(session_->has_line("there is no pt_light_sampler \"nor_such_a_one\""));
+}
+
+TEST(SamplerAtTheStart, AnUnknownNameIsToldAndReplaced)
+{
+    Session::end_idle();
+    const GameFolder folder;
+    Session session(folder, { { "pt_light_sampler", "no_such_sampler" } });
+    EXPECT_TRUE(session.has_line("there is no pt_light_sampler \"no_such_sampler\""));
+    EXPECT_STREQ(session.host().cvars().get("pt_light_sampler", "", 0)->text, "subset_pps");
 }
 
 } // namespace
