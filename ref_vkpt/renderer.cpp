@@ -407,6 +407,7 @@ void begin_registration(std::string_view map)
             view = {}; // gives its memory back
     m.view().begin_world({});
     m.gpu_world = {};
+    m.last_camera.reset();
     m.light_inspector.forget_map();
     m.sampler_choice.forget_world();
     m.frame.forget_world();

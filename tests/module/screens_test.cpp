@@ -226,6 +226,10 @@ TEST_F(Screens, SayWhatIsWrongWithTheirFile)
     start(make_map(), std::string(formats::max_camera_bytes + 1, '\n'));
     EXPECT_TRUE(session_->has_line("the map has no cameras now"));
     see_screen(1);
+    session_->load_map("screens");
+    session_->host().run_text("camera\n");
+    EXPECT_TRUE(session_->has_line("camera: start a map")) << "the line is of the map before";
+    see_screen(1);
 }
 
 } // namespace
