@@ -68,7 +68,8 @@ void Frame::begin(View& view)
     std::memcpy(lanes.data(), readback_.mapped() + graphics_.slot() * light_level_bytes, light_level_bytes);
     light_level_ = std::accumulate(lanes.begin(), lanes.end(), 0.0f) / float(lanes.size());
     read_statistics();
-    render_scale_.add_frame(graphics_.timer.frame_milliseconds(), scale_limits());
+    for (const double milliseconds : graphics_.timer.take_scaled_milliseconds())
+        render_scale_.add_frame(milliseconds, scale_limits());
     // Room for the largest view now: once recording refers to the buffers, they cannot be replaced. For the whole
     // window, though fewer pixels may be rendered, so that a change of the render size costs nothing.
     const VkExtent2D output = graphics_.size();
@@ -290,7 +291,10 @@ void Frame::record_view(
     else
         view.buffers.exchange_history(); // the world's last frame lies safe under the names previous_
     // Averaged images and menus are complete.
-    const glm::uvec2 size = average || !has_world ? from.size : scaled_size(from.size);
+    const bool is_scaled = has_world && !average;
+    const glm::uvec2 size = is_scaled ? scaled_size(from.size) : from.size;
+    if (is_scaled)
+        graphics_.timer.note_scaled_view();
     shared::FrameUniforms uniforms = make_uniforms(view, from, size);
     if (!has_world)
         prepare_menu(uniforms);

@@ -39,6 +39,8 @@ void FrameTimer::read_back(uint32_t frame_slot)
         stamps.size() * sizeof(uint64_t), stamps.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
     if (result == VK_SUCCESS) {
         frame_milliseconds_ = milliseconds_between(stamps.front(), stamps.back());
+        if (slot.has_scaled_view)
+            scaled_milliseconds_.push_back(frame_milliseconds_);
         if (slot.times_passes)
             add_up_passes(slot, stamps);
         collect(slot, stamps);
@@ -76,7 +78,7 @@ void FrameTimer::begin_frame(VkCommandBuffer commands, uint32_t frame_slot)
 {
     read_back(frame_slot);
     slot_ = frame_slot;
-    slots_[slot_].has_view = false;
+    slots_[slot_].has_view = slots_[slot_].has_scaled_view = false;
     const uint32_t turn = statistics_ ? 2 : frames_a_glance;
     slots_[slot_].times_passes = times_every_pass_ || frame_number_++ % turn == 0;
     if (!can_time())

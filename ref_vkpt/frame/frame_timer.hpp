@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace vkpt {
@@ -32,6 +33,10 @@ public:
     void end_frame(VkCommandBuffer commands, const char* name);
     // The frame shows a view: the time from the last one's completion to its own counts.
     void note_view() { slots_[slot_].has_view = true; }
+    // The frame shows a view in the size that follows the time of a frame (pt_target_ms).
+    void note_scaled_view() { slots_[slot_].has_scaled_view = true; }
+    // Of such frames that have been read back since the last call, the oldest first.
+    std::vector<double> take_scaled_milliseconds() { return std::exchange(scaled_milliseconds_, {}); }
     // Of the newest frame that has been read back; 0: there is none, or the queue has no timestamps.
     double frame_milliseconds() const { return frame_milliseconds_; }
     // Of the newest one whose passes were timed; a name marked several times is one row.
@@ -55,7 +60,7 @@ private:
     struct Slot {
         QueryPool pool;
         std::vector<const char*> names; // one a stretch
-        bool has_view = false, times_passes = false;
+        bool has_view = false, has_scaled_view = false, times_passes = false;
     };
     void read_back(uint32_t frame_slot);
     void add_up_passes(const Slot& slot, const std::vector<uint64_t>& stamps);
@@ -69,6 +74,7 @@ private:
     uint32_t slot_ = 0, frame_number_ = 0;
     bool times_every_pass_ = false;
     double frame_milliseconds_ = 0;
+    std::vector<double> scaled_milliseconds_;
     std::vector<PassTime> times_;
     PassStatistics* statistics_ = nullptr;
     std::optional<uint64_t> last_end_; // of the frame that was read back last, if it showed a view

@@ -57,6 +57,17 @@ protected:
         return session_->capture_display();
     }
 
+    // What pt_info says of it.
+    static std::string rendered()
+    {
+        const size_t lines = session_->lines().size();
+        session_->host().run_text("pt_info\n");
+        for (size_t i = lines; i < session_->lines().size(); i++)
+            if (session_->lines()[i].starts_with("rendered"))
+                return session_->lines()[i];
+        return {};
+    }
+
     static inline std::unique_ptr<GameFolder> folder_;
     static inline std::unique_ptr<Session> session_;
 };
@@ -133,14 +144,6 @@ TEST_F(Upscale, AChangeOfSizeKeepsTheHistory)
 TEST_F(Upscale, TheSizeFollowsTheTime)
 {
     session_->set("flt_taa", "upscale");
-    const auto rendered = [&] {
-        const size_t lines = session_->lines().size();
-        session_->host().run_text("pt_info\n");
-        for (size_t i = lines; i < session_->lines().size(); i++)
-            if (session_->lines()[i].starts_with("rendered"))
-                return session_->lines()[i];
-        return std::string();
-    };
     session_->draw();
     EXPECT_NE(rendered().find("64 x 48"), std::string::npos) << rendered();
     session_->set("pt_target_ms", 0.001);
@@ -150,6 +153,30 @@ TEST_F(Upscale, TheSizeFollowsTheTime)
     session_->draw(24);
     EXPECT_NE(rendered().find("64 x 48"), std::string::npos) << rendered();
     EXPECT_NE(rendered().find(" 0 non-finite"), std::string::npos) << rendered();
+}
+
+// Questions about a frame read its time again, and frames without a view of the world are fast for other reasons.
+TEST_F(Upscale, EachViewOfTheWorldCountsOnce)
+{
+    session_->set("flt_taa", "upscale");
+    session_->draw(8);
+    session_->set("pt_target_ms", 0.001);
+    session_->draw(); // with all that comes four frames' times count, of the five that a change takes
+    InspectedSurface surface {};
+    for (int i = 0; i < 20; i++)
+        ASSERT_TRUE(session_->extension().inspect_pixel(32, 40, &surface, nullptr, 0));
+    session_->draw();
+    EXPECT_NE(rendered().find("64 x 48"), std::string::npos) << rendered() << " after questions";
+    for (int i = 0; i < 20; i++) {
+        session_->module().begin_frame(0);
+        session_->module().end_frame();
+    }
+    const engine::RefDef world = session_->view;
+    session_->view.flags = engine::RDF_NOWORLDMODEL;
+    session_->draw(20);
+    session_->view = world;
+    session_->draw();
+    EXPECT_NE(rendered().find("64 x 48"), std::string::npos) << rendered() << " after menus";
 }
 
 // A device whose frames take `fixed` ms and `full` ms for all pixels.
