@@ -113,6 +113,14 @@ glm::vec3 PhysicalSky::level_irradiance() const
     return sum * (pi / (rings * sectors));
 }
 
+float light_of_map_sun(const PhysicalSky& sky)
+{
+    constexpr float lowest = 0.1736f; // sine of 10 degrees
+    const PhysicalSky higher({ std::sqrt(1 - lowest * lowest), 0, lowest }, sky.turbidity());
+    return std::max(
+        { luminance(sky.sun_irradiance()), luminance(higher.sun_irradiance()), luminance(sky.level_irradiance()) / 2 });
+}
+
 float brightest_of_sky(const PhysicalSky& sky)
 {
     constexpr float glare = 0.97f; // cosine of 14 degrees

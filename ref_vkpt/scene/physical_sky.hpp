@@ -36,6 +36,11 @@ private:
     glm::vec3 zenith_; // Y, x, y over the distributions' values there
 };
 
+// What a map's own sun, where that of the sky stands, counts as beside the sky: its light on what faces it, in
+// thousands of lux. Near the horizon, and through haze, next to nothing of the sky's arrives, which no map means: it
+// counts as if it stood 10 degrees high at least, and as half of the sky's light on level ground at least.
+float light_of_map_sun(const PhysicalSky& sky);
+
 // Side 0 to 5 of the sky as a texture (see direction_on_sky), the sun's disc with it; white stands for `white`.
 formats::Image draw_sky_side(const PhysicalSky& sky, size_t side, int size, float white);
 

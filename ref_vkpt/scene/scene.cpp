@@ -432,24 +432,23 @@ void Scene::light_physical_sky()
 {
     constexpr float usual_ground = 2; // radiance of white ground
     const PhysicalSky& sky = *sky_.physical;
-    const glm::vec3 of_sun = sky.sun_irradiance(), of_sky = sky.level_irradiance();
-    const float level = luminance(of_sun) * sky.to_sun().z + luminance(of_sky);
-    float sun_radiance = 0; // of a white surface that faces it
+    float shown = 0; // radiance of white ground that a thousand lux fall on
     if (!world_->suns.empty()) {
-        sun_radiance = world_->suns.front().light / 128;
+        shown = world_->suns.front().light / 128 / light_of_map_sun(sky);
     } else {
-        const float ground = world_->lit_sky_luminance > 0 ? world_->lit_sky_luminance : usual_ground;
-        sun_radiance = ground * luminance(of_sun) / level;
+        const glm::vec3 of_sun = sky.sun_irradiance();
+        const float level = luminance(of_sun) * sky.to_sun().z + luminance(sky.level_irradiance());
+        shown = (world_->lit_sky_luminance > 0 ? world_->lit_sky_luminance : usual_ground) / level;
         Sun sun;
         sun.to_sun = sky.to_sun();
-        sun.light = 128 * sun_radiance;
+        sun.light = 128 * shown * luminance(of_sun);
         sun.colour = of_sun / luminance(of_sun);
         sun.half_angle = glm::radians(0.5f * sun_diameter);
         sky_.sun = sun;
     }
     // White stands for so much; a sky of even radiance L lights level ground by pi L.
     constexpr float pi = std::numbers::pi_v<float>;
-    sky_.scale = sun_radiance * pi / luminance(of_sun) * white_of_sky(sky);
+    sky_.scale = shown * pi * white_of_sky(sky);
 }
 
 shared::Sky Scene::make_sky(float time) const

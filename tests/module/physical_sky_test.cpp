@@ -56,6 +56,21 @@ TEST(PhysicalSkyModel, IsAsBrightAsTheRealOne)
     EXPECT_LT(luminance(noon.level_irradiance()), 40);
 }
 
+// However low a map's sun stands: beside it the sky is as bright as the model has it by day, and never absurd.
+TEST(PhysicalSkyModel, LeavesTheProportionsToAMapsSun)
+{
+    for (const float turbidity : { 3.0f, 6.0f, 10.0f })
+        for (const float elevation : { 45.0f, 20.0f, 10.0f, 5.0f, 2.0f, 0.0f }) {
+            const PhysicalSky sky = sky_at(elevation, turbidity);
+            const float ground = luminance(sky.level_irradiance()) / light_of_map_sun(sky);
+            EXPECT_GT(ground, 0.2f) << turbidity << ' ' << elevation;
+            EXPECT_LT(ground, 2.001f) << turbidity << ' ' << elevation;
+            if (elevation >= 20 && turbidity < 10) {
+                EXPECT_EQ(light_of_map_sun(sky), luminance(sky.sun_irradiance())) << turbidity << ' ' << elevation;
+            }
+        }
+}
+
 class PhysicalSkyInMaps : public testing::Test {
 protected:
     // Open ground with a roof over the half where x < 0.
@@ -115,6 +130,15 @@ TEST_F(PhysicalSkyInMaps, MapsKeepTheirSun)
     EXPECT_NEAR(luminance(lit), std::sqrt(0.5f), 0.03f);
     EXPECT_GT(lit.x, lit.z) << "in the colour that the air gives it";
     EXPECT_EQ(light_at(-220).y, 0);
+}
+
+TEST_F(PhysicalSkyInMaps, AMapsLowSunHasASkyThatGoesWithIt)
+{
+    start({ { "_sun_light", "128" }, { "_sun_angle", "180 -3" } }, { { "pt_sky_turbidity", "6" } });
+    session_->set("pt_sun_scale", 0);
+    const PhysicalSky sky(direction_of_angles(0, 3), 6);
+    const float of_sky = luminance(light_at(700));
+    EXPECT_NEAR(of_sky, luminance(sky.level_irradiance()) / light_of_map_sun(sky), 0.1f * of_sky);
 }
 
 } // namespace
