@@ -169,7 +169,7 @@ struct Extension {
     // With pt_times 1: all times since the start or the last forget_times, in order of their first appearance; "frame"
     // is that from one frame's completion to the next one's, of frames with a 3D view. Frames' passes and whole frames
     // are timed by turns, passes first after forget_times. Waits for the device, so that the last frame is among them.
-    // The arrays live until the next frame begins.
+    // The arrays live until the next frame begins. Of each the last 4096 samples are there at least.
     const PassSamples* (*collected_times)(size_t* count);
     void (*forget_times)();
     // What the last view was made of. Valid until the next frame or call. False: no map.

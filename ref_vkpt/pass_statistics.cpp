@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/pass_statistics.hpp"
 
-#include "common/quantile.hpp"
-#include "ref_vkpt/engine/engine.hpp"
-
 #include <algorithm>
-#include <cmath>
 
 namespace vkpt {
 
@@ -24,14 +20,10 @@ void PassStatistics::add(std::string_view name, double milliseconds)
     auto pass = std::ranges::find(passes_, name, &Pass::name);
     if (pass == passes_.end())
         pass = passes_.insert(passes_.end(), { std::string(name), {} });
-    pass->milliseconds.push_back(float(milliseconds));
-}
-
-void PassStatistics::print() const
-{
-    for (const Pass& pass : passes_)
-        engine::print("ref_vkpt: pass {} median {:.3f} ms, p95 {:.3f} ms", pass.name, find_median(pass.milliseconds),
-            find_quantile(pass.milliseconds, 0.95));
+    std::vector<float>& samples = pass->milliseconds;
+    if (samples.size() == 2 * kept)
+        samples.erase(samples.begin(), samples.begin() + kept);
+    samples.push_back(float(milliseconds));
 }
 
 } // namespace vkpt

@@ -11,16 +11,17 @@ namespace vkpt {
 
 class PassStatistics {
 public:
+    static constexpr size_t kept = 4096; // samples of a pass
+
     void add(std::string_view name, double milliseconds);
-    // One console line a pass, in the order in which they came first.
-    void print() const;
     bool empty() const { return passes_.empty(); }
     void clear() { passes_.clear(); }
 
     struct Pass {
         std::string name;
-        std::vector<float> milliseconds; // one a frame, oldest first
+        std::vector<float> milliseconds; // one a frame, oldest first: the last `kept` at least, twice as many at most
     };
+    // In the order in which they came first.
     const std::vector<Pass>& passes() const { return passes_; }
 
 private:

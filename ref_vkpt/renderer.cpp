@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/renderer.hpp"
 
+#include "common/quantile.hpp"
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/cvars_rows.hpp"
 #include "ref_vkpt/engine/engine.hpp"
@@ -194,7 +195,9 @@ void print_pass_statistics(Module& m)
     }
     if (m.pass_statistics.empty())
         engine::print("ref_vkpt: no times were collected: set pt_times 1");
-    m.pass_statistics.print();
+    for (const PassStatistics::Pass& pass : m.pass_statistics.passes())
+        engine::print("ref_vkpt: pass {} median {:.3f} ms, p95 {:.3f} ms", pass.name, find_median(pass.milliseconds),
+            find_quantile(pass.milliseconds, 0.95));
     write_bench_report(m);
 }
 
