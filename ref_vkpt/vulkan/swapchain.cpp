@@ -34,8 +34,10 @@ void Swapchain::create_surface()
 {
     surface_ = window_.create_surface(gpu_.device.instance);
     VkBool32 supported = VK_FALSE;
-    VKPT_CHECK(
-        vkGetPhysicalDeviceSurfaceSupportKHR(gpu_.device.physical, gpu_.device.queue_family, surface_, &supported));
+    if (!check(
+            vkGetPhysicalDeviceSurfaceSupportKHR(gpu_.device.physical, gpu_.device.queue_family, surface_, &supported),
+            "vkGetPhysicalDeviceSurfaceSupportKHR"))
+        return;
     if (!supported)
         throw FatalError(std::string(gpu_.device.properties.deviceName)
             + " cannot present to this window; choose another "
@@ -50,8 +52,8 @@ void Swapchain::renew_surface()
     swapchain_ = {};
     vkDestroySurfaceKHR(gpu_.device.instance, surface_, nullptr);
     surface_ = VK_NULL_HANDLE;
-    create_surface();
     surface_lost_ = false;
+    create_surface();
 }
 
 bool Swapchain::check(VkResult result, const char* call)
@@ -76,22 +78,13 @@ void Swapchain::destroy_images()
     images_.clear();
 }
 
-std::vector<VkSurfaceFormatKHR> Swapchain::offered_formats() const
+template <class Item, class Query> bool Swapchain::list(Query query, const char* call, std::vector<Item>& items)
 {
     uint32_t count = 0;
-    VKPT_CHECK(vkGetPhysicalDeviceSurfaceFormatsKHR(gpu_.device.physical, surface_, &count, nullptr));
-    std::vector<VkSurfaceFormatKHR> formats(count);
-    VKPT_CHECK(vkGetPhysicalDeviceSurfaceFormatsKHR(gpu_.device.physical, surface_, &count, formats.data()));
-    return formats;
-}
-
-std::vector<VkPresentModeKHR> Swapchain::offered_modes() const
-{
-    uint32_t count = 0;
-    VKPT_CHECK(vkGetPhysicalDeviceSurfacePresentModesKHR(gpu_.device.physical, surface_, &count, nullptr));
-    std::vector<VkPresentModeKHR> modes(count);
-    VKPT_CHECK(vkGetPhysicalDeviceSurfacePresentModesKHR(gpu_.device.physical, surface_, &count, modes.data()));
-    return modes;
+    if (!check(query(gpu_.device.physical, surface_, &count, nullptr), call))
+        return false;
+    items.resize(count);
+    return check(query(gpu_.device.physical, surface_, &count, items.data()), call);
 }
 
 bool Swapchain::recreate(const WindowWishes& wishes)
@@ -99,7 +92,7 @@ bool Swapchain::recreate(const WindowWishes& wishes)
     wishes_ = wishes;
     if (surface_lost_)
         renew_surface();
-    return make_images();
+    return !surface_lost_ && make_images();
 }
 
 VkExtent2D Swapchain::extent_for(const VkSurfaceCapabilitiesKHR& surface) const
@@ -136,7 +129,12 @@ bool Swapchain::make_images()
     transform_ = surface.currentTransform;
     const auto old = std::move(swapchain_);
     if (extent_.width > 0 && extent_.height > 0) {
-        format_ = choose_window_format(offered_formats(), wishes_.hdr);
+        std::vector<VkSurfaceFormatKHR> formats;
+        std::vector<VkPresentModeKHR> modes;
+        if (!list(vkGetPhysicalDeviceSurfaceFormatsKHR, "vkGetPhysicalDeviceSurfaceFormatsKHR", formats)
+            || !list(vkGetPhysicalDeviceSurfacePresentModesKHR, "vkGetPhysicalDeviceSurfacePresentModesKHR", modes))
+            return false;
+        format_ = choose_window_format(formats, wishes_.hdr);
         VkSwapchainCreateInfoKHR info { VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR };
         info.surface = surface_;
         info.minImageCount = surface.minImageCount + 1;
@@ -149,7 +147,7 @@ bool Swapchain::make_images()
         info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
         info.preTransform = surface.currentTransform;
         info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-        info.presentMode = choose_present_mode(offered_modes(), wishes_.vsync);
+        info.presentMode = choose_present_mode(modes, wishes_.vsync);
         info.clipped = VK_TRUE;
         info.oldSwapchain = old;
         if (!check(swapchain_.renew(vkCreateSwapchainKHR, gpu_.device.handle, info), "vkCreateSwapchainKHR"))

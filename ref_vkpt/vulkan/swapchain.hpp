@@ -59,8 +59,8 @@ private:
     VkExtent2D extent_for(const VkSurfaceCapabilitiesKHR& surface) const;
     bool has_changed();
     void destroy_images();
-    std::vector<VkSurfaceFormatKHR> offered_formats() const;
-    std::vector<VkPresentModeKHR> offered_modes() const;
+    // What the surface offers. False: it is gone.
+    template <class Item, class Query> bool list(Query query, const char* call, std::vector<Item>& items);
 
     Gpu gpu_;
     const Window& window_;

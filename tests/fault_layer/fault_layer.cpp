@@ -2,6 +2,7 @@
 // A Vulkan layer for tests. While there is a file $VKPT_FAULTS, calls fail as its text says, a fault a line:
 //   memory N   all allocations of device memory but the next N
 //   surface    the window's surface is lost, once: whatever uses that surface fails until it is destroyed
+//   surface formats, surface modes   the same, from the question for those on
 //   format N   windows have no format but VkFormat N
 //   hdr N SPACE  they have B8G8R8A8, and VkFormat N of as many bits, which are shown as those, in VkColorSpaceKHR SPACE
 //   suboptimal every picture that is shown is said not to be the best for its window
@@ -80,10 +81,12 @@ bool fails_to_allocate()
     return limit != "-" && allowed-- <= 0;
 }
 
-bool is_lost(VkSurfaceKHR surface)
+// `question`: that is asked now; empty: another one.
+bool is_lost(VkSurfaceKHR surface, std::string_view question = "")
 {
     const std::scoped_lock lock(mutex);
-    if (shown && has_fault("surface")) {
+    const std::string first = read_fault("surface");
+    if (shown && (first.empty() || first == question)) {
         unlink(std::getenv("VKPT_FAULTS"));
         lost = shown;
     }
@@ -454,6 +457,8 @@ PFN_vkGetPhysicalDeviceSurfaceFormatsKHR next_formats;
 VkResult VKAPI_CALL get_formats(
     VkPhysicalDevice physical, VkSurfaceKHR surface, uint32_t* count, VkSurfaceFormatKHR* formats)
 {
+    if (is_lost(surface, "formats"))
+        return VK_ERROR_SURFACE_LOST_KHR;
     const std::string format = read_fault("format"), hdr = read_fault("hdr");
     std::vector<VkSurfaceFormatKHR> offered;
     if (format != "-")
@@ -467,6 +472,12 @@ VkResult VKAPI_CALL get_formats(
         std::copy_n(offered.begin(), std::min<size_t>(*count, offered.size()), formats);
     *count = uint32_t(offered.size());
     return VK_SUCCESS;
+}
+
+PFN_vkGetPhysicalDeviceSurfacePresentModesKHR next_modes;
+VkResult VKAPI_CALL get_modes(VkPhysicalDevice physical, VkSurfaceKHR surface, uint32_t* count, VkPresentModeKHR* modes)
+{
+    return is_lost(surface, "modes") ? VK_ERROR_SURFACE_LOST_KHR : next_modes(physical, surface, count, modes);
 }
 
 PFN_vkDestroySurfaceKHR next_destroy_surface;
@@ -536,6 +547,7 @@ PFN_vkVoidFunction VKAPI_CALL get_instance_function(VkInstance of, const char* n
     VKPT_TAKE("vkEnumerateDeviceExtensionProperties", next_extensions, enumerate_extensions)
     VKPT_TAKE("vkGetPhysicalDeviceSurfaceCapabilitiesKHR", next_capabilities, get_capabilities)
     VKPT_TAKE("vkGetPhysicalDeviceSurfaceFormatsKHR", next_formats, get_formats)
+    VKPT_TAKE("vkGetPhysicalDeviceSurfacePresentModesKHR", next_modes, get_modes)
     VKPT_TAKE("vkDestroySurfaceKHR", next_destroy_surface, destroy_surface)
 #undef VKPT_TAKE
     return next;

@@ -93,6 +93,25 @@ TEST_F(Presenting, RestsWhileTheWindowIsMinimised)
     EXPECT_GE(Faults::counts().presented, before.presented + 2);
 }
 
+// Whichever question about it is the first to notice.
+TEST_F(Presenting, SurvivesTheLossOfItsSurface)
+{
+    const Faults faults;
+    const ModuleInWindow module(engine, window);
+    ASSERT_TRUE(module.is_running());
+    module.draw(2);
+    for (const char* fault : { "surface", "surface formats", "surface modes" }) {
+        engine.console.clear();
+        faults.set(fault);
+        window.width += 8; // so that new pictures are asked for
+        module.draw(6);
+        EXPECT_EQ(engine.lines_with("the window's surface was lost").size(), 1u) << fault;
+        const uint32_t presented = Faults::counts().presented;
+        module.draw(2);
+        EXPECT_EQ(Faults::counts().presented, presented + 2) << fault;
+    }
+}
+
 TEST_F(Presenting, SurvivesWindowsWithoutPixels)
 {
     const Faults faults;
