@@ -64,7 +64,6 @@
     X(vkDestroyPipelineCache)                                                                                          \
     X(vkGetPipelineCacheData)                                                                                          \
     X(vkCreateComputePipelines)                                                                                        \
-    X(vkCreateGraphicsPipelines)                                                                                       \
     X(vkDestroyPipeline)                                                                                               \
     X(vkCreatePipelineLayout)                                                                                          \
     X(vkDestroyPipelineLayout)                                                                                         \
@@ -74,10 +73,6 @@
     X(vkDestroyDescriptorPool)                                                                                         \
     X(vkAllocateDescriptorSets)                                                                                        \
     X(vkUpdateDescriptorSets)                                                                                          \
-    X(vkCreateRenderPass)                                                                                              \
-    X(vkDestroyRenderPass)                                                                                             \
-    X(vkCreateFramebuffer)                                                                                             \
-    X(vkDestroyFramebuffer)                                                                                            \
     X(vkCreateCommandPool)                                                                                             \
     X(vkDestroyCommandPool)                                                                                            \
     X(vkResetCommandPool)                                                                                              \
@@ -103,15 +98,7 @@
     X(vkCmdFillBuffer)                                                                                                 \
     X(vkCmdUpdateBuffer)                                                                                               \
     X(vkCmdCopyBuffer)                                                                                                 \
-    X(vkCmdCopyBufferToImage)                                                                                          \
-    X(vkCmdCopyImageToBuffer)                                                                                          \
-    X(vkCmdBlitImage)                                                                                                  \
-    X(vkCmdClearColorImage)                                                                                            \
-    X(vkCmdBeginRenderPass)                                                                                            \
-    X(vkCmdEndRenderPass)                                                                                              \
-    X(vkCmdSetViewport)                                                                                                \
-    X(vkCmdSetScissor)                                                                                                 \
-    X(vkCmdDraw)
+    X(vkCmdCopyBufferToImage)
 
 #define VKPT_OPTIONAL_DEVICE_FUNCTIONS(X)                                                                              \
     X(vkCreateSwapchainKHR)                                                                                            \
