@@ -251,7 +251,6 @@ void take_photograph(Module& m, const PhotoWish& wish, const formats::Image& ima
     photo.radiance.resize(size_t(size.x) * size.y * 3);
     if (!m.frame.read_radiance(view, photo.radiance.data()))
         return say(m, "no photograph: there is no image yet");
-    constexpr uint64_t mebibyte = 1 << 20;
     try {
         const auto files = save_photograph(
             engine::game_directory(), wish.name, photo, uint64_t(cvars::values().pt_capture_mib) * mebibyte);

@@ -22,7 +22,6 @@ namespace {
 using trace::Call;
 using trace::CallKind;
 
-constexpr uint64_t mebibyte = 1 << 20;
 constexpr double slowest = 1.0 / 64, fastest = 16;
 
 void say(Module& m, const std::string& message)

@@ -10,9 +10,6 @@ namespace vkpt {
 
 namespace {
 
-constexpr uint64_t mebibyte = 1 << 20;
-constexpr uint64_t left_on_disk = 256 * mebibyte; // for everybody else
-
 bool is_free(const OutputFolder& folder, const std::string& name, std::span<const NewFile> files)
 {
     return std::ranges::none_of(files, [&](const NewFile& file) { return folder.has(name + file.ending); });
@@ -32,12 +29,7 @@ void check_room(const OutputFolder& folder, const NewFiles& wanted)
     uint64_t bytes = 0;
     for (const NewFile& file : wanted.files)
         bytes += file.bytes.size();
-    if (folder.bytes() + bytes > wanted.max_bytes)
-        throw FileError(fmt::format("all {} in {} may take {} MiB: move some away, or start with +set pt_capture_mib "
-                                    "and a larger number",
-            wanted.folder, folder.path().string(), wanted.max_bytes / mebibyte));
-    if (folder.free_bytes() < left_on_disk + bytes)
-        throw FileError(fmt::format("the disk that holds {} is nearly full", folder.path().string()));
+    folder.check_room(bytes, { wanted.folder, folder.path(), folder.bytes(), wanted.max_bytes });
 }
 
 } // namespace

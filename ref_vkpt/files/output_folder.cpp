@@ -230,4 +230,15 @@ uint64_t OutputFolder::free_bytes() const
     return fstatvfs(descriptor_, &system) == 0 ? uint64_t(system.f_bavail) * system.f_frsize : 0;
 }
 
+void OutputFolder::check_room(uint64_t bytes, const FileRoom& room) const
+{
+    constexpr uint64_t left_on_disk = 256 * mebibyte; // for everybody else
+    if (room.used + bytes > room.most)
+        throw FileError(fmt::format("all {} in {} may take {} MiB: move some away, or start with +set pt_capture_mib "
+                                    "and a larger number",
+            room.what, room.folder.string(), room.most / mebibyte));
+    if (free_bytes() < left_on_disk + bytes)
+        throw FileError(fmt::format("the disk that holds {} is nearly full", path_.string()));
+}
+
 } // namespace vkpt

@@ -23,6 +23,15 @@ public:
 // Letters, digits, "_" and "-", at most 64 of them: what players may call files and folders.
 bool is_plain_name(std::string_view name);
 
+inline constexpr uint64_t mebibyte = 1 << 20;
+
+// For files that the player asks for: `pt_capture_mib`.
+struct FileRoom {
+    std::string_view what; // captures, photos
+    std::filesystem::path folder; // of all of them
+    uint64_t used = 0, most = 0; // bytes
+};
+
 class OutputFolder {
 public:
     // base/names[0]/names[1]/..., made where they are missing. `base` may be reached through links, the others may be
@@ -48,6 +57,8 @@ public:
     uint64_t bytes() const;
     // That its file system has left for users.
     uint64_t free_bytes() const;
+    // Throws FileError where `bytes` more would be too many for the room, or for the disk.
+    void check_room(uint64_t bytes, const FileRoom& room) const;
 
 private:
     OutputFolder(int descriptor, std::filesystem::path path);

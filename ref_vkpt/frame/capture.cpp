@@ -6,13 +6,6 @@
 
 namespace vkpt {
 
-namespace {
-
-constexpr uint64_t mebibyte = 1 << 20;
-constexpr uint64_t left_on_disk = 256 * mebibyte; // for everybody else
-
-} // namespace
-
 bool FrameCapture::is_wanted()
 {
     const int every = cvars::values().pt_capture_every;
@@ -32,7 +25,7 @@ void FrameCapture::open_folder()
     if (!is_plain_name(name))
         throw FileError(fmt::format("pt_capture_dir \"{}\" may have only letters, digits, _ and -", name));
     const OutputFolder captures(engine::game_directory(), { "vkpt", "captures" });
-    captured_bytes_ = captures.bytes();
+    room_ = { "captures", captures.path(), captures.bytes(), uint64_t(cvars::values().pt_capture_mib) * mebibyte };
     folder_.emplace(captures.make_new(name));
 }
 
@@ -41,18 +34,6 @@ void FrameCapture::report()
     if (captured_frames_ != 0)
         engine::print("ref_vkpt: {} captured frames are in {}", captured_frames_, folder_->path().string());
     captured_frames_ = 0;
-}
-
-void FrameCapture::take_from_budget(uint64_t bytes)
-{
-    const uint64_t most = uint64_t(cvars::values().pt_capture_mib) * mebibyte;
-    if (captured_bytes_ + bytes > most)
-        throw FileError(fmt::format("all captures in {} may take {} MiB: remove some, or start with +set "
-                                    "pt_capture_mib and a larger number",
-            folder_->path().parent_path().string(), most / mebibyte));
-    if (folder_->free_bytes() < left_on_disk + bytes)
-        throw FileError(fmt::format("the disk that holds {} is nearly full", folder_->path().string()));
-    captured_bytes_ += bytes;
 }
 
 void FrameCapture::end_view(const std::function<formats::Image()>& read_image)
@@ -64,7 +45,8 @@ void FrameCapture::end_view(const std::function<formats::Image()>& read_image)
         if (!folder_)
             open_folder();
         const std::vector<std::byte> image = formats::write_png(read_image());
-        take_from_budget(image.size());
+        folder_->check_room(image.size(), room_);
+        room_.used += image.size();
         folder_->write(fmt::format("frame{:06}.png", frame_number_), image);
         captured_frames_++;
     } catch (const FileError& error) {

@@ -26,15 +26,13 @@ private:
     void open_folder();
     // Says how many frames there are and where. Only when no more follow: console lines are part of the image.
     void report();
-    // Throws FileError where so many bytes more are too many.
-    void take_from_budget(uint64_t bytes);
 
     uint32_t frame_number_ = 0; // of frames with a 3D view
     int every_ = 0; // that the last decision was made for
     bool gave_up_ = false; // until pt_capture_every changes
     std::optional<OutputFolder> folder_; // a new one at each start of the renderer
     uint32_t captured_frames_ = 0; // that the console has not been told of
-    uint64_t captured_bytes_ = 0; // of all captures there are, this folder's and older ones
+    FileRoom room_; // of all captures there are, this folder's and older ones
 };
 
 } // namespace vkpt
