@@ -23,6 +23,15 @@ std::vector<EntityText> read_entities(const formats::Bsp& bsp, std::vector<std::
     }
 }
 
+bool is_sun(const EntityText& light) { return light.number("_sun", 0) > 0; }
+
+float read_light_value(const EntityText& light)
+{
+    constexpr float usual = 300;
+    const float value = light.number("light", light.number("_light", usual));
+    return value == 0 ? usual : value;
+}
+
 std::optional<glm::vec3> read_colour(const EntityText& entity, std::string_view key)
 {
     const std::optional<glm::vec3> colour = entity.vector(key);

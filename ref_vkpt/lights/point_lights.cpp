@@ -24,7 +24,6 @@ namespace {
 using formats::Bsp;
 using formats::EntityText;
 
-constexpr float default_light_value = 300;
 constexpr float min_radius = 0.5f;
 constexpr int farthest_rescue = 16; // how far a light inside a wall may be moved to come out of it, units
 constexpr float default_cone = 10; // degrees between axis and edge
@@ -58,16 +57,10 @@ float fit_radius(const Bsp& bsp, glm::vec3 centre, float wanted, uint64_t& steps
     return std::max(radius, min_radius);
 }
 
-float read_value(const EntityText& entity)
-{
-    const float value = entity.number("light", entity.number("_light", default_light_value));
-    return value == 0 ? default_light_value : value;
-}
-
 shared::Emitter make_sphere(const EntityText& entity, glm::vec3 centre, float radius, const EmissionScales& scales)
 {
     constexpr float pi = std::numbers::pi_v<float>;
-    const float value = read_value(entity);
+    const float value = read_light_value(entity);
     const float intensity = scales.point * value * value * value;
     shared::Emitter emitter {};
     emitter.type = shared::EMITTER_SPHERE;
@@ -102,7 +95,7 @@ std::vector<shared::Emitter> extract_point_lights(
     size_t number = 0;
     WorkLimit work(bsp, max_placing_steps, "steps to find its point lights' places");
     for (const EntityText& entity : entities) {
-        if (!is_light(entity))
+        if (!is_light(entity) || is_sun(entity))
             continue;
         number++;
         const std::optional<glm::vec3> origin = entity.vector("origin");
@@ -110,7 +103,7 @@ std::vector<shared::Emitter> extract_point_lights(
             messages.push_back(fmt::format("{}: a light entity without a usable origin is ignored", bsp.name));
             continue;
         }
-        const float value = read_value(entity);
+        const float value = read_light_value(entity);
         if (!(value > 0) || !std::isfinite(value)) {
             messages.push_back(
                 fmt::format("{}: the light at {} has the value {} and is ignored: only positive lights emit", bsp.name,

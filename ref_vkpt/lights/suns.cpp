@@ -92,10 +92,10 @@ std::vector<Sun> find_suns(std::span<const EntityText> entities)
         append_sun(suns, sun);
     }
     for (const EntityText& entity : entities) {
-        if (!is_light(entity) || !(entity.number("_sun", 0) > 0))
+        if (!is_light(entity) || !is_sun(entity))
             continue;
         Sun sun;
-        sun.light = entity.number("light", 0);
+        sun.light = read_light_value(entity);
         sun.to_sun
             = -find_aim(entity, entity.vector("origin").value_or(glm::vec3(0)), targets).value_or(glm::vec3(0, 0, -1));
         sun.colour = read_light_colour(entity);

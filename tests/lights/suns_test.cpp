@@ -58,6 +58,20 @@ TEST(Suns, AreAimedByLights)
     ASSERT_EQ(own.size(), 1u);
     expect_direction(own[0].to_sun, { 0.6f, 0, 0.8f });
     EXPECT_EQ(own[0].light, 70);
+    EXPECT_EQ(suns_of(entities + R"("_sun" "1" "_light" "80" })").at(0).light, 80);
+    EXPECT_EQ(suns_of(entities + R"("_sun" "1" })").at(0).light, 300);
+}
+
+TEST(Suns, AreNoLampsAtTheirEntitysPlace)
+{
+    formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+    const auto count_lamps = [&](const std::string& key) {
+        bsp.entity_text = R"({ "classname" "light" "origin" "0 0 32" "_spotangle" "0 -90" "_sun" ")" + key + R"(" })";
+        std::vector<std::string> messages;
+        return extract_point_lights(bsp, {}, messages).size();
+    };
+    EXPECT_EQ(count_lamps("0"), 1u);
+    EXPECT_EQ(count_lamps("1"), 0u);
 }
 
 // What maps/NAME.lights says comes last.
