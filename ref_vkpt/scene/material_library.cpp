@@ -4,6 +4,7 @@
 #include "common/numbers.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <glm/common.hpp>
 
 namespace vkpt {
@@ -24,6 +25,37 @@ std::string word_of(const Attributes& attributes, std::string_view name)
     return found != attributes.end() ? found->second : std::string();
 }
 
+// With the material's own name in place of the first asterisk: without its folders, or all of it where there are two.
+std::string put_name(std::string file, std::string_view name)
+{
+    const size_t at = file.find('*');
+    if (at == std::string::npos)
+        return file;
+    const bool is_whole = file.substr(at).starts_with("**");
+    const bool is_wall = !name.starts_with("models/") && !name.starts_with("players/");
+    std::string inserted(is_whole ? name : name.substr(name.rfind('/') + 1));
+    if (is_whole && is_wall)
+        inserted.insert(0, "textures/"); // which material_name() leaves out
+    return file.replace(at, is_whole ? 2 : 1, inserted);
+}
+
+// Nothing: it is not said. Empty, written 0: none.
+std::optional<std::string> file_of(const Attributes& attributes, std::string_view attribute, std::string_view name)
+{
+    const auto found = attributes.find(attribute);
+    if (found == attributes.end())
+        return std::nullopt;
+    return found->second == "0" ? std::string() : put_name(found->second, name);
+}
+
+// In capitals.
+std::string kind_of(const Attributes& attributes)
+{
+    std::string kind = word_of(attributes, "kind");
+    std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return char(std::toupper(c)); });
+    return kind;
+}
+
 // Of the picture; as Q2RTX has it for its screens where the file does not say. Nothing that has no size.
 glm::vec4 screen_area_of(const Attributes& attributes)
 {
@@ -36,17 +68,18 @@ glm::vec4 screen_area_of(const Attributes& attributes)
     return area.z - area.x >= smallest && area.w - area.y >= smallest ? area : usual;
 }
 
-MaterialSettings make_settings(const Attributes& attributes)
+MaterialSettings make_settings(std::string_view name, const Attributes& attributes)
 {
     constexpr float brightest = 16, usual_threshold = 215, steepest = 4, max_emissive = 1000;
     MaterialSettings settings;
     settings.roughness = std::min(number_of(attributes, "roughness_override", -1), 1.0f);
     settings.metalness = std::min(number_of(attributes, "metalness_override", -1), 1.0f);
-    if (word_of(attributes, "kind") == "CHROME") { // a mirror, unless it says more
+    const std::string kind = kind_of(attributes);
+    if (kind == "CHROME") { // a mirror, unless it says more
         settings.roughness = settings.roughness < 0 ? 0 : settings.roughness;
         settings.metalness = settings.metalness < 0 ? 1 : settings.metalness;
     }
-    settings.is_screen = word_of(attributes, "kind") == "CAMERA";
+    settings.is_screen = kind == "CAMERA";
     settings.screen_area = screen_area_of(attributes);
     if (attributes.contains("synth_emissive"))
         settings.glow_threshold = number_of(attributes, "synth_emissive", 0) > 0
@@ -59,10 +92,10 @@ MaterialSettings make_settings(const Attributes& attributes)
     settings.default_radiance = std::clamp(number_of(attributes, "default_radiance", 1), 0.0f, max_emissive);
     settings.takes_light_value = number_of(attributes, "bsp_radiance", 1) > 0;
     settings.takes_lightstyles = number_of(attributes, "light_styles", 1) > 0;
-    settings.base_file = word_of(attributes, "texture_base");
-    settings.mask_file = word_of(attributes, "texture_mask");
-    settings.normals_file = word_of(attributes, "texture_normals");
-    settings.emissive_file = word_of(attributes, "texture_emissive");
+    settings.base_file = file_of(attributes, "texture_base", name).value_or("");
+    settings.mask_file = file_of(attributes, "texture_mask", name).value_or("");
+    settings.normals_file = file_of(attributes, "texture_normals", name);
+    settings.emissive_file = file_of(attributes, "texture_emissive", name);
     settings.attributes = attributes;
     return settings;
 }
@@ -87,7 +120,7 @@ void MaterialLibrary::refresh(const std::string& name)
     if (all.empty())
         settings_.erase(name);
     else
-        settings_.insert_or_assign(name, make_settings(all));
+        settings_.insert_or_assign(name, make_settings(name, all));
 }
 
 void MaterialLibrary::add(const formats::MaterialFile& file)

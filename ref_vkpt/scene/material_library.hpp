@@ -6,6 +6,7 @@
 
 #include <glm/vec4.hpp>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,8 +24,9 @@ struct MaterialSettings {
     bool takes_light_value = true, takes_lightstyles = true; // see FaceTexture
     bool is_screen = false; // shows what a camera sees
     glm::vec4 screen_area { 11 / 256.0f, 14 / 256.0f, 245 / 256.0f, 148 / 256.0f }; // left, top, right, bottom of 1
-    // Files of the game; empty: not said.
-    std::string base_file, mask_file, normals_file, emissive_file;
+    // Files of the game; empty: none.
+    std::string base_file, mask_file;
+    std::optional<std::string> normals_file, emissive_file; // nothing: what lies beside the texture
     std::map<std::string, std::string, std::less<>> attributes; // all, as they are written
 };
 

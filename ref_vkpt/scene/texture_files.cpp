@@ -160,12 +160,15 @@ std::optional<LoadedTexture> TextureFiles::load(std::string_view name, TextureUs
         std::optional<LoadedTexture> texture;
         if (wish.retexturing && !wish.file.empty())
             texture = load_replacement(use_forward_slashes(wish.file), path, budget);
+        const bool misses_file = wish.retexturing && !wish.file.empty() && !texture;
         if (wish.retexturing && !texture)
             texture = load_replacement(path, path, budget);
         if (!texture)
             texture = load_original(path, wish.doubled, budget);
         if (!texture)
             continue;
+        if (misses_file)
+            report_(fmt::format("texture_base {} of {} is missing or unusable", wish.file, texture->path));
         // The engine's own renderers ignore the alpha of these; hi-res packs keep other things in it.
         if ((use == TextureUse::skin && wish.alpha == AlphaMeaning::opacity) || use == TextureUse::sky)
             for (formats::Rgba8& pixel : texture->image.pixels)

@@ -169,12 +169,14 @@ const Texture* TextureStore::find_map(std::string_view name, TextureUse use, Tex
 {
     const bool is_normals = map == TextureUse::normals;
     const MaterialSettings& settings = settings_of(library_, name, use);
-    const std::string& file = is_normals ? settings.normals_file : settings.emissive_file;
-    if (file.empty())
+    const std::optional<std::string>& file = is_normals ? settings.normals_file : settings.emissive_file;
+    if (!file)
         return find(TextureFiles::map_path(name, use, map), map);
-    const Texture* found = find(file, map);
+    if (file->empty())
+        return nullptr;
+    const Texture* found = find(*file, map);
     if (!found && cvars::values().r_retexturing != 0)
-        engine::print("texture_{} {} of {} is missing or unusable", is_normals ? "normals" : "emissive", file, name);
+        engine::print("texture_{} {} of {} is missing or unusable", is_normals ? "normals" : "emissive", *file, name);
     return found;
 }
 

@@ -26,6 +26,7 @@ protected:
         map.add_point_light({ 4000, 0, 3000 }, 30000);
         folder_.add_map("floor", map.finish());
         folder_.add_map("next", map.finish());
+        folder_.add_map("third", map.finish());
     }
 
     using Direction = std::function<glm::vec3(int x, int y)>;
@@ -221,6 +222,7 @@ TEST_F(NormalMaps, AreNamedByMaterials)
     folder_.add_text(
         "materials/baseq2.mat", "textures/floor:\n    texture_normals bumps/steep.tga\n    texture_base bumps/green\n");
     folder_.add_text("maps/next.mat", "floor:\n    texture_normals bumps/none\n    texture_base bumps/red\n");
+    folder_.add_text("maps/third.mat", "floor:\n    texture_normals 0\n");
     Session session = open();
     session.load_map("floor");
     look(session);
@@ -232,6 +234,21 @@ TEST_F(NormalMaps, AreNamedByMaterials)
     look(session);
     expect_near(find_normal(session), { 0, 0, 1 });
     expect_near(show(session, "albedo"), { 1, 0, 0 });
+    // 0: none, whatever lies beside the texture and whatever files before say.
+    session.load_map("third");
+    look(session);
+    expect_near(find_normal(session), { 0, 0, 1 });
+    EXPECT_FALSE(session.has_line("texture_normals 0 of floor"));
+}
+
+TEST_F(NormalMaps, AreNamedAfterTheirMaterial)
+{
+    add_normals("overrides/floor_n.png", [](int, int) { return glm::vec3(0.6f, 0, 0.8f); });
+    folder_.add_text("materials/baseq2.mat", "textures/floor:\n    texture_normals overrides/*_n.tga\n");
+    Session session = open();
+    session.load_map("floor");
+    look(session);
+    expect_near(find_normal(session), { 0.6f, 0, 0.8f });
 }
 
 TEST_F(NormalMaps, DamagedOnesAreNamedAndLeftOut)

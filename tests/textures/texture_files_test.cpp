@@ -222,6 +222,22 @@ TEST_F(PictureFilesTest, MasksCutHolesInWalls)
     EXPECT_TRUE(reported("texture_mask masks/none of textures/a.wal is missing"));
 }
 
+TEST_F(PictureFilesTest, MissingFilesOfMaterialsAreNamed)
+{
+    add_wall("textures/a.wal", 16, 16, 3);
+    TextureWish wish = with_replacements;
+    wish.file = "overrides/a.tga";
+    EXPECT_EQ(make().load("a", TextureUse::wall, wish)->file, "textures/a.wal");
+    EXPECT_TRUE(reported("texture_base overrides/a.tga of textures/a.wal is missing"));
+    reports.clear();
+    wish.retexturing = false;
+    make().load("a", TextureUse::wall, wish);
+    wish.retexturing = true;
+    files["overrides/a.png"] = formats::write_png(make_plain(16, 16, { 1, 2, 3, 255 }));
+    EXPECT_EQ(make().load("a", TextureUse::wall, wish)->file, "overrides/a.png");
+    EXPECT_TRUE(reports.empty());
+}
+
 TEST_F(PictureFilesTest, SmallerOrDamagedReplacementIsNamedAndPassedOver)
 {
     add_wall("textures/a.wal", 64, 64, 3);

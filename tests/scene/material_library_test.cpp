@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What files of materials come to.
+#include "ref_vkpt/scene/material_library.hpp"
+
+#include <gtest/gtest.h>
+
+namespace vkpt::test {
+namespace {
+
+MaterialSettings settings_of(std::string_view name, const std::string& attributes)
+{
+    MaterialLibrary library;
+    library.add(formats::read_materials(std::string(name) + ":\n" + attributes + '\n', "test.mat"));
+    const MaterialSettings* found = library.find(formats::material_name(name));
+    return found ? *found : MaterialSettings();
+}
+
+TEST(MaterialLibrary, PutsNamesInPlaceOfAsterisks)
+{
+    constexpr const char* wall = "textures/e1u2/wslt1_5";
+    EXPECT_EQ(settings_of(wall, "texture_normals overrides/*_n.tga").normals_file, "overrides/wslt1_5_n.tga");
+    EXPECT_EQ(settings_of(wall, "texture_base hd/**.tga").base_file, "hd/textures/e1u2/wslt1_5.tga");
+    EXPECT_EQ(settings_of("e1u2/wslt1_5", "texture_mask **_m").mask_file, "textures/e1u2/wslt1_5_m");
+    EXPECT_EQ(settings_of(wall, "texture_emissive */*_light").emissive_file, "wslt1_5/*_light") << "the first one only";
+    EXPECT_EQ(settings_of("models/x/skin.pcx", "texture_base hd/**").base_file, "hd/models/x/skin");
+    EXPECT_EQ(settings_of("players/male/grunt.pcx", "texture_base hd/*").base_file, "hd/grunt");
+    EXPECT_EQ(settings_of("floor", "texture_base hd/*").base_file, "hd/floor");
+}
+
+TEST(MaterialLibrary, TakesNamesOfEach)
+{
+    MaterialLibrary library;
+    library.add(formats::read_materials("a/x,\na/y:\n    texture_base hd/*\n", "test.mat"));
+    library.edit("a/y", "texture_base", "mine/*");
+    EXPECT_EQ(library.find("a/x")->base_file, "hd/x");
+    EXPECT_EQ(library.find("a/y")->base_file, "mine/y");
+}
+
+TEST(MaterialLibrary, ZeroIsNoFile)
+{
+    const MaterialSettings none
+        = settings_of("a", "texture_base 0\n    texture_mask 0\n    texture_normals 0\n    texture_emissive 0");
+    EXPECT_TRUE(none.base_file.empty());
+    EXPECT_TRUE(none.mask_file.empty());
+    EXPECT_EQ(none.normals_file, "");
+    EXPECT_EQ(none.emissive_file, "");
+    const MaterialSettings unsaid = settings_of("a", "bump_scale 1");
+    EXPECT_FALSE(unsaid.normals_file);
+    EXPECT_FALSE(unsaid.emissive_file);
+}
+
+TEST(MaterialLibrary, KindsAreComparedWithoutCase)
+{
+    for (const char* kind : { "kind CHROME", "kind chrome", "kind Chrome" }) {
+        EXPECT_EQ(settings_of("a", kind).roughness, 0) << kind;
+        EXPECT_EQ(settings_of("a", kind).metalness, 1) << kind;
+    }
+    EXPECT_TRUE(settings_of("a", "kind camera").is_screen);
+}
+
+} // namespace
+} // namespace vkpt::test
