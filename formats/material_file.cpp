@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 
 namespace formats {
 
@@ -53,6 +54,7 @@ public:
         }
         if (!names_.empty())
             complain("no colon behind the names, so they have no attributes");
+        describe_without_effect();
         return std::move(result_);
     }
 
@@ -109,6 +111,28 @@ private:
             return complain(
                 row->type == AttributeType::number ? "its value is a number: " : "its value is one word: ", line);
         result_.entries.back().attributes.emplace_back(name, value);
+        if (effect_of(*row, value) == AttributeEffect::none)
+            without_effect_[row->name == "kind" ? "kind " + describe_kind(value) : std::string(row->name)]++;
+    }
+
+    static std::string describe_kind(std::string_view value)
+    {
+        constexpr std::string_view of_q2rtx[] = { "SKY", "INVISIBLE", "SCREEN", "TRANSPARENT" };
+        const std::string kind = kind_name(value);
+        return std::ranges::find(of_q2rtx, kind) != std::end(of_q2rtx) ? kind : "of other names";
+    }
+
+    void describe_without_effect()
+    {
+        size_t sum = 0;
+        std::string list;
+        for (const auto& [name, count] : without_effect_) {
+            list += (sum > 0 ? ", " : "): ") + name + ' ' + std::to_string(count);
+            sum += count;
+        }
+        if (sum > 0)
+            result_.without_effect
+                = file_ + ": attributes without effect in this renderer (" + std::to_string(sum) + list;
     }
 
     void complain(std::string_view reason, std::string_view text = {})
@@ -130,6 +154,7 @@ private:
     size_t name_count_ = 0;
     bool is_open_ = false;
     std::vector<std::string> names_;
+    std::map<std::string, size_t> without_effect_; // how often each occurs; a few, whatever the file says
     MaterialFile result_;
 };
 
@@ -138,31 +163,34 @@ private:
 const std::vector<AttributeRow>& material_attributes()
 {
     using enum AttributeType;
+    using enum AttributeEffect;
     static const std::vector<AttributeRow> rows {
-        { "roughness_override", number, "roughness, 0 to 1; below 0: not given" },
-        { "metalness_override", number, "metalness, 0 to 1; ours, Q2RTX has none" },
-        { "metalness_factor", number, "times the alpha of the normal map, which is metalness" },
-        { "specular_factor", number, "read, without effect" },
-        { "base_factor", number, "times the picture's colour" },
-        { "bump_scale", number, "how far the normal map tilts the surface: 0 not at all, 1 as it says" },
-        { "emissive_factor", number, "times the light of texture_emissive; of walls with the next map" },
-        { "emissive_threshold", number, "of synth_emissive: texels as bright as this glow, 0 to 255" },
-        { "synth_emissive", number, "1: bright texels glow, though no picture says which" },
-        { "is_light", number, "without effect: whatever glows on walls is a light" },
-        { "light_styles", number, "0: its lamps do not flicker and are not switched; counts with the next map" },
-        { "bsp_radiance", number, "0: its lamps glow without the map's light value; counts with the next map" },
-        { "default_radiance", number, "times what glows without the map's light value; counts with the next map" },
-        { "kind", word,
-            "CHROME: a mirror; CAMERA: a screen that shows what the map's cameras see; others without effect" },
-        { "screen_left", number, "of a screen: where in the picture it begins, 0 to 1; ours, as the next three" },
-        { "screen_top", number, "the same from above" },
-        { "screen_right", number, "where it ends, 0 to 1" },
-        { "screen_bottom", number, "the same from above" },
-        { "texture_base", word, "file in place of the texture; counts with the next map" },
-        { "texture_normals", word, "file of its normal map; counts with the next map" },
-        { "texture_emissive", word, "file of what of it glows; counts with the next map" },
-        { "texture_mask", word, "of walls: file that is dark where the texture has holes; counts with the next map" },
-        { "correct_albedo", number, "read, without effect" },
+        { "roughness_override", number, at_once, "roughness, 0 to 1; below 0: not given" },
+        { "metalness_override", number, at_once, "metalness, 0 to 1; ours, Q2RTX has none" },
+        { "metalness_factor", number, at_once, "times the alpha of the normal map, which is metalness" },
+        { "specular_factor", number, none, "of Q2RTX" },
+        { "base_factor", number, at_once, "times the picture's colour" },
+        { "bump_scale", number, at_once, "how far the normal map tilts the surface: 0 not at all, 1 as it says" },
+        { "emissive_factor", number, of_walls_with_next_map, "times the light of texture_emissive" },
+        { "emissive_threshold", number, with_next_map, "of synth_emissive: texels as bright as this glow, 0 to 255" },
+        { "synth_emissive", number, with_next_map, "1: bright texels glow, though no picture says which" },
+        { "is_light", number, none, "of Q2RTX; whatever glows on walls is a light" },
+        { "light_styles", number, with_next_map, "0: its lamps do not flicker and are not switched" },
+        { "bsp_radiance", number, with_next_map, "0: its lamps glow without the map's light value" },
+        { "default_radiance", number, with_next_map, "times what glows without the map's light value" },
+        { "kind", word, at_once,
+            "CHROME: a mirror; GLASS: smooth panes; CAMERA: a screen that shows what the map's cameras see; WATER, "
+            "SLIME, LAVA: of liquids, with the next map; others without effect" },
+        { "screen_left", number, at_once,
+            "of a screen: where in the picture it begins, 0 to 1; ours, as the next three" },
+        { "screen_top", number, at_once, "the same from above" },
+        { "screen_right", number, at_once, "where it ends, 0 to 1" },
+        { "screen_bottom", number, at_once, "the same from above" },
+        { "texture_base", word, with_next_map, "file in place of the texture" },
+        { "texture_normals", word, with_next_map, "file of its normal map" },
+        { "texture_emissive", word, with_next_map, "file of what of it glows" },
+        { "texture_mask", word, with_next_map, "of walls: file that is dark where the texture has holes" },
+        { "correct_albedo", number, none, "of Q2RTX" },
     };
     return rows;
 }
@@ -172,6 +200,25 @@ const AttributeRow* find_attribute(std::string_view name)
     const auto& rows = material_attributes();
     const auto row = std::ranges::find(rows, name, &AttributeRow::name);
     return row == rows.end() ? nullptr : &*row;
+}
+
+std::string kind_name(std::string_view kind)
+{
+    std::string name(kind);
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return char(std::toupper(c)); });
+    return name;
+}
+
+AttributeEffect effect_of(const AttributeRow& row, std::string_view value)
+{
+    using enum AttributeEffect;
+    if (row.name != "kind")
+        return row.effect;
+    static const std::map<std::string, AttributeEffect, std::less<>> kinds { { "REGULAR", at_once },
+        { "CHROME", at_once }, { "GLASS", at_once }, { "CAMERA", at_once }, { "WATER", with_next_map },
+        { "SLIME", with_next_map }, { "LAVA", with_next_map } };
+    const auto found = kinds.find(kind_name(value));
+    return found != kinds.end() ? found->second : none;
 }
 
 bool is_attribute_value(const AttributeRow& row, std::string_view value)

@@ -28,6 +28,7 @@ struct MaterialEntry {
 struct MaterialFile {
     std::vector<MaterialEntry> entries;
     std::vector<std::string> messages; // lines that were left out, by file and line; at most so many
+    std::string without_effect; // a line that counts those that were read and change nothing; empty: there are none
     static constexpr size_t max_messages = 16;
 };
 
@@ -46,14 +47,22 @@ std::string write_materials(const std::vector<MaterialEntry>& entries);
 std::string material_name(std::string_view picture);
 
 enum class AttributeType { number, word };
+// When a change of an attribute is seen: of a map that is there, or with the next one only. `none`: Q2RTX has it, and
+// it changes nothing here.
+enum class AttributeEffect { at_once, of_walls_with_next_map, with_next_map, none };
 // Nothing: there is no such attribute.
 struct AttributeRow {
     std::string_view name;
     AttributeType type;
+    AttributeEffect effect;
     std::string_view purpose;
 };
 const std::vector<AttributeRow>& material_attributes();
 const AttributeRow* find_attribute(std::string_view name);
+// With this value: kinds differ.
+AttributeEffect effect_of(const AttributeRow& row, std::string_view value);
+// In capitals, as kinds are compared.
+std::string kind_name(std::string_view kind);
 // Whether the text is a value of that type: a finite number, or one word of printable characters.
 bool is_attribute_value(const AttributeRow& row, std::string_view value);
 

@@ -2,7 +2,6 @@
 #include "ref_vkpt/lights/media.hpp"
 
 #include "ref_vkpt/lights/cluster_finder.hpp"
-#include "ref_vkpt/lights/face_triangles.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -58,7 +57,7 @@ uint32_t medium_at(const Bsp& bsp, glm::vec3 point, size_t model)
     return leaf < bsp.leaves.size() ? medium_of_contents(bsp.leaves[leaf].contents) : shared::MEDIUM_NONE;
 }
 
-uint32_t medium_of_face(const Bsp& bsp, size_t face, size_t model)
+uint32_t medium_of_face(const Bsp& bsp, size_t face, size_t model, uint32_t said)
 {
     const formats::BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
     if (!(texinfo.flags & formats::SURF_WARP))
@@ -67,23 +66,26 @@ uint32_t medium_of_face(const Bsp& bsp, size_t face, size_t model)
     const uint32_t before = medium_at(bsp, centre + normal * beside_face, model),
                    behind = medium_at(bsp, centre - normal * beside_face, model);
     if (before != shared::MEDIUM_NONE && behind == shared::MEDIUM_NONE)
-        return before | shared::MEDIUM_IN_FRONT;
+        return (said != shared::MEDIUM_NONE ? said : before) | shared::MEDIUM_IN_FRONT;
     if (behind != shared::MEDIUM_NONE && before == shared::MEDIUM_NONE)
-        return behind;
-    const uint32_t medium = behind != shared::MEDIUM_NONE ? behind : medium_of_name(texinfo.texture);
+        return said != shared::MEDIUM_NONE ? said : behind;
+    const uint32_t medium = said != shared::MEDIUM_NONE ? said
+        : behind != shared::MEDIUM_NONE                 ? behind
+                                                        : medium_of_name(texinfo.texture);
     constexpr float looks_down = -0.5f;
     return normal.z < looks_down ? medium | shared::MEDIUM_IN_FRONT : medium;
 }
 
-std::vector<uint32_t> find_texinfo_media(const Bsp& bsp)
+std::vector<uint32_t> find_texinfo_media(const Bsp& bsp, std::span<const FaceTexture> textures)
 {
     std::vector<uint32_t> media(bsp.texinfos.size(), shared::MEDIUM_NONE);
     for (size_t model = 0; model < bsp.models.size(); model++)
         for (int32_t i = 0; i < bsp.models[model].face_count; i++) {
             const size_t face = size_t(bsp.models[model].first_face + i);
-            uint32_t& medium = media[bsp.faces[face].texinfo];
-            if (medium == shared::MEDIUM_NONE)
-                medium = medium_of_face(bsp, face, model) & shared::MEDIUM_MASK;
+            const uint32_t texinfo = bsp.faces[face].texinfo;
+            const uint32_t said = texinfo < textures.size() ? textures[texinfo].medium : shared::MEDIUM_NONE;
+            if (media[texinfo] == shared::MEDIUM_NONE)
+                media[texinfo] = medium_of_face(bsp, face, model, said) & shared::MEDIUM_MASK;
         }
     return media;
 }

@@ -81,6 +81,7 @@ void apply_material(SurfaceGuess& surface, std::string_view name, const Material
         surface.roughness = surface.min_roughness = settings->roughness;
     if (settings->metalness >= 0)
         surface.metallic = settings->metalness;
+    surface.pane_roughness = settings->pane_roughness;
     surface.base_factor = settings->base_factor;
     surface.bump_scale = settings->bump_scale;
     surface.emissive_factor = settings->emissive_factor;
@@ -91,7 +92,8 @@ void set_surface(
     shared::Material& material, const SurfaceGuess& surface, const TextureMaps& maps, const MaterialDefaults& defaults)
 {
     material.tint = glm::vec3(surface.base_factor);
-    material.roughness = surface.roughness;
+    const bool is_pane = (material.flags & shared::MATERIAL_GLASS) && surface.pane_roughness >= 0;
+    material.roughness = is_pane ? surface.pane_roughness : surface.roughness;
     material.metallic = surface.metallic;
     material.maps = material.map_scales = 0;
     if (maps.normals.slot != 0 && !(material.flags & shared::MATERIAL_WARP)) // liquids have waves instead

@@ -14,6 +14,7 @@ struct MaterialDefaults;
 
 struct SurfaceGuess {
     float roughness, metallic;
+    float pane_roughness = -1; // of thin panes; below 0: `roughness`
     float base_factor = 1; // times the texture's colour
     // Where there is a normal map:
     float bump_scale = 1; // of its tilt

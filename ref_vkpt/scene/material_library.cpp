@@ -4,7 +4,6 @@
 #include "common/numbers.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <glm/common.hpp>
 
 namespace vkpt {
@@ -48,12 +47,12 @@ std::optional<std::string> file_of(const Attributes& attributes, std::string_vie
     return found->second == "0" ? std::string() : put_name(found->second, name);
 }
 
-// In capitals.
-std::string kind_of(const Attributes& attributes)
+uint32_t medium_of_kind(std::string_view kind)
 {
-    std::string kind = word_of(attributes, "kind");
-    std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return char(std::toupper(c)); });
-    return kind;
+    return kind == "WATER" ? shared::MEDIUM_WATER
+        : kind == "SLIME"  ? shared::MEDIUM_SLIME
+        : kind == "LAVA"   ? shared::MEDIUM_LAVA
+                           : shared::MEDIUM_NONE;
 }
 
 // Of the picture; as Q2RTX has it for its screens where the file does not say. Nothing that has no size.
@@ -70,15 +69,18 @@ glm::vec4 screen_area_of(const Attributes& attributes)
 
 MaterialSettings make_settings(std::string_view name, const Attributes& attributes)
 {
-    constexpr float brightest = 16, usual_threshold = 215, steepest = 4, max_emissive = 1000;
+    constexpr float brightest = 16, usual_threshold = 215, steepest = 4, max_emissive = 1000, smooth_pane = 0.1f;
     MaterialSettings settings;
     settings.roughness = std::min(number_of(attributes, "roughness_override", -1), 1.0f);
     settings.metalness = std::min(number_of(attributes, "metalness_override", -1), 1.0f);
-    const std::string kind = kind_of(attributes);
+    const std::string kind = formats::kind_name(word_of(attributes, "kind"));
     if (kind == "CHROME") { // a mirror, unless it says more
         settings.roughness = settings.roughness < 0 ? 0 : settings.roughness;
         settings.metalness = settings.metalness < 0 ? 1 : settings.metalness;
     }
+    if (kind == "GLASS" && settings.roughness < 0)
+        settings.pane_roughness = smooth_pane;
+    settings.medium = medium_of_kind(kind);
     settings.is_screen = kind == "CAMERA";
     settings.screen_area = screen_area_of(attributes);
     if (attributes.contains("synth_emissive"))

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "formats/material_file.hpp"
+#include "shaders/shared/scene.h"
 
+#include <cstdint>
 #include <glm/vec4.hpp>
 #include <map>
 #include <optional>
@@ -15,6 +17,8 @@ namespace vkpt {
 // Below 0: not said.
 struct MaterialSettings {
     float roughness = -1, metalness = -1;
+    float pane_roughness = -1; // of what the map makes a thin pane
+    uint32_t medium = shared::MEDIUM_NONE; // MEDIUM_* that it is where it is a liquid; MEDIUM_NONE: not said
     float base_factor = 1; // times the texture's colour
     int glow_threshold = -1; // 0: does not glow; else of 255
     float bump_scale = 1; // of the normal map's tilt

@@ -103,7 +103,10 @@ std::vector<formats::SecurityCamera> load_cameras(std::string_view map)
 
 formats::MaterialFile load_material_file(const std::string& path)
 {
-    return load_text(path, formats::read_materials, "the file is left out");
+    formats::MaterialFile file = load_text(path, formats::read_materials, "the file is left out");
+    if (!file.without_effect.empty())
+        engine::print("vkpt: {}", file.without_effect);
+    return file;
 }
 
 // Whether the texture's bright parts shine without a light value, by its material or by pt_glow_threshold.
@@ -192,6 +195,7 @@ FaceTexture describe(const Texture& texture, const MaterialSettings* material)
         face.default_radiance = material->default_radiance;
         face.takes_light_value = material->takes_light_value;
         face.takes_lightstyles = material->takes_lightstyles;
+        face.medium = material->medium;
     }
     return face;
 }

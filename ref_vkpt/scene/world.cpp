@@ -67,7 +67,7 @@ void append_face(MapGeometry& geometry, const World& world, size_t face, size_t 
     const uint32_t normal = encode_octahedral(bsp.face_normal(face));
     const uint8_t holes = has_holes(bsp, texinfo_index) ? 1 : 0;
     const bool glows = is_glowing(texinfo, texture);
-    const uint32_t medium = medium_of_face(bsp, face, model);
+    const uint32_t medium = medium_of_face(bsp, face, model, texture.medium);
     for (const FaceTriangle& part : world.faces.of(face)) {
         shared::Triangle triangle {};
         for (int i = 0; i < 3; i++) {
@@ -276,13 +276,13 @@ std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, 
         throw FormatError(name, 0, "the map has no world model");
 
     world.bsp.entity_text += more_entities;
-    world.media = find_texinfo_media(world.bsp);
+    world.textures = find_textures(world.bsp, find_texture);
+    world.media = find_texinfo_media(world.bsp, world.textures);
     light_lava(world.bsp, world.media);
     const std::vector<EntityText> entities = read_entities(world.bsp, world.messages);
     world.suns = find_suns(entities);
     world.fog_boxes = find_fog_boxes(entities, world.bsp.name, world.messages);
 
-    world.textures = find_textures(world.bsp, find_texture);
     take_holes(world.bsp, world.textures);
     for (const BspTexinfo& texinfo : world.bsp.texinfos)
         world.material_names.push_back(material_name(texinfo.texture));

@@ -53,6 +53,26 @@ TEST(MaterialFile, LeavesOutWhatMakesNoSense)
     EXPECT_NE(file.messages.back().find("no colon"), std::string::npos);
 }
 
+TEST(MaterialFile, CountsWhatHasNoEffect)
+{
+    const MaterialFile file = read_materials("a/b:\n"
+                                             "is_light 1\n"
+                                             "kind sky\n"
+                                             "bump_scale 2\n"
+                                             "c/d:\n"
+                                             "is_light 1\n"
+                                             "kind Invisible\n"
+                                             "kind stone\n"
+                                             "kind wood\n",
+        "m.mat");
+    EXPECT_TRUE(file.messages.empty());
+    EXPECT_EQ(file.without_effect,
+        "m.mat: attributes without effect in this renderer (6): is_light 2, kind INVISIBLE 1, kind SKY 1, "
+        "kind of other names 2");
+    EXPECT_EQ(file.entries[0].attributes.size(), 3u) << "they are kept";
+    EXPECT_EQ(read_materials("a:\nkind glass\nkind Water\nkind REGULAR\nbase_factor 1\n", "m.mat").without_effect, "");
+}
+
 TEST(MaterialFile, WritesWhatItReads)
 {
     const std::string text = "a/b,\nc/d:\n    bump_scale 0.5\n    kind CHROME\n\ne/f:\n    is_light 1\n\n";

@@ -66,6 +66,21 @@ TEST(Media, NamesCountWhereLeavesTellNothing)
     EXPECT_EQ(medium_of_face(bsp, 0, 0), MEDIUM_NONE) << "glass";
 }
 
+TEST(Media, MaterialsGoBeforeLeavesAndNames)
+{
+    for (const uint32_t contents : { uint32_t(formats::CONTENTS_WATER), 0u }) {
+        const formats::Bsp bsp = make_pool(contents);
+        EXPECT_EQ(medium_of_face(bsp, 0, 0, MEDIUM_SLIME), MEDIUM_SLIME);
+        EXPECT_EQ(medium_of_face(bsp, 1, 0, MEDIUM_SLIME), MEDIUM_SLIME | MEDIUM_IN_FRONT);
+        FaceTexture texture;
+        texture.medium = MEDIUM_LAVA;
+        EXPECT_EQ(find_texinfo_media(bsp, { &texture, 1 }), std::vector<uint32_t> { MEDIUM_LAVA });
+    }
+    formats::Bsp wall = make_pool(formats::CONTENTS_WATER);
+    wall.texinfos[0].flags = 0;
+    EXPECT_EQ(medium_of_face(wall, 0, 0, MEDIUM_SLIME), MEDIUM_NONE) << "no liquid";
+}
+
 TEST(Media, LavaShinesAndIsOpaque)
 {
     formats::Bsp bsp = make_pool(formats::CONTENTS_LAVA);

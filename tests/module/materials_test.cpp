@@ -57,12 +57,14 @@ TEST_F(Materials, ComeFromFiles)
         session.load_map("floor");
         plain = see_floor(session);
     }
-    folder_.add_text(
-        "materials/baseq2.mat", "textures/test/floor:\n    base_factor 0.5\n    roughness_override 0.4\n    shine 3\n");
+    folder_.add_text("materials/baseq2.mat",
+        "textures/test/floor:\n    base_factor 0.5\n    roughness_override 0.4\n    shine 3\n    is_light 1\n");
     {
         Session session(folder_, matte_full);
         session.load_map("floor");
         EXPECT_TRUE(session.has_line("materials/baseq2.mat, line 4"));
+        EXPECT_TRUE(
+            session.has_line("materials/baseq2.mat: attributes without effect in this renderer (1): is_light 1"));
         EXPECT_NEAR(find_roughness(session), 0.4, 0.01);
         session.set("pt_roughness_default", 0.9); // of what no file speaks
         EXPECT_NEAR(find_roughness(session), 0.4, 0.01);

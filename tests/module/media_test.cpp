@@ -227,6 +227,23 @@ TEST_F(Media, StandingLiquidsHaveWaves)
     EXPECT_GT(error_between(session_->capture(), before), 1e-4);
 }
 
+// In the dark: lava glows, water does not.
+TEST_F(Media, KindsOfMaterialsSayWhichLiquidItIs)
+{
+    MapBuilder map;
+    add_both_sides(map, rectangle({ 0, 0, 0 }, { 200, 0, 0 }, { 0, 200, 0 }), map.add_material("green", liquid));
+    const formats::Bsp bsp = map.finish();
+    const auto see = [&] {
+        start(bsp);
+        session_->look({ 0, 0, 100 }, { 1, 0, 0 }, 60);
+        session_->draw();
+        return double(session_->capture().mean().y);
+    };
+    EXPECT_LT(see(), 1e-3);
+    folder_.add_text("maps/media.mat", "green:\n    kind lava\n");
+    EXPECT_GT(see(), 0.05);
+}
+
 // 1 - a + a * albedo of what is behind a pane of opacity a.
 TEST_F(Media, GlassColoursTheLightThatPasses)
 {

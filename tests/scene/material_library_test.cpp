@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What files of materials come to.
+#include "ref_vkpt/scene/material_guess.hpp"
 #include "ref_vkpt/scene/material_library.hpp"
+#include "ref_vkpt/scene/world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -56,6 +58,35 @@ TEST(MaterialLibrary, KindsAreComparedWithoutCase)
         EXPECT_EQ(settings_of("a", kind).metalness, 1) << kind;
     }
     EXPECT_TRUE(settings_of("a", "kind camera").is_screen);
+}
+
+TEST(MaterialLibrary, KindsOfLiquids)
+{
+    EXPECT_EQ(settings_of("a", "kind water").medium, shared::MEDIUM_WATER);
+    EXPECT_EQ(settings_of("a", "kind SLIME").medium, shared::MEDIUM_SLIME);
+    EXPECT_EQ(settings_of("a", "kind Lava").medium, shared::MEDIUM_LAVA);
+    EXPECT_EQ(settings_of("a", "kind GLASS").medium, shared::MEDIUM_NONE);
+}
+
+// Only what the map makes a pane; the same texture may be on walls.
+TEST(MaterialLibrary, GlassMakesPanesSmooth)
+{
+    const auto roughness = [](const std::string& attributes, uint32_t flags) {
+        MaterialLibrary library;
+        library.add(formats::read_materials("a:\n" + attributes + '\n', "test.mat"));
+        MaterialDefaults defaults;
+        defaults.library = &library;
+        SurfaceGuess surface = guess_surface("a", defaults);
+        apply_material(surface, "a", defaults);
+        shared::Material material {};
+        material.flags = flags;
+        set_surface(material, surface, {}, defaults);
+        return material.roughness;
+    };
+    EXPECT_EQ(roughness("kind glass", shared::MATERIAL_GLASS), 0.1f);
+    EXPECT_EQ(roughness("kind glass", 0), MaterialDefaults().roughness);
+    EXPECT_EQ(roughness("bump_scale 1", shared::MATERIAL_GLASS), MaterialDefaults().roughness);
+    EXPECT_EQ(roughness("kind glass\n    roughness_override 0.5", shared::MATERIAL_GLASS), 0.5f);
 }
 
 } // namespace

@@ -89,5 +89,23 @@ TEST(WorldTextures, AreFoundForWhateverIsDrawnOfTheirName)
     EXPECT_EQ(world->textures[3].slot, 0u) << "a sky";
 }
 
+TEST(WorldLiquids, AreWhatTheirMaterialsSay)
+{
+    formats::Bsp bsp = make_cell_map(2, std::vector<bool>(4, true));
+    bsp.texinfos[0].flags |= formats::SURF_WARP;
+    const auto find = [&](const std::string&) {
+        FaceTexture texture;
+        texture.medium = shared::MEDIUM_LAVA;
+        return texture;
+    };
+    const auto world = load_world(write_bsp(bsp), "maps/cells.bsp", find, {});
+    EXPECT_EQ(world->media[0], shared::MEDIUM_LAVA);
+    EXPECT_EQ(world->media[1], shared::MEDIUM_NONE);
+    EXPECT_TRUE(world->bsp.texinfos[0].flags & formats::SURF_LIGHT);
+    for (const shared::Triangle& triangle : world->models[0].triangles)
+        EXPECT_EQ(
+            triangle.medium & shared::MEDIUM_MASK, triangle.material == 0 ? shared::MEDIUM_LAVA : shared::MEDIUM_NONE);
+}
+
 } // namespace
 } // namespace vkpt::test
