@@ -6,6 +6,7 @@
 #include "ref_vkpt/files/output_folder.hpp"
 #include "ref_vkpt/module.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -41,10 +42,27 @@ void print_material(const Module& m, uint32_t texinfo)
             engine::print("    {} {}", attribute, value);
 }
 
+using formats::AttributeEffect;
+
+std::string_view describe(AttributeEffect effect)
+{
+    switch (effect) {
+    case AttributeEffect::of_walls_with_next_map:
+        return "; of walls, it counts with the next map";
+    case AttributeEffect::with_next_map:
+        return "; it counts with the next map";
+    case AttributeEffect::none:
+        return "; it has no effect here";
+    case AttributeEffect::at_once:
+        break;
+    }
+    return "";
+}
+
 void print_attributes()
 {
     for (const formats::AttributeRow& row : formats::material_attributes())
-        engine::print("    {}: {}", row.name, row.purpose);
+        engine::print("    {}: {}{}", row.name, row.purpose, describe(row.effect));
 }
 
 void edit_material(Module& m, uint32_t texinfo, std::string_view attribute, std::string_view value)
@@ -56,15 +74,28 @@ void edit_material(Module& m, uint32_t texinfo, std::string_view attribute, std:
     }
     const std::string& name = m.scene.world()->material_names[texinfo];
     m.scene.materials().edit(name, attribute, value);
-    engine::print("{}: {} {}; `mat save` keeps it", name, attribute, value);
+    engine::print("{}: {} {}{}; `mat save` keeps it", name, attribute, value, describe(effect_of(*row, value)));
+}
+
+// Whether the player has changed what a map that is there does not show.
+bool has_late_edits(const MaterialLibrary& materials, const std::string& name)
+{
+    const auto is_late = [](const auto& attribute) {
+        const AttributeEffect effect = effect_of(*formats::find_attribute(attribute.first), attribute.second);
+        return effect == AttributeEffect::with_next_map || effect == AttributeEffect::of_walls_with_next_map;
+    };
+    return std::ranges::any_of(materials.edits(), [&](const formats::MaterialEntry& entry) {
+        return entry.names.front() == name && std::ranges::any_of(entry.attributes, is_late);
+    });
 }
 
 void reset_material(Module& m, uint32_t texinfo)
 {
     const std::string& name = m.scene.world()->material_names[texinfo];
+    const bool is_late = has_late_edits(m.scene.materials(), name);
     for (const formats::AttributeRow& row : formats::material_attributes())
         m.scene.materials().edit(name, row.name, "");
-    engine::print("{}: as the game's files say", name);
+    engine::print("{}: as the game's files say{}", name, is_late ? "; some of it counts with the next map" : "");
 }
 
 void save_materials(const Module& m)

@@ -91,6 +91,29 @@ TEST_F(Materials, AreEditedUnderTheCrosshair)
     EXPECT_NEAR(see_floor(session) / plain, 1, 0.01);
 }
 
+TEST_F(Materials, EditsSayWhenTheyCount)
+{
+    Session session(folder_, matte_full);
+    session.load_map("floor");
+    see_floor(session);
+    const auto say = [&](const std::string& change) {
+        const size_t before = session.lines().size();
+        session.host().run_text("mat " + change + "\n");
+        return session.lines().size() > before ? session.lines()[before] : std::string();
+    };
+    for (const char* at_once : { "base_factor 0.5", "kind chrome" }) {
+        EXPECT_NE(say(at_once).find("`mat save` keeps it"), std::string::npos);
+        EXPECT_EQ(say(at_once).find("next map"), std::string::npos) << at_once;
+    }
+    EXPECT_EQ(say("reset").find("next map"), std::string::npos);
+    for (const char* late : { "texture_normals a/b", "light_styles 0", "kind lava", "emissive_factor 2" })
+        EXPECT_NE(say(late).find("counts with the next map"), std::string::npos) << late;
+    EXPECT_NE(say("reset").find("counts with the next map"), std::string::npos);
+    for (const char* vain : { "is_light 1", "kind SKY" })
+        EXPECT_NE(say(vain).find("has no effect here"), std::string::npos) << vain;
+    say("reset");
+}
+
 TEST_F(Materials, AreSavedAndReadAgain)
 {
     std::string written;
