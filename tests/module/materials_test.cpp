@@ -91,6 +91,56 @@ TEST_F(Materials, AreEditedUnderTheCrosshair)
     EXPECT_NEAR(see_floor(session) / plain, 1, 0.01);
 }
 
+// A lift and a model in front of the floor, and what `mat` finds where each is.
+TEST_F(Materials, AreFoundOnBrushModelsAndModels)
+{
+    folder_.add_wall("test/lift", 100);
+    folder_.add_wall("test/glass", 100);
+    MapBuilder map;
+    map.add(rectangle({ 0, 0, 0 }, { 512, 0, 0 }, { 0, 512, 0 }), map.add_material("test/floor"));
+    map.add(
+        rectangle({ 300, 0, 20 }, { 16, 0, 0 }, { 0, 16, 0 }), map.add_material("test/glass", formats::SURF_TRANS33));
+    map.begin_brush_model();
+    map.add_block({ -16, -16, 0 }, { 16, 16, 16 }, map.add_material("test/lift"));
+    folder_.add_map("lift", map.finish());
+    const std::string cube = folder_.add_cube("cube", 8, red_index);
+    Session session(folder_, matte_full);
+    session.load_map("lift");
+    void* const lift = session.module().register_model("*1");
+    void* const model = session.module().register_model(cube.c_str());
+    std::vector<engine::Entity> entities { make_entity(lift, { 100, 0, 0 }), make_entity(model, { 200, 0, 10 }),
+        make_entity(model, { -100, 0, 10 }, engine::RF_WEAPONMODEL),
+        make_entity(lift, { -200, 0, 0 }, engine::RF_TRANSLUCENT) };
+    session.view.entities = entities.data();
+    session.view.entity_count = int32_t(entities.size());
+    const auto find_at = [&](float x) {
+        session.look({ x, 0, 60 }, { x + 1, 0, 0 }, 60);
+        session.draw();
+        const size_t before = session.lines().size();
+        session.host().run_text("mat\n");
+        return session.lines().size() > before ? session.lines()[before].substr(0, session.lines()[before].find(':'))
+                                               : "";
+    };
+    EXPECT_EQ(find_at(0), "test/floor");
+    EXPECT_EQ(find_at(100), "test/lift");
+    EXPECT_EQ(find_at(300), "test/glass");
+    EXPECT_EQ(find_at(-200), "test/lift") << "made translucent";
+    EXPECT_EQ(find_at(-100), "test/floor") << "behind the player's weapon";
+    const std::string skin = find_at(200);
+    EXPECT_NE(skin.find("cube"), std::string::npos) << skin;
+    session.host().run_text("mat roughness_override 0.25\n");
+    EXPECT_TRUE(session.has_line(skin + ": roughness_override 0.25"));
+    find_at(200);
+    EXPECT_TRUE(session.has_line(skin + ": roughness 0.25"));
+    session.host().run_text("mat emissive_factor 2\n");
+    EXPECT_TRUE(session.has_line(skin + ": emissive_factor 2; `mat save` keeps it")) << "of a skin, at once";
+    session.host().run_text("mat reset\n");
+    session.look({ 0, 0, 60 }, { 0, 0, 1000 }, 60);
+    session.draw();
+    session.host().run_text("mat\n");
+    EXPECT_TRUE(session.has_line("no surface of the map or of a model"));
+}
+
 TEST_F(Materials, EditsSayWhenTheyCount)
 {
     Session session(folder_, matte_full);
