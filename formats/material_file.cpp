@@ -55,6 +55,7 @@ public:
         if (!names_.empty())
             complain("no colon behind the names, so they have no attributes");
         describe_without_effect();
+        result_.file = file_;
         return std::move(result_);
     }
 

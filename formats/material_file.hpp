@@ -26,6 +26,7 @@ struct MaterialEntry {
 };
 
 struct MaterialFile {
+    std::string file; // its name
     std::vector<MaterialEntry> entries;
     std::vector<std::string> messages; // lines that were left out, by file and line; at most so many
     std::string without_effect; // a line that counts those that were read and change nothing; empty: there are none

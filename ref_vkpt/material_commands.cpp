@@ -4,8 +4,8 @@
 #include "formats/material_file.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/files/output_folder.hpp"
+#include "ref_vkpt/material_inspector.hpp"
 #include "ref_vkpt/module.hpp"
-#include "ref_vkpt/picked_material.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -13,18 +13,6 @@
 namespace vkpt {
 
 namespace {
-
-void print_material(const Module& m, const PickedMaterial& picked)
-{
-    const shared::Material& material = m.view().snapshot->materials[picked.material];
-    engine::print("{}: roughness {:.2f}{}, metalness {:.2f}{}{}", picked.name, material.roughness,
-        material.flags & shared::MATERIAL_ROUGHNESS_IN_ALPHA ? " at least, by its alpha" : "", material.metallic,
-        material.flags & shared::MATERIAL_METALNESS_IN_ALPHA ? " times its normal map's alpha" : "",
-        (material.maps & 0xffff) != 0 ? ", with a normal map" : "");
-    if (const MaterialSettings* settings = m.scene.materials().find(picked.name))
-        for (const auto& [attribute, value] : settings->attributes)
-            engine::print("    {} {}", attribute, value);
-}
 
 using formats::AttributeEffect;
 
@@ -111,7 +99,8 @@ void run_material_command(Module& m)
         return edit_material(m, *picked, word, engine::argument(2));
     if (engine::argument_count() > 1)
         return engine::print("usage: mat, mat ATTRIBUTE VALUE, mat reset, mat save");
-    print_material(m, *picked);
+    for (const std::string& line : describe_material(m, *picked))
+        engine::print("{}", line);
 }
 
 } // namespace vkpt

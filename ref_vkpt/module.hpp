@@ -11,6 +11,7 @@
 #include "ref_vkpt/frame/shader_warm_up.hpp"
 #include "ref_vkpt/free_memory.hpp"
 #include "ref_vkpt/light_inspector.hpp"
+#include "ref_vkpt/material_inspector.hpp"
 #include "ref_vkpt/overlay/overlay.hpp"
 #include "ref_vkpt/photo/photo_mode.hpp"
 #include "ref_vkpt/preset_command.hpp"
@@ -61,6 +62,7 @@ struct Module {
     std::optional<Replay> replay; // that photo mode shows
     std::string replay_name_for_key; // waits for the player's key
     LightInspector light_inspector;
+    MaterialInspector material_inspector;
     PassStatistics pass_statistics; // with pt_times 1
     FreeMemory free_memory;
     const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double default_frames_per_second = 60, max_frames_per_second = 1000;
 
-std::string text_of(const char* name)
+std::string cvar_text(const char* name)
 {
     const engine::Cvar* cvar = engine::get_cvar(name, find_cvar_row(name)->initial, engine::CVAR_NONE);
     return cvar && cvar->text ? cvar->text : "";
@@ -37,7 +37,7 @@ void apply_preset(const Preset& preset)
         cvars::set(setting.name, setting.value);
 }
 
-std::string_view current_preset() { return match_preset(text_of); }
+std::string_view current_preset() { return match_preset(cvar_text); }
 
 void PresetCommand::run()
 {

@@ -412,6 +412,7 @@ void begin_registration(std::string_view map)
     m.gpu_world = {};
     m.last_camera.reset();
     m.light_inspector.forget_map();
+    m.material_inspector.forget_map();
     m.sampler_choice.forget_world();
     m.frame.forget_world();
     fix_choices(m);
@@ -513,6 +514,7 @@ void begin_frame(float)
         upload_lightmaps_if_wanted(m);
         take_edited_shaders(m);
         m.light_inspector.update(m);
+        m.material_inspector.update(m);
     }
     if (m.view().snapshot && !m.graphics.is_recording() && m.frame.light_cache.wants_filling(m.gpu_world))
         m.frame.light_cache.fill(m.graphics, m.frame, m.view(), m.gpu_world);
@@ -634,7 +636,8 @@ static OverlayFacts overlay_facts(const Module& m)
 {
     return { m.graphics.size(), m.view().rendered_size, m.graphics.timer.frame_milliseconds(),
         &m.graphics.timer.times(), &m.shader_reload.errors(),
-        m.photo.describe(m.view().accumulated_frames, describe_replay(m)), m.light_inspector.describe() };
+        m.photo.describe(m.view().accumulated_frames, describe_replay(m)), m.light_inspector.describe(),
+        m.material_inspector.describe(panel_columns(m.graphics.size())) };
 }
 
 void end_frame()

@@ -20,7 +20,7 @@ ref_vkpt/draw2d
 ref_vkpt/frame
 ref_vkpt/overlay
 ref_vkpt/photo/ ref_vkpt/replay/
-ref_vkpt/module.hpp ref_vkpt/scene_contents ref_vkpt/material_commands ref_vkpt/picked_material ref_vkpt/photo_commands ref_vkpt/replay_commands ref_vkpt/light_inspector
+ref_vkpt/module.hpp ref_vkpt/scene_contents ref_vkpt/material_commands ref_vkpt/material_inspector ref_vkpt/picked_material ref_vkpt/photo_commands ref_vkpt/replay_commands ref_vkpt/light_inspector
 ref_vkpt/renderer.cpp ref_vkpt/extension.cpp ref_vkpt/engine/exports.cpp'
 
 cd "$top" || exit 1

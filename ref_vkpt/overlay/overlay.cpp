@@ -61,6 +61,16 @@ std::vector<PanelLine> Overlay::describe_times(const OverlayFacts& facts) const
     return lines;
 }
 
+// What is under the crosshair, and what lights it.
+std::vector<PanelLine> Overlay::describe_surface(const OverlayFacts& facts)
+{
+    std::vector<PanelLine> lines = facts.material;
+    if (!lines.empty() && !facts.lights.empty())
+        lines.push_back({ "" });
+    lines.insert(lines.end(), facts.lights.begin(), facts.lights.end());
+    return lines;
+}
+
 void Overlay::draw(Draw2d& draw2d, const OverlayFacts& facts)
 {
     rate_.count(FrameRate::Clock::now());
@@ -72,7 +82,7 @@ void Overlay::draw(Draw2d& draw2d, const OverlayFacts& facts)
         draw_panel(draw2d, facts.window, PanelSide::left,
             describe_shader_errors(*facts.shader_errors, panel_columns(facts.window)));
     else
-        draw_panel(draw2d, facts.window, PanelSide::left, facts.photo.empty() ? facts.lights : facts.photo);
+        draw_panel(draw2d, facts.window, PanelSide::left, facts.photo.empty() ? describe_surface(facts) : facts.photo);
 }
 
 } // namespace vkpt

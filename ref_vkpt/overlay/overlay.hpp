@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What this renderer draws over the game's own image: pt_show_times, pt_menu, pt_show_lights, and errors in shaders
-// that are edited.
+// What this renderer draws over the game's own image: pt_show_times, pt_menu, pt_show_lights, pt_show_material, and
+// errors in shaders that are edited.
 #pragma once
 
 #include "ref_vkpt/overlay/settings_menu.hpp"
@@ -18,6 +18,7 @@ struct OverlayFacts {
     const std::vector<std::string>* shader_errors; // see ShaderReload
     std::vector<PanelLine> photo; // photo mode's panel
     std::vector<PanelLine> lights; // pt_show_lights
+    std::vector<PanelLine> material; // pt_show_material
 };
 
 class Overlay {
@@ -35,6 +36,7 @@ public:
 
 private:
     void choose_key_user();
+    static std::vector<PanelLine> describe_surface(const OverlayFacts& facts);
     std::vector<PanelLine> describe_times(const OverlayFacts& facts) const;
 
     FrameRate rate_;

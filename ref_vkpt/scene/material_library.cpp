@@ -119,18 +119,27 @@ void MaterialLibrary::refresh(const std::string& name)
         all = found->second;
     if (const auto found = files_.find(name); found != files_.end())
         all.insert(found->second.begin(), found->second.end());
-    if (all.empty())
+    if (all.empty()) {
         settings_.erase(name);
-    else
-        settings_.insert_or_assign(name, make_settings(name, all));
+        return;
+    }
+    MaterialSettings settings = make_settings(name, all);
+    if (const auto found = sources_.find(name); found != sources_.end())
+        settings.sources = found->second;
+    settings.is_edited = edits_.contains(name);
+    settings_.insert_or_assign(name, std::move(settings));
 }
 
 void MaterialLibrary::add(const formats::MaterialFile& file)
 {
     add_to(files_, file);
     for (const formats::MaterialEntry& entry : file.entries)
-        for (const std::string& name : entry.names)
+        for (const std::string& name : entry.names) {
+            std::vector<std::string>& sources = sources_[name];
+            if (sources.empty() || sources.back() != file.file)
+                sources.push_back(file.file);
             refresh(name);
+        }
 }
 
 void MaterialLibrary::take_edits(const formats::MaterialFile& file)
@@ -144,6 +153,7 @@ void MaterialLibrary::take_edits(const formats::MaterialFile& file)
 void MaterialLibrary::forget_files()
 {
     files_.clear();
+    sources_.clear();
     settings_.clear();
     for (const auto& [name, attributes] : edits_)
         refresh(name);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vkpt {
 
@@ -32,6 +33,8 @@ struct MaterialSettings {
     std::string base_file, mask_file;
     std::optional<std::string> normals_file, emissive_file; // nothing: what lies beside the texture
     std::map<std::string, std::string, std::less<>> attributes; // all, as they are written
+    std::vector<std::string> sources; // the files that they come from, in their order
+    bool is_edited = false; // by the player, on top of that
 };
 
 class MaterialLibrary {
@@ -56,6 +59,7 @@ private:
     void refresh(const std::string& name);
 
     Names files_, edits_;
+    std::map<std::string, std::vector<std::string>, std::less<>> sources_; // of files_
     std::map<std::string, MaterialSettings, std::less<>> settings_;
 };
 

@@ -141,6 +141,54 @@ TEST_F(Materials, AreFoundOnBrushModelsAndModels)
     EXPECT_TRUE(session.has_line("no surface of the map or of a model"));
 }
 
+// The panel of pt_show_material has the same lines.
+TEST_F(Materials, AreDescribed)
+{
+    folder_.add_wall("test/pane", 100);
+    folder_.add_wall("test/lamp", white_index);
+    folder_.add(
+        "test/bumps.png", formats::write_png({ 16, 16, std::vector<formats::Rgba8>(256, { 128, 128, 255, 255 }) }));
+    MapBuilder map;
+    map.add(rectangle({ 0, 0, 0 }, { 32, 0, 0 }, { 0, 32, 0 }), map.add_material("test/floor"));
+    map.add(rectangle({ 100, 0, 0 }, { 32, 0, 0 }, { 0, 32, 0 }), map.add_material("test/pane", formats::SURF_TRANS33));
+    map.add(
+        rectangle({ 200, 0, 0 }, { 32, 0, 0 }, { 0, 32, 0 }), map.add_material("test/lamp", formats::SURF_LIGHT, 200));
+    folder_.add_map("three", map.finish());
+    folder_.add_text(
+        "materials/baseq2.mat", "test/pane:\n    kind glass\ntest/floor:\n    texture_normals test/bumps\n");
+    folder_.add_text("maps/three.mat", "test/pane:\n    base_factor 0.5\n");
+    Session session(folder_, matte_full);
+    session.load_map("three");
+    const auto describe_at = [&](float x) {
+        session.look({ x, 0, 60 }, { x + 1, 0, 0 }, 60);
+        session.draw();
+        const size_t before = session.lines().size();
+        session.host().run_text("mat\n");
+        std::string text;
+        for (size_t i = before; i < session.lines().size(); i++)
+            text += session.lines()[i];
+        return text;
+    };
+    const auto expect_parts = [](const std::string& text, std::initializer_list<const char*> parts) {
+        for (const char* part : parts)
+            EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
+    };
+    const std::string floor = describe_at(0);
+    expect_parts(floor,
+        { "test/floor: roughness 1.00, metalness 0.00, with a normal map", "opaque",
+            "picture textures/test/floor.wal, normals test/bumps.png", "by materials/baseq2.mat" });
+    EXPECT_EQ(floor.find("glows"), std::string::npos) << floor;
+    expect_parts(describe_at(100),
+        { "test/pane: roughness 0.10", "glass, opacity 0.33", "by materials/baseq2.mat, maps/three.mat",
+            "    base_factor 0.5", "    kind glass" });
+    expect_parts(describe_at(200), { "glows, ", "by its name: no file speaks of it" });
+    session.host().run_text("mat base_factor 2\n");
+    expect_parts(describe_at(200), { "by `mat`" });
+    describe_at(100);
+    session.host().run_text("mat base_factor 1\n");
+    expect_parts(describe_at(100), { "maps/three.mat, changed by `mat`" });
+}
+
 TEST_F(Materials, EditsSayWhenTheyCount)
 {
     Session session(folder_, matte_full);

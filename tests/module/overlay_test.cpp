@@ -66,6 +66,20 @@ TEST_F(OverlayOfModule, LightsUnderTheCrosshairStandOnTheLeftAndGo)
     EXPECT_EQ(count_text().left, before.left);
 }
 
+TEST_F(OverlayOfModule, MaterialUnderTheCrosshairStandsOnTheLeftAndGoes)
+{
+    const Halves before = count_text();
+    session_->set("pt_show_material", 1);
+    const Halves with_material = count_text();
+    EXPECT_GT(with_material.left, before.left + 100);
+    EXPECT_EQ(with_material.right, before.right);
+    session_->set("pt_show_lights", 1);
+    EXPECT_GT(count_text().left, with_material.left + 100) << "both";
+    session_->set("pt_show_lights", 0);
+    session_->set("pt_show_material", 0);
+    EXPECT_EQ(count_text().left, before.left);
+}
+
 TEST_F(OverlayOfModule, TimesStandOnTheRightAndGo)
 {
     const Halves before = count_text();

@@ -38,6 +38,23 @@ TEST(MaterialLibrary, TakesNamesOfEach)
     EXPECT_EQ(library.find("a/y")->base_file, "mine/y");
 }
 
+TEST(MaterialLibrary, KnowsWhoSaysSo)
+{
+    MaterialLibrary library;
+    library.add(formats::read_materials("a:\n    bump_scale 2\na:\n    bump_scale 3\n", "materials/baseq2.mat"));
+    library.add(formats::read_materials("b:\n    bump_scale 2\n", "materials/mod.mat"));
+    library.add(formats::read_materials("a:\n    kind chrome\n", "maps/m.mat"));
+    library.edit("a", "base_factor", "2");
+    EXPECT_EQ(library.find("a")->sources, (std::vector<std::string> { "materials/baseq2.mat", "maps/m.mat" }));
+    EXPECT_TRUE(library.find("a")->is_edited);
+    EXPECT_FALSE(library.find("b")->is_edited);
+    library.edit("a", "base_factor", "");
+    EXPECT_FALSE(library.find("a")->is_edited);
+    library.forget_files();
+    library.add(formats::read_materials("a:\n    bump_scale 2\n", "maps/n.mat"));
+    EXPECT_EQ(library.find("a")->sources, (std::vector<std::string> { "maps/n.mat" }));
+}
+
 TEST(MaterialLibrary, ZeroIsNoFile)
 {
     const MaterialSettings none
