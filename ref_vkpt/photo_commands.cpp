@@ -315,8 +315,7 @@ void begin_photo_frame(Module& m)
     PhotoMode& photo = m.photo;
     if (!photo.is_on())
         return;
-    photo.begin_2d();
-    m.overlay.give_keys_to_photo(!photo.is_covered());
+    m.overlay.give_keys_to_photo(true);
     if (!photo.has_view())
         return;
     photo.set_camera(with_projection(photo.camera(), cvars::shader_values().pt_projection));
@@ -331,7 +330,7 @@ void begin_photo_frame(Module& m)
             obey_key(m, key);
     if (!photo.is_on())
         return;
-    photo.hold_game();
+    photo.hold_game(m.overlay.engine_screen.had_keys());
     if (cvars::shader_values().pt_aperture > 0 && !photo.is_moving(now) && !m.graphics.is_recording()
         && photo.takes_focus())
         focus_on_crosshair(m);

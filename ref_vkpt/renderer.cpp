@@ -686,7 +686,7 @@ void get_pic_size(std::string_view name, int* width, int* height)
 }
 
 // While photo mode shows its image alone.
-static bool hides_2d() { return running->frame_has_view && running->photo.hides_2d(); }
+static bool hides_2d() { return running->frame_has_view && running->photo.hides_2d(running->overlay.engine_screen); }
 
 void draw_pic(int x, int y, std::string_view name, float scale, const float* tint)
 {
@@ -698,8 +698,7 @@ void draw_pic(int x, int y, std::string_view name, float scale, const float* tin
 
 void draw_stretched_pic(int x, int y, int width, int height, std::string_view name)
 {
-    if (name == "conback") // the console's ground
-        running->photo.note_engine_screen();
+    running->overlay.engine_screen.note_picture(name);
     if (hides_2d())
         return;
     if (const Texture* image = running->textures.find(name, TextureUse::image))
@@ -708,6 +707,7 @@ void draw_stretched_pic(int x, int y, int width, int height, std::string_view na
 
 void draw_character(int x, int y, int code, float scale)
 {
+    running->overlay.engine_screen.note_character(code);
     if (!hides_2d())
         running->draw2d.draw_character(x, y, code, scale);
 }
@@ -728,7 +728,7 @@ void draw_fill(int x, int y, int width, int height, int palette_index)
 
 void draw_fade()
 {
-    running->photo.note_engine_screen(); // a menu stands on it
+    running->overlay.engine_screen.note_fade();
     if (!hides_2d())
         running->draw2d.draw_fade();
 }

@@ -19,9 +19,9 @@ constexpr uint32_t key_down = 0x300, key_up = 0x301, motion = 0x400, button_down
 
 // Where the fields of their events lie.
 struct EventLayout {
-    size_t scancode, button, wheel_y, motion_x;
+    size_t scancode, repeat, button, wheel_y, motion_x;
 };
-constexpr EventLayout layouts[] = { { 16, 16, 20, 28 }, { 24, 24, 28, 36 } }; // SDL 2, SDL 3
+constexpr EventLayout layouts[] = { { 16, 13, 16, 20, 28 }, { 24, 37, 24, 28, 36 } }; // SDL 2, SDL 3
 
 template <class Value> Value read(const std::byte* event, size_t offset)
 {
@@ -180,16 +180,22 @@ bool KeyFilter::press(unsigned code, bool down)
     const bool is_kept = (user_ == KeyUser::menu && for_menu) || (user_ == KeyUser::photo && for_photo);
     if (!is_kept)
         return false;
-    if (!held_[code]) { // no repetitions: a slow frame would send many
-        if (user_ == KeyUser::menu) {
-            pressed_.push_back(*for_menu);
-        } else {
-            photo_.pressed.push_back(*for_photo);
-            photo_.held[size_t(*for_photo)] = true;
-        }
+    if (user_ == KeyUser::menu) {
+        pressed_.push_back(*for_menu);
+    } else {
+        photo_.pressed.push_back(*for_photo);
+        photo_.held[size_t(*for_photo)] = true;
     }
     held_[code] = true;
     return true;
+}
+
+// It goes where the press went, and does nothing here: a slow frame would send many, and the key that opened the menu
+// is still held.
+bool KeyFilter::repeat(unsigned code)
+{
+    const std::scoped_lock lock(mutex_);
+    return code < held_.size() && held_[code];
 }
 
 bool KeyFilter::turn_wheel(float notches)
@@ -219,6 +225,9 @@ bool KeyFilter::passes(const std::byte* event)
     const uint32_t type = read<uint32_t>(event, 0);
     switch (type) {
     case key_down:
+        if (read<uint8_t>(event, layout.repeat) != 0)
+            return !repeat(read<uint32_t>(event, layout.scancode));
+        [[fallthrough]];
     case key_up:
         return !press(read<uint32_t>(event, layout.scancode), type == key_down);
     case button_down:

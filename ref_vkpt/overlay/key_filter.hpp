@@ -81,6 +81,7 @@ private:
     static bool filter3(void* context, void* event); // SDL 3
     bool passes(const std::byte* event);
     bool press(unsigned code, bool down);
+    bool repeat(unsigned code);
     bool turn_wheel(float notches);
     bool move_mouse(glm::vec2 pixels);
 

@@ -17,7 +17,10 @@ void Overlay::toggle_menu()
 
 void Overlay::choose_key_user()
 {
-    keys_.set_user(menu_.is_open() ? KeyUser::menu : photo_has_keys_ ? KeyUser::photo : KeyUser::engine);
+    keys_.set_user(engine_screen.had_keys() ? KeyUser::engine
+            : menu_.is_open()               ? KeyUser::menu
+            : photo_has_keys_               ? KeyUser::photo
+                                            : KeyUser::engine);
 }
 
 void Overlay::give_keys_to_photo(bool give)
@@ -28,6 +31,8 @@ void Overlay::give_keys_to_photo(bool give)
 
 void Overlay::obey_keys(double frame_milliseconds)
 {
+    engine_screen.begin_frame();
+    choose_key_user();
     for (const MenuKey key : keys_.take())
         if (menu_.is_open())
             menu_.press(key, frame_milliseconds);
@@ -77,7 +82,8 @@ void Overlay::draw(Draw2d& draw2d, const OverlayFacts& facts)
     if (cvars::values().pt_show_times > 0)
         draw_panel(draw2d, facts.window, PanelSide::right, describe_times(facts));
     if (menu_.is_open())
-        draw_panel(draw2d, facts.window, PanelSide::left, menu_.describe(facts.frame_milliseconds));
+        draw_panel(
+            draw2d, facts.window, PanelSide::left, menu_.describe(facts.frame_milliseconds, engine_screen.had_keys()));
     else if (!facts.shader_errors->empty())
         draw_panel(draw2d, facts.window, PanelSide::left,
             describe_shader_errors(*facts.shader_errors, panel_columns(facts.window)));

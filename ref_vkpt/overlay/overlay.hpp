@@ -3,6 +3,7 @@
 // errors in shaders that are edited.
 #pragma once
 
+#include "ref_vkpt/overlay/engine_screen.hpp"
 #include "ref_vkpt/overlay/settings_menu.hpp"
 #include "ref_vkpt/overlay/times_lines.hpp"
 
@@ -28,11 +29,13 @@ public:
     void toggle_menu();
     // Between frames.
     void obey_keys(double frame_milliseconds);
-    // Whether keys and mouse are photo mode's, unless the menu is open.
+    // Whether keys and mouse are photo mode's, unless the menu is open or the engine has them.
     void give_keys_to_photo(bool give);
     PhotoInput take_photo_input() { return keys_.take_photo_input(); }
     // Last of all 2D.
     void draw(Draw2d& draw2d, const OverlayFacts& facts);
+
+    EngineScreen engine_screen;
 
 private:
     void choose_key_user();

@@ -139,7 +139,7 @@ void SettingsMenu::press(MenuKey key, double frame_milliseconds)
     }
 }
 
-std::vector<PanelLine> SettingsMenu::describe(double frame_milliseconds) const
+std::vector<PanelLine> SettingsMenu::describe(double frame_milliseconds, bool is_covered) const
 {
     std::vector<PanelLine> lines { { "path tracing", true }, { "" } };
     for (size_t i = 0; i < std::size(rows); i++)
@@ -150,7 +150,7 @@ std::vector<PanelLine> SettingsMenu::describe(double frame_milliseconds) const
     if (before_ > 0)
         time += fmt::format(", before the change {:.1f} ms", before_);
     lines.push_back({ time });
-    lines.push_back({ "arrows or wheel, escape: close" });
+    lines.push_back({ is_covered ? "keys: the console's or the menu's" : "arrows or wheel, escape: close" });
     return lines;
 }
 

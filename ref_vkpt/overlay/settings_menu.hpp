@@ -16,7 +16,8 @@ public:
     void toggle();
     // `frame_milliseconds`: what a frame takes now; it stands beside the menu until the next change.
     void press(MenuKey key, double frame_milliseconds);
-    std::vector<PanelLine> describe(double frame_milliseconds) const;
+    // `is_covered`: the engine has the keys.
+    std::vector<PanelLine> describe(double frame_milliseconds, bool is_covered) const;
 
 private:
     void change(int direction);

@@ -34,7 +34,7 @@ void PhotoMode::leave()
 {
     if (is_on_)
         release_game();
-    is_on_ = engine_screen_ = was_covered_ = is_replay_ = rides_ = false;
+    is_on_ = is_replay_ = rides_ = false;
     kept_.reset();
     end_wish();
     focused_for_.reset();
@@ -134,8 +134,6 @@ bool PhotoMode::takes_focus()
     return true;
 }
 
-void PhotoMode::begin_2d() { was_covered_ = std::exchange(engine_screen_, false); }
-
 std::vector<PanelLine> PhotoMode::describe(uint32_t samples, std::vector<PanelLine> lines) const
 {
     if (!is_on_ || !shows_panel_ || !kept_)
@@ -179,10 +177,10 @@ std::vector<PanelLine> PhotoMode::describe(uint32_t samples, std::vector<PanelLi
 
 // The console pauses the game while it is open, and lets it go on when it is closed; so the engine is asked once it is.
 // In games of several players it does not pause.
-void PhotoMode::hold_game()
+void PhotoMode::hold_game(bool engine_has_keys)
 {
     constexpr int max_pauses = 3, frames_between = 5;
-    if (is_covered() || is_game_paused() || pauses_asked_for_ >= max_pauses || frames_to_next_-- > 0)
+    if (engine_has_keys || is_game_paused() || pauses_asked_for_ >= max_pauses || frames_to_next_-- > 0)
         return;
     engine::run_next("pause\n");
     pauses_asked_for_++;

@@ -2,6 +2,7 @@
 // Photo mode: one view of the game is kept, a free camera looks at it, and what it sees is averaged.
 #pragma once
 
+#include "ref_vkpt/overlay/engine_screen.hpp"
 #include "ref_vkpt/overlay/panel.hpp"
 #include "ref_vkpt/photo/kept_refdef.hpp"
 #include "ref_vkpt/photo/photo_camera.hpp"
@@ -66,12 +67,8 @@ public:
 
     // ---- what is drawn over the image
 
-    // A frame begins: nothing of the engine's 2D is shown, until it draws its console or a menu.
-    void begin_2d();
-    void note_engine_screen() { engine_screen_ = true; }
-    bool hides_2d() const { return is_on_ && (takes_photo_ || !engine_screen_); }
-    // The console or a menu was shown in the last frame, and has the keys.
-    bool is_covered() const { return was_covered_; }
+    // Nothing of the engine's 2D is shown, until it draws its console or a menu.
+    bool hides_2d(const EngineScreen& screen) const { return is_on_ && (takes_photo_ || !screen.is_shown()); }
     void toggle_panel() { shows_panel_ = !shows_panel_; }
     // `replay`: its lines, in front.
     std::vector<PanelLine> describe(uint32_t samples, std::vector<PanelLine> replay) const;
@@ -96,7 +93,7 @@ public:
     // ---- the game
 
     // Has the engine pause the game, as far as it does that.
-    void hold_game();
+    void hold_game(bool engine_has_keys);
     // The game's automatic exposure, which the camera's images leave alone.
     Buffer game_exposure;
 
@@ -109,7 +106,6 @@ private:
     PhotoCamera camera_;
     std::optional<PhotoCamera> focused_for_;
     Clock::time_point last_time_ {}, rests_from_ {};
-    bool engine_screen_ = false, was_covered_ = false;
     std::string message_;
     std::optional<PhotoWish> wish_;
     bool takes_photo_ = false;

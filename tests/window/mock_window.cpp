@@ -11,6 +11,10 @@ namespace {
 
 vkpt::tests::MockWindow* as_window(void* window) { return static_cast<vkpt::tests::MockWindow*>(window); }
 
+using EventFilter = int (*)(void* context, void* event);
+EventFilter event_filter = nullptr;
+void* event_filter_context = nullptr;
+
 } // namespace
 
 #pragma GCC visibility push(default) // for dlsym
@@ -44,10 +48,29 @@ void SDL_Vulkan_GetDrawableSize(void* window, int* width, int* height)
 
 uint32_t SDL_GetWindowFlags(void* window) { return as_window(window)->flags; }
 
+void SDL_SetEventFilter(EventFilter filter, void* context)
+{
+    event_filter = filter;
+    event_filter_context = context;
+}
+
+int SDL_GetEventFilter(EventFilter* filter, void** context)
+{
+    *filter = event_filter;
+    *context = event_filter_context;
+    return event_filter != nullptr;
+}
+
 } // extern "C"
 #pragma GCC visibility pop
 
 namespace vkpt::tests {
+
+bool send_event(std::span<const std::byte> event)
+{
+    std::vector<std::byte> copy(event.begin(), event.end());
+    return !event_filter || event_filter(event_filter_context, copy.data()) != 0;
+}
 
 struct ModuleInWindow::Table {
     engine::Exports8 exports;

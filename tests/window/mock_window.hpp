@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,9 @@ struct MockWindow {
     int density = 1; // pixels in one of them
     uint32_t flags = 0; // SDL's
 };
+
+// As SDL does with what the player does, such as SdlEvents' (tests/overlay/sdl_events.hpp). Whether the engine gets it.
+bool send_event(std::span<const std::byte> event);
 
 // The real module, loaded for the engine and started in the window.
 class ModuleInWindow {
