@@ -182,6 +182,13 @@ bool update()
 
 const CvarValues& values() { return state.values; }
 
+CvarValues players_values()
+{
+    CvarValues values = state.values;
+    values.r_lightlevel = 0;
+    return values;
+}
+
 shared::ShaderCvars shader_values()
 {
     shared::ShaderCvars numbers {};

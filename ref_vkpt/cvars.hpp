@@ -32,6 +32,8 @@ void register_all();
 bool update();
 
 const CvarValues& values();
+// Without what the renderer itself writes, every frame.
+CvarValues players_values();
 // The same numbers for the shaders; choices by their place.
 shared::ShaderCvars shader_values();
 

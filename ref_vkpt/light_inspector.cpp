@@ -158,7 +158,7 @@ void LightInspector::run(Module& m)
     else
         return engine::print(
             "usage: pt_lights, pt_lights mute N, pt_lights solo N, pt_lights all; N is a row's number");
-    m.view().is_frozen = false; // of images that are averaged
+    m.renew_scene();
     looked_ = {};
 }
 

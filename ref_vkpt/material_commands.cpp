@@ -48,6 +48,7 @@ void edit_material(Module& m, const PickedMaterial& picked, std::string_view att
     if (effect == AttributeEffect::of_walls_with_next_map && !picked.texinfo)
         effect = AttributeEffect::at_once;
     m.scene.materials().edit(picked.name, attribute, value);
+    m.renew_scene();
     engine::print("{}: {} {}{}; `mat save` keeps it", picked.name, attribute, value, describe(effect));
 }
 
@@ -68,6 +69,7 @@ void reset_material(Module& m, const std::string& name)
     const bool is_late = has_late_edits(m.scene.materials(), name);
     for (const formats::AttributeRow& row : formats::material_attributes())
         m.scene.materials().edit(name, row.name, "");
+    m.renew_scene();
     engine::print("{}: as the game's files say{}", name, is_late ? "; some of it counts with the next map" : "");
 }
 

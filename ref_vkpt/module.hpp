@@ -50,6 +50,8 @@ struct Module {
     uint32_t selected_view = 0;
     View& view() { return views[selected_view]; }
     const View& view() const { return views[selected_view]; }
+    // Materials or lights are others: images that are averaged take the scene anew.
+    void renew_scene();
     // About the selected view's scene, if it has one.
     SceneQueries queries() { return { graphics, frame, view(), gpu_world }; }
     ShaderReload shader_reload;

@@ -282,6 +282,13 @@ Module::Module(const GraphicsSettings& settings)
 
 Module::~Module() { vkDeviceWaitIdle(graphics.device.handle); }
 
+void Module::renew_scene()
+{
+    for (View& each : views)
+        each.is_frozen = false;
+    photo.renew_scene();
+}
+
 Module* module() { return running.get(); }
 
 namespace renderer {
@@ -502,7 +509,6 @@ void begin_frame(float)
     m.overlay.obey_keys(m.graphics.timer.frame_milliseconds());
     begin_photo_frame(m);
     if (update_settings()) {
-        m.photo.note_settings();
         m.graphics.set_window_wishes(window_wishes());
     }
     if (m.trace_choice.wants_measurement() && m.view().snapshot && !m.graphics.is_recording())
@@ -553,6 +559,9 @@ static void replace_snapshot(View& view, SceneSnapshot snapshot)
     view.accumulated_frames = 0;
 }
 
+// Many settings count where the scene is taken.
+static bool has_other_settings(const View& view) { return !(cvars::players_values() == view.cvars); }
+
 // What photo mode's camera sees of the view that was there when it began.
 static void render_photo(const engine::RefDef& refdef, bool freeze)
 {
@@ -562,7 +571,7 @@ static void render_photo(const engine::RefDef& refdef, bool freeze)
     else if (m.replay->takes_moment())
         m.photo.show(m.replay->moment());
     const engine::RefDef seen = m.photo.camera_view(m.graphics.size());
-    if (m.photo.takes_scene())
+    if (m.photo.takes_scene() | has_other_settings(m.view()))
         replace_snapshot(m.view(),
             take_snapshot(seen, m.photo.camera().projection, m.photo.rides() ? nullptr : &m.photo.player_view()));
     Viewpoint from = make_viewpoint(seen, m.graphics.size(), { m.photo.camera().projection });
@@ -609,6 +618,7 @@ void render_view(const engine::RefDef& refdef)
         keep_for_replay(m, refdef);
     View& view = m.view();
     const Viewpoint from = make_viewpoint(refdef, m.graphics.size(), freeze ? wanted_projection() : Projection());
+    view.is_frozen &= !has_other_settings(view);
     const bool blends = std::exchange(view.blends_next, false) && freeze && view.is_frozen && view.snapshot;
     if (!freeze || !view.is_frozen || !view.snapshot || blends) {
         const uint32_t averaged = blends ? view.accumulated_frames : 0;

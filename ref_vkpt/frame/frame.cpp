@@ -204,8 +204,7 @@ void Frame::record_passes(const shared::FrameUniforms& uniforms, bool average_is
 // What was averaged holds no longer if anything has changed.
 void Frame::follow_changes(View& view, const Viewpoint& from, bool average) const
 {
-    CvarValues shown_by = cvars::values();
-    shown_by.r_lightlevel = 0; // written by ourselves, every frame
+    const CvarValues shown_by = cvars::players_values();
     if (!average || !is_same(from, view.viewpoint) || !(shown_by == view.cvars)
         || shaders_.light_sampler != view.light_sampler)
         view.accumulated_frames = 0;

@@ -45,9 +45,9 @@ public:
     const engine::RefDef& player_view() const { return kept_->refdef(); }
     // What the camera sees of it, in the whole window; all around, as much of it as is twice as wide as high.
     engine::RefDef camera_view(VkExtent2D window) const;
-    // Whether it is to be made anew, for the camera or a setting has changed; asked once.
+    // Whether it is to be made anew, for the camera has changed or renew_scene() was called; asked once.
     bool takes_scene() { return std::exchange(takes_scene_, false); }
-    void note_settings() { takes_scene_ = true; }
+    void renew_scene() { takes_scene_ = true; }
 
     // ---- the camera
 

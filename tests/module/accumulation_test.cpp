@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Repeatable random numbers, and the average that pt_accumulate keeps.
-#include "tests/module/map_builder.hpp"
-#include "tests/module/session.hpp"
+#include "tests/module/cube_room.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -130,6 +129,61 @@ TEST_F(Accumulation, ErrorFallsWithTheSquareRootOfTheFrames)
         many += mean_difference(render(session, seed + 2, 256), render(session, seed + 3, 256));
     }
     EXPECT_NEAR(few / many, 4, 0.4);
+}
+
+// A lit room with a cube, a dynamic light and particles, whose time stands still.
+class FrozenScene : public CubeRoomTest {
+protected:
+    static constexpr int samples = 8;
+
+    void start()
+    {
+        CubeRoomTest::start({ { "pt_bounces", "0" } });
+        session_->view.dlights = &light_;
+        session_->view.dlight_count = 1;
+        session_->view.particles = &particle_;
+        session_->view.particle_count = 1;
+    }
+    Radiance see()
+    {
+        session_->draw(samples);
+        EXPECT_EQ(session_->extension().accumulated_frames(), uint32_t(samples));
+        return session_->capture();
+    }
+
+    engine::DynamicLight light_ { { 0, 60, 40 }, { 1, 1, 0 }, 200 };
+    engine::Particle particle_ { { -40, -20, 50 }, white_index, 1 };
+};
+
+// Settings that count where the scene is taken, too.
+TEST_F(FrozenScene, SettingsCountAtOnce)
+{
+    start();
+    const CvarList changes { { "pt_emission_scale", "3" }, { "pt_dlight_scale", "5" },
+        { "pt_roughness_default", "0.1" }, { "pt_metallic_default", "1" }, { "pt_flashlight", "1" },
+        { "gl3_particle_size", "400" }, { "r_drawentities", "0" }, { "vk_dynamic", "0" } };
+    for (const auto& [name, value] : changes) {
+        SCOPED_TRACE(name);
+        const Radiance before = session_->accumulate(samples);
+        const std::string initial = session_->host().cvars().find(name)->text;
+        session_->set(name, value);
+        const Radiance changed = see();
+        EXPECT_FALSE(changed == before);
+        EXPECT_TRUE(changed == session_->accumulate(samples)) << "as from the start";
+        session_->set(name, initial);
+        EXPECT_TRUE(see() == before);
+    }
+}
+
+TEST_F(FrozenScene, StandsStillWhileNothingIsChanged)
+{
+    start();
+    const Radiance before = session_->accumulate(samples);
+    cube_.origin[2] = 90;
+    session_->view.view_angles[1] += 1;
+    see();
+    session_->view.view_angles[1] -= 1;
+    EXPECT_TRUE(see() == before) << "the cube has moved";
 }
 
 } // namespace

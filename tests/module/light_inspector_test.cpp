@@ -114,6 +114,36 @@ TEST_F(LightInspection, MutedLightsNeitherLightNorShine)
     EXPECT_NEAR(light_on_floor(), all, 0.01 * all);
 }
 
+// Averaged images and photo mode's keep a scene.
+TEST_F(LightInspection, MutesInScenesThatStandStill)
+{
+    constexpr int samples = 16;
+    const auto see = [&] {
+        session_->draw(samples);
+        EXPECT_EQ(session_->extension().accumulated_frames(), uint32_t(samples));
+        return double(session_->capture().mean().y);
+    };
+    const auto mute_and_compare = [&] {
+        session_->draw(2);
+        const int bright = find_row("bright");
+        run("pt_lights all");
+        const double all = see();
+        run("pt_lights mute " + std::to_string(bright));
+        EXPECT_LT(see(), 0.8 * all);
+        run("pt_lights all");
+        EXPECT_EQ(see(), all);
+    };
+    session_->set("pt_accumulate", 1);
+    mute_and_compare();
+    session_->set("pt_accumulate", 0);
+    session_->draw();
+    run("pt_photo");
+    for (int i = 0; i < 10000 && session_->extension().accumulated_frames() < 2; i++)
+        session_->draw(); // until its camera has come to rest
+    mute_and_compare();
+    run("pt_photo off");
+}
+
 TEST_F(LightInspection, SaysWhatItCannotDo)
 {
     run("pt_lights");

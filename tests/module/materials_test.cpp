@@ -212,6 +212,32 @@ TEST_F(Materials, EditsSayWhenTheyCount)
     say("reset");
 }
 
+// Averaged images and photo mode's keep a scene.
+TEST_F(Materials, AreEditedInScenesThatStandStill)
+{
+    Session session(folder_, matte_full);
+    session.load_map("floor");
+    const double plain = see_floor(session);
+    const auto edit_and_compare = [&] {
+        const auto see = [&](const char* command) {
+            session.host().run_text(command);
+            session.draw(64);
+            EXPECT_EQ(session.extension().accumulated_frames(), 64u) << command;
+            return double(session.capture().mean().y);
+        };
+        EXPECT_NEAR(see("mat base_factor 0.25\n") / plain, 0.25, 0.01);
+        EXPECT_NEAR(see("mat reset\n") / plain, 1, 0.01);
+    };
+    edit_and_compare(); // pt_accumulate is on
+    session.set("pt_accumulate", 0);
+    session.draw();
+    session.host().run_text("pt_photo\n");
+    for (int i = 0; i < 10000 && session.extension().accumulated_frames() < 2; i++)
+        session.draw(); // until its camera has come to rest
+    edit_and_compare();
+    session.host().run_text("pt_photo off\n");
+}
+
 TEST_F(Materials, AreSavedAndReadAgain)
 {
     std::string written;
