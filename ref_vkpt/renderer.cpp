@@ -506,11 +506,10 @@ static void take_edited_shaders(Module& m)
 void begin_frame(float)
 {
     Module& m = *running;
-    m.overlay.obey_keys(m.graphics.timer.frame_milliseconds());
+    m.overlay.obey_input(m.graphics.size());
     begin_photo_frame(m);
-    if (update_settings()) {
+    if (update_settings())
         m.graphics.set_window_wishes(window_wishes());
-    }
     if (m.trace_choice.wants_measurement() && m.view().snapshot && !m.graphics.is_recording())
         measure_trace_backends(m);
     m.frame.set_trace_backend(m.trace_choice.choose(cvars::values().pt_trace));
@@ -658,6 +657,7 @@ void end_frame()
     if (m.frame_has_view) {
         m.graphics.timer.note_view();
         m.preset.note_frame(m.graphics.timer.frame_milliseconds());
+        m.overlay.note_frame(m.graphics.timer.frame_milliseconds());
         print_speeds(m);
     }
     if (!m.photo.takes_photo())

@@ -4,6 +4,7 @@
 #include "ref_vkpt/engine/engine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <optional>
@@ -47,12 +48,14 @@ std::optional<MenuKey> menu_key(unsigned code)
     case 81:
         return MenuKey::down;
     case 80:
-    case right_button:
         return MenuKey::less;
     case 79: // right
     case 40: // return
-    case left_button:
         return MenuKey::more;
+    case left_button:
+        return MenuKey::left_button;
+    case right_button:
+        return MenuKey::right_button;
     case 41: // escape
         return MenuKey::close;
     default:
@@ -158,7 +161,8 @@ void KeyFilter::set_user(KeyUser user)
         return;
     const std::scoped_lock lock(mutex_);
     user_ = user;
-    pressed_.clear();
+    menu_.clear();
+    menu_wheel_ = 0;
     photo_ = {};
 }
 
@@ -181,7 +185,7 @@ bool KeyFilter::press(unsigned code, bool down)
     if (!is_kept)
         return false;
     if (user_ == KeyUser::menu) {
-        pressed_.push_back(*for_menu);
+        press_in_menu(*for_menu);
     } else {
         photo_.pressed.push_back(*for_photo);
         photo_.held[size_t(*for_photo)] = true;
@@ -203,19 +207,30 @@ bool KeyFilter::turn_wheel(float notches)
     const std::scoped_lock lock(mutex_);
     if (user_ == KeyUser::photo)
         photo_.wheel += notches;
-    else if (user_ == KeyUser::menu && notches != 0)
-        pressed_.push_back(notches > 0 ? MenuKey::up : MenuKey::down);
+    else if (user_ == KeyUser::menu)
+        for (menu_wheel_ += notches; std::abs(menu_wheel_) >= 1; menu_wheel_ -= std::copysign(1.0f, menu_wheel_))
+            press_in_menu(menu_wheel_ > 0 ? MenuKey::up : MenuKey::down);
     return user_ != KeyUser::engine;
 }
 
-// The menu leaves the mouse's way to the game.
 bool KeyFilter::move_mouse(glm::vec2 pixels)
 {
     const std::scoped_lock lock(mutex_);
-    if (user_ != KeyUser::photo)
-        return false;
-    photo_.mouse += pixels;
-    return true;
+    if (user_ == KeyUser::photo) {
+        photo_.mouse += pixels;
+    } else if (user_ == KeyUser::menu) {
+        if (menu_.empty() || menu_.back().key)
+            menu_.emplace_back();
+        menu_.back().mouse += pixels;
+    }
+    return user_ != KeyUser::engine;
+}
+
+void KeyFilter::press_in_menu(MenuKey key)
+{
+    if (menu_.empty() || menu_.back().key)
+        menu_.emplace_back();
+    menu_.back().key = key;
 }
 
 bool KeyFilter::passes(const std::byte* event)
@@ -243,10 +258,10 @@ bool KeyFilter::passes(const std::byte* event)
     }
 }
 
-std::vector<MenuKey> KeyFilter::take()
+std::vector<MenuInput> KeyFilter::take_menu_input()
 {
     const std::scoped_lock lock(mutex_);
-    return std::exchange(pressed_, {});
+    return std::exchange(menu_, {});
 }
 
 PhotoInput KeyFilter::take_photo_input()

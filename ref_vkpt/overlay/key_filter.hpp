@@ -7,11 +7,18 @@
 #include <bitset>
 #include <glm/vec2.hpp>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace vkpt {
 
-enum class MenuKey { up, down, less, more, close };
+enum class MenuKey { up, down, less, more, left_button, right_button, close };
+
+// What the player did in the menu: the mouse was moved, and then this was pressed.
+struct MenuInput {
+    glm::vec2 mouse { 0 }; // pixels to the right and down
+    std::optional<MenuKey> key;
+};
 
 enum class PhotoKey {
     // That count while they are held:
@@ -71,8 +78,8 @@ public:
     void install();
     // From now on this user's keys are kept from the engine.
     void set_user(KeyUser user);
-    // What was pressed since the last call.
-    std::vector<MenuKey> take();
+    // Since the last call, in order.
+    std::vector<MenuInput> take_menu_input();
     PhotoInput take_photo_input();
 
 private:
@@ -84,13 +91,15 @@ private:
     bool repeat(unsigned code);
     bool turn_wheel(float notches);
     bool move_mouse(glm::vec2 pixels);
+    void press_in_menu(MenuKey key);
 
     std::atomic<KeyUser> user_ = KeyUser::engine;
     bool is_installed_ = false;
     Filter next_ = nullptr; // somebody's before ours
     void* next_context_ = nullptr;
     std::mutex mutex_; // SDL may call from any thread
-    std::vector<MenuKey> pressed_;
+    std::vector<MenuInput> menu_;
+    float menu_wheel_ = 0; // parts of a notch
     PhotoInput photo_;
     std::bitset<1024> held_; // codes whose release is kept from the engine, too
 };

@@ -6,12 +6,14 @@
 #include "ref_vkpt/preset_command.hpp"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 namespace vkpt {
 
 void Overlay::toggle_menu()
 {
     menu_.toggle();
+    pointer_.reset();
     choose_key_user();
 }
 
@@ -29,13 +31,40 @@ void Overlay::give_keys_to_photo(bool give)
     choose_key_user();
 }
 
-void Overlay::obey_keys(double frame_milliseconds)
+// From the chosen row on.
+void Overlay::move_pointer(glm::vec2 way, VkExtent2D window)
+{
+    const std::vector<PanelLine> lines = describe_menu();
+    const glm::vec2 from = pointer_.value_or(end_of_line(window, PanelSide::left, lines, menu_.chosen_line()));
+    pointer_ = glm::clamp(from + way, glm::vec2(0), glm::vec2(window.width, window.height) - 1.0f);
+    if (const std::optional<size_t> line = find_line(window, PanelSide::left, lines, *pointer_))
+        menu_.choose_line(*line);
+}
+
+void Overlay::obey(const MenuInput& input, VkExtent2D window)
+{
+    if (input.mouse != glm::vec2(0))
+        move_pointer(input.mouse, window);
+    if (!input.key)
+        return;
+    const bool is_button = *input.key == MenuKey::left_button || *input.key == MenuKey::right_button;
+    if (is_button && pointer_) { // what is under it
+        const std::optional<size_t> line = find_line(window, PanelSide::left, describe_menu(), *pointer_);
+        if (!line || !menu_.choose_line(*line))
+            return;
+    }
+    menu_.press(*input.key);
+}
+
+void Overlay::obey_input(VkExtent2D window)
 {
     engine_screen.begin_frame();
     choose_key_user();
-    for (const MenuKey key : keys_.take())
+    for (const MenuInput& input : keys_.take_menu_input())
         if (menu_.is_open())
-            menu_.press(key, frame_milliseconds);
+            obey(input, window);
+    if (!menu_.is_open())
+        pointer_.reset();
     choose_key_user();
 }
 
@@ -82,13 +111,14 @@ void Overlay::draw(Draw2d& draw2d, const OverlayFacts& facts)
     if (cvars::values().pt_show_times > 0)
         draw_panel(draw2d, facts.window, PanelSide::right, describe_times(facts));
     if (menu_.is_open())
-        draw_panel(
-            draw2d, facts.window, PanelSide::left, menu_.describe(facts.frame_milliseconds, engine_screen.had_keys()));
+        draw_panel(draw2d, facts.window, PanelSide::left, describe_menu());
     else if (!facts.shader_errors->empty())
         draw_panel(draw2d, facts.window, PanelSide::left,
             describe_shader_errors(*facts.shader_errors, panel_columns(facts.window)));
     else
         draw_panel(draw2d, facts.window, PanelSide::left, facts.photo.empty() ? describe_surface(facts) : facts.photo);
+    if (pointer_ && !engine_screen.had_keys())
+        draw_pointer(draw2d, facts.window, *pointer_);
 }
 
 } // namespace vkpt

@@ -8,6 +8,7 @@
 #include "ref_vkpt/overlay/times_lines.hpp"
 
 #include <glm/vec2.hpp>
+#include <optional>
 
 namespace vkpt {
 
@@ -28,7 +29,9 @@ public:
     void take_keys() { keys_.install(); }
     void toggle_menu();
     // Between frames.
-    void obey_keys(double frame_milliseconds);
+    void obey_input(VkExtent2D window);
+    // A view was shown whose frame had taken so long on the device.
+    void note_frame(double milliseconds) { menu_.note_frame(milliseconds); }
     // Whether keys and mouse are photo mode's, unless the menu is open or the engine has them.
     void give_keys_to_photo(bool give);
     PhotoInput take_photo_input() { return keys_.take_photo_input(); }
@@ -40,10 +43,14 @@ public:
 private:
     void choose_key_user();
     static std::vector<PanelLine> describe_surface(const OverlayFacts& facts);
+    std::vector<PanelLine> describe_menu() const { return menu_.describe(engine_screen.had_keys()); }
+    void move_pointer(glm::vec2 way, VkExtent2D window);
+    void obey(const MenuInput& input, VkExtent2D window);
     std::vector<PanelLine> describe_times(const OverlayFacts& facts) const;
 
     FrameRate rate_;
     SettingsMenu menu_;
+    std::optional<glm::vec2> pointer_; // on the menu, in the window's pixels, once the mouse has been moved
     KeyFilter keys_;
     bool photo_has_keys_ = false;
 };

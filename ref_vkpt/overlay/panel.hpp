@@ -4,6 +4,8 @@
 
 #include "ref_vkpt/draw2d/draw2d.hpp"
 
+#include <glm/vec2.hpp>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -24,5 +26,13 @@ float panel_scale(int window_height);
 size_t panel_columns(VkExtent2D window);
 
 void draw_panel(Draw2d& draw2d, VkExtent2D window, PanelSide side, std::span<const PanelLine> lines);
+
+// Of these lines, the one at a place in the window; nothing: none is there.
+std::optional<size_t> find_line(VkExtent2D window, PanelSide side, std::span<const PanelLine> lines, glm::vec2 place);
+// The middle of a line's right end.
+glm::vec2 end_of_line(VkExtent2D window, PanelSide side, std::span<const PanelLine> lines, size_t line);
+
+// An arrow, with its tip there.
+void draw_pointer(Draw2d& draw2d, VkExtent2D window, glm::vec2 tip);
 
 } // namespace vkpt

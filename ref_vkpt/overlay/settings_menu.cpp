@@ -6,6 +6,7 @@
 #include "ref_vkpt/preset_command.hpp"
 #include "ref_vkpt/presets.hpp"
 #include "ref_vkpt/vulkan/shaders.hpp"
+#include "ref_vkpt/vulkan/swapchain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,9 @@ constexpr bool all_known()
 }
 static_assert(all_known());
 
-std::string text_of(const char* cvar)
+constexpr size_t lines_above = 2; // the first row
+
+std::string cvar_text(const char* cvar)
 {
     const engine::Cvar* found = engine::get_cvar(cvar, find_cvar_row(cvar)->initial, engine::CVAR_NONE);
     return found && found->text ? found->text : "";
@@ -74,8 +77,8 @@ std::string value_of(const Row& row)
     if (!row.cvar)
         return std::string(current_preset());
     if (row.step == 0)
-        return text_of(row.cvar);
-    return fmt::format("{:g}", std::round(std::atof(text_of(row.cvar).c_str()) * 1000) / 1000);
+        return cvar_text(row.cvar);
+    return fmt::format("{:g}", std::round(std::atof(cvar_text(row.cvar).c_str()) * 1000) / 1000);
 }
 
 void step_choice(const Row& row, int direction)
@@ -96,7 +99,7 @@ void step_number(const Row& row, int direction)
     const CvarRow& about = *find_cvar_row(row.cvar);
     const bool ours = about.owner == CvarOwner::module;
     const double lowest = ours ? about.lowest : row.lowest, highest = ours ? about.highest : row.highest;
-    const double now = std::atof(text_of(row.cvar).c_str());
+    const double now = std::atof(cvar_text(row.cvar).c_str());
     // On the steps' own places, whatever stood there before.
     const double next = std::clamp((std::round(now / row.step) + direction) * row.step, lowest, highest);
     engine::set_cvar(row.cvar, fmt::format("{:g}", next));
@@ -104,14 +107,30 @@ void step_number(const Row& row, int direction)
 
 } // namespace
 
+SettingsMenu::SettingsMenu()
+    : times_(frames_in_flight)
+{
+}
+
 void SettingsMenu::toggle()
 {
     is_open_ = !is_open_;
-    before_ = 0;
+    times_.forget_changes();
 }
+
+bool SettingsMenu::choose_line(size_t line)
+{
+    if (line < lines_above || line >= lines_above + std::size(rows))
+        return false;
+    row_ = line - lines_above;
+    return true;
+}
+
+size_t SettingsMenu::chosen_line() const { return lines_above + row_; }
 
 void SettingsMenu::change(int direction)
 {
+    times_.note_change(row_);
     const Row& row = rows[row_];
     if (row.step == 0)
         step_choice(row, direction);
@@ -119,7 +138,7 @@ void SettingsMenu::change(int direction)
         step_number(row, direction);
 }
 
-void SettingsMenu::press(MenuKey key, double frame_milliseconds)
+void SettingsMenu::press(MenuKey key)
 {
     switch (key) {
     case MenuKey::up:
@@ -129,9 +148,12 @@ void SettingsMenu::press(MenuKey key, double frame_milliseconds)
         row_ = (row_ + 1) % std::size(rows);
         break;
     case MenuKey::less:
+    case MenuKey::right_button:
+        change(-1);
+        break;
     case MenuKey::more:
-        before_ = frame_milliseconds;
-        change(key == MenuKey::more ? 1 : -1);
+    case MenuKey::left_button:
+        change(1);
         break;
     case MenuKey::close:
         toggle();
@@ -139,18 +161,28 @@ void SettingsMenu::press(MenuKey key, double frame_milliseconds)
     }
 }
 
-std::vector<PanelLine> SettingsMenu::describe(double frame_milliseconds, bool is_covered) const
+// Beside a row that was changed.
+std::string SettingsMenu::describe_change(size_t row) const
 {
-    std::vector<PanelLine> lines { { "path tracing", true }, { "" } };
+    const std::optional<ChangeTimes::Pair> times = times_.find(row);
+    if (!times || times->before <= 0) // the device has no clock
+        return {};
+    return times->after > 0 ? fmt::format(" {:5.1f} > {:.1f} ms", times->before, times->after)
+                            : fmt::format(" {:5.1f} > ... ms", times->before);
+}
+
+std::vector<PanelLine> SettingsMenu::describe(bool is_covered) const
+{
+    std::vector<PanelLine> lines(lines_above);
+    lines[0] = { "path tracing", true };
     for (size_t i = 0; i < std::size(rows); i++)
-        lines.push_back(
-            { fmt::format("{} {:17} {:>15}", i == row_ ? '>' : ' ', rows[i].label, value_of(rows[i])), i == row_ });
+        lines.push_back({ fmt::format("{} {:17} {:>15}{}", i == row_ ? '>' : ' ', rows[i].label, value_of(rows[i]),
+                              describe_change(i)),
+            i == row_ });
     lines.push_back({ "" });
-    std::string time = fmt::format("frame {:.1f} ms", frame_milliseconds);
-    if (before_ > 0)
-        time += fmt::format(", before the change {:.1f} ms", before_);
-    lines.push_back({ time });
-    lines.push_back({ is_covered ? "keys: the console's or the menu's" : "arrows or wheel, escape: close" });
+    lines.push_back({ fmt::format(
+        "frame {:.1f} ms{}", times_.newest(), times_.empty() ? "" : "; beside a change: before > after") });
+    lines.push_back({ is_covered ? "keys: the console's or the menu's" : "arrows or mouse, escape: close" });
     return lines;
 }
 

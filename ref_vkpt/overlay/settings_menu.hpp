@@ -2,6 +2,7 @@
 // pt_menu: this renderer's settings on the screen, over the running game.
 #pragma once
 
+#include "ref_vkpt/overlay/change_times.hpp"
 #include "ref_vkpt/overlay/key_filter.hpp"
 #include "ref_vkpt/overlay/panel.hpp"
 
@@ -12,19 +13,27 @@ namespace vkpt {
 
 class SettingsMenu {
 public:
+    SettingsMenu();
+
     bool is_open() const { return is_open_; }
     void toggle();
-    // `frame_milliseconds`: what a frame takes now; it stands beside the menu until the next change.
-    void press(MenuKey key, double frame_milliseconds);
+    // What a frame took on the device, whether the menu is open or not.
+    void note_frame(double milliseconds) { times_.note_frame(milliseconds); }
+    // A line of describe(): its row is chosen. False: it is none.
+    bool choose_line(size_t line);
+    size_t chosen_line() const;
+    // For the chosen row.
+    void press(MenuKey key);
     // `is_covered`: the engine has the keys.
-    std::vector<PanelLine> describe(double frame_milliseconds, bool is_covered) const;
+    std::vector<PanelLine> describe(bool is_covered) const;
 
 private:
     void change(int direction);
+    std::string describe_change(size_t row) const;
 
     bool is_open_ = false;
     size_t row_ = 0;
-    double before_ = 0; // milliseconds of a frame before the last change; 0: there was none
+    ChangeTimes times_;
 };
 
 } // namespace vkpt

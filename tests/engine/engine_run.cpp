@@ -83,6 +83,14 @@ std::string wait_aliases()
            "alias wait_100 \"wait_25;wait_25;wait_25;wait_25\"\n";
 }
 
+std::string press_keys(const std::vector<std::string>& keys)
+{
+    std::string command = "xdotool search --class quake2 windowfocus --sync";
+    for (const std::string& key : keys)
+        command += " && sleep 0.2 && xdotool keydown " + key + " && sleep 0.2 && xdotool keyup " + key;
+    return command;
+}
+
 EngineRun::EngineRun(const EngineOptions& options)
 {
     make_folder(options);

@@ -55,6 +55,10 @@ inline constexpr const char* memory_mark = "echo memory mark\nwait_25\n";
 // goes on drawing until it has. (In other files the engine goes on with its script after some frames.)
 inline constexpr const char* display_mark = "echo display mark\nwait_25\nwait_25\n";
 
+// A command for EngineOptions::display_commands: the engine's window has the keys, and gets these one at a time, as the
+// engine looks once a frame.
+std::string press_keys(const std::vector<std::string>& keys);
+
 // Owns the run's folder; the result is valid as long as it lives.
 class EngineRun {
 public:

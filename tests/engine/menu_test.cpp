@@ -10,15 +10,6 @@ namespace vkpt::tests {
 
 namespace {
 
-// A key at a time: the engine looks once a frame.
-std::string press(const std::vector<std::string>& keys)
-{
-    std::string command = "xdotool search --class quake2 windowfocus --sync";
-    for (const std::string& key : keys)
-        command += " && sleep 0.2 && xdotool keydown " + key + " && sleep 0.2 && xdotool keyup " + key;
-    return command;
-}
-
 // What the console says of a variable: "NAME" is "VALUE".
 double printed_number(const EngineRun& run, const std::string& name)
 {
@@ -44,9 +35,9 @@ TEST(Engine, VideoMenuChoosesThisRendererAndItsRowsAct)
         + "wait_5\nvid_gamma\nvk_intensity\nvk_overbrightbits\n" + capture + "quit\n";
     options.display_commands = {
         // From "Custom" to "Vulkan", which is this renderer, and up around the corner to "apply".
-        press({ "Left", "Up", "Return" }),
+        press_keys({ "Left", "Up", "Return" }),
         // Three rows more than before lie above "apply", where the cursor was.
-        press({ "Up", "Up", "Up", "Up", "Up", "Right", "Right", "Up", "Right", "Up", "Up", "Right", "Escape" }),
+        press_keys({ "Up", "Up", "Up", "Up", "Up", "Right", "Right", "Up", "Right", "Up", "Up", "Right", "Escape" }),
     };
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+set", "pt_render_scale", "25", "+map", own_map,
         "+exec", "test.cfg" };
@@ -76,8 +67,8 @@ TEST(Engine, SettingsPageIsWorkedByKeys)
     options.script = "wait_25\npt_menu\nwait_5\n" + keys + "pt_bounces\nflt_taa\necho page\npaused\n" + keys
         + "pt_bounces\necho menu\npaused\nquit\n";
     options.display_commands = {
-        press({ "Down", "Down", "Right", "Right", "Down", "Down", "Down", "Left", "Escape" }),
-        press({ "Right", "Escape" }),
+        press_keys({ "Down", "Down", "Right", "Right", "Down", "Down", "Down", "Left", "Escape" }),
+        press_keys({ "Right", "Escape" }),
     };
     options.arguments = { "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
     options.cpu_seconds = 600;
@@ -91,6 +82,37 @@ TEST(Engine, SettingsPageIsWorkedByKeys)
     EXPECT_NE(paused[1].find("is \"1\""), std::string::npos) << paused[1];
 }
 
+// Mouse motion moves the page's pointer and not the player. The lines of console and chat are typed as ever, while the
+// page is open: what is typed runs behind the script, and ends the engine.
+TEST(Engine, SettingsPageHasTheMouseAndLeavesTypingAlone)
+{
+    EngineOptions options;
+    options.render_scale = 100;
+    options.script = "wait_25\ncamera\npt_menu\nwait_5\n" + std::string(display_mark) + "wait_25\npt_bounces\ncamera\n"
+        + "messagemode\nwait_5\n" + display_mark;
+    const std::string look = " && sleep 0.2 && "; // the engine does, once a frame
+    const auto move = [&](const std::string& way) { return look + "xdotool mousemove_relative -- " + way; };
+    const std::string click = look + "xdotool mousedown 1" + look + "xdotool mouseup 1";
+    const auto type = [&](const std::string& text) {
+        return look + "xdotool type --delay 100 '" + text + "' && " + press_keys({ "Return" });
+    };
+    options.display_commands = {
+        press_keys({}) + move("-10 10") + move("-40 10") + click + click, // on the third row
+        press_keys({}) + type("hello") + " && " + press_keys({ "grave" })
+            + type("set typed_in console;typed_in;pt_bounces;wait_25;quit"),
+    };
+    options.arguments = { "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
+    options.cpu_seconds = 600;
+    const EngineRun run(options);
+    run.expect_clean();
+    EXPECT_EQ(run.lines_with("\"pt_bounces\" is \"3\"").size(), 2u) << run.result().console;
+    const auto cameras = run.lines_with(") 90"); // the view's angle
+    ASSERT_EQ(cameras.size(), 2u) << run.result().console;
+    EXPECT_EQ(cameras[0], cameras[1]) << "the player has turned";
+    EXPECT_EQ(run.lines_with("\"typed_in\" is \"console\"").size(), 1u) << run.result().console;
+    EXPECT_EQ(run.lines_with(": hello").size(), 1u) << run.result().console;
+}
+
 // The game stands still meanwhile, keys move the camera and not the player, and the Enter key alone writes a file.
 TEST(Engine, PhotoModeIsWorkedByKeys)
 {
@@ -101,8 +123,8 @@ TEST(Engine, PhotoModeIsWorkedByKeys)
     options.script = "wait_25\npt_photo\nwait_5\npt_photo info\npt_photo save castle\nwait_5\n" + keys
         + "pt_photo info\necho photo\npaused\n" + keys + "echo game\nwait_25\npaused\nquit\n";
     options.display_commands = {
-        press({ "w", "Right", "Up", "Return" }),
-        press({ "Escape" }),
+        press_keys({ "w", "Right", "Up", "Return" }),
+        press_keys({ "Escape" }),
     };
     options.arguments = { "+map", own_map, "+exec", "test.cfg" };
     options.cpu_seconds = 600;

@@ -87,10 +87,10 @@ public:
     }
     Bytes press_button(uint8_t number) const { return button(0x401, number); }
     Bytes release_button(uint8_t number) const { return button(0x402, number); }
-    Bytes turn_wheel(int notches) const
+    Bytes turn_wheel(float notches) const
     {
-        sdl2::Wheel two { .type = 0x403, .y = notches };
-        sdl3::Wheel three { .type = 0x403, .y = float(notches) };
+        sdl2::Wheel two { .type = 0x403, .y = int32_t(notches) };
+        sdl3::Wheel three { .type = 0x403, .y = notches };
         return choose(two, three);
     }
 

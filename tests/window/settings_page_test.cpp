@@ -3,6 +3,9 @@
 #include "tests/overlay/sdl_events.hpp"
 #include "tests/window/mock_window.hpp"
 
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 namespace vkpt::tests {
@@ -34,6 +37,21 @@ protected:
         EXPECT_EQ(pressed, released);
         module_.draw();
         return pressed;
+    }
+
+    bool click(uint8_t button)
+    {
+        const bool pressed = send_event(events_.press_button(button));
+        EXPECT_EQ(send_event(events_.release_button(button)), pressed);
+        module_.draw();
+        return pressed;
+    }
+    // RGBA.
+    std::vector<uint8_t> see() const
+    {
+        std::vector<uint8_t> pixels(size_t(window_.width) * size_t(window_.height) * 4);
+        EXPECT_TRUE(module_.extension().capture_display(pixels.data()));
+        return pixels;
     }
 
     enum class Screen { console, menu, chat };
@@ -82,6 +100,56 @@ TEST_F(SettingsPage, LeavesKeysToTheConsoleAMenuOrChat)
         module_.draw(2);
         EXPECT_FALSE(type(key_below)) << "it has its keys back";
     }
+}
+
+// It starts at the end of the chosen row's line. Lines are ten pixels high in a window so small.
+TEST_F(SettingsPage, IsWorkedByTheMouse)
+{
+    EXPECT_FALSE(send_event(events_.move(-50, 20))) << "it would turn the player";
+    EXPECT_FALSE(click(left_mouse_button));
+    EXPECT_EQ(engine_.get("pt_bounces"), "2");
+    EXPECT_FALSE(click(left_mouse_button));
+    EXPECT_EQ(engine_.get("pt_bounces"), "3");
+    EXPECT_FALSE(click(right_mouse_button));
+    EXPECT_EQ(engine_.get("pt_bounces"), "2");
+    EXPECT_FALSE(send_event(events_.move(0, 40)));
+    EXPECT_FALSE(click(right_mouse_button));
+    EXPECT_EQ(engine_.get("pt_render_scale"), "95");
+    EXPECT_FALSE(send_event(events_.turn_wheel(1))); // to "anti-aliasing"
+    type(key_left);
+    EXPECT_EQ(engine_.get("flt_taa"), "on");
+    // A click beside the rows does nothing here, nor in the game.
+    EXPECT_FALSE(send_event(events_.move(2000, 0)));
+    EXPECT_FALSE(click(left_mouse_button));
+    EXPECT_FALSE(send_event(events_.move(-2000, 2000)));
+    EXPECT_FALSE(click(left_mouse_button));
+    EXPECT_EQ(engine_.get("pt_render_scale"), "95");
+    EXPECT_EQ(engine_.get("flt_taa"), "on");
+    type(key_escape);
+    EXPECT_TRUE(send_event(events_.move(5, 5)));
+    EXPECT_TRUE(click(left_mouse_button));
+}
+
+TEST_F(SettingsPage, ShowsAPointerOnceTheMouseIsMoved)
+{
+    const std::vector<uint8_t> before = see();
+    send_event(events_.move(-50, 20));
+    module_.draw();
+    const std::vector<uint8_t> with_pointer = see();
+    glm::ivec2 low(window_.width, window_.height), high(-1);
+    for (size_t i = 0; i < before.size() / 4; i++)
+        if (!std::equal(&before[4 * i], &before[4 * i] + 3, &with_pointer[4 * i])) {
+            const glm::ivec2 place(int(i) % window_.width, int(i) / window_.width);
+            low = glm::min(low, place);
+            high = glm::max(high, place);
+        }
+    // The page's lines are 35 characters long; the font is not there.
+    const glm::ivec2 tip(8 + 8 + 35 * 8 - 50, 8 + 5 + 25 + 20);
+    EXPECT_EQ(low, tip);
+    EXPECT_EQ(high, tip + 8);
+    type(key_escape);
+    open(); // it is gone
+    EXPECT_EQ(see(), before);
 }
 
 // The key that opened the page, or ended the console's line, is still held.
