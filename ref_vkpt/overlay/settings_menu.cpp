@@ -100,9 +100,11 @@ void step_number(const Row& row, int direction)
     const bool ours = about.owner == CvarOwner::module;
     const double lowest = ours ? about.lowest : row.lowest, highest = ours ? about.highest : row.highest;
     const double now = std::atof(cvar_text(row.cvar).c_str());
-    // On the steps' own places, whatever stood there before.
-    const double next = std::clamp((std::round(now / row.step) + direction) * row.step, lowest, highest);
-    engine::set_cvar(row.cvar, fmt::format("{:g}", next));
+    // To the next of the steps' own places, from wherever it stands.
+    constexpr double same = 1e-3; // steps: texts of numbers are rounded
+    const double steps = now / row.step;
+    const double next = direction > 0 ? std::floor(steps + same) + 1 : std::ceil(steps - same) - 1;
+    engine::set_cvar(row.cvar, fmt::format("{:g}", std::clamp(next * row.step, lowest, highest)));
 }
 
 } // namespace

@@ -29,9 +29,51 @@ protected:
     }
     void choose(const std::string& label) { EXPECT_TRUE(menu_.choose_line(find_line(label))); }
     std::string line(const std::string& label) { return menu_.describe(false)[find_line(label)].text; }
+    // The cvar's text after each of them.
+    std::vector<std::string> press(const char* cvar, const std::vector<MenuKey>& keys)
+    {
+        std::vector<std::string> texts;
+        for (const MenuKey key : keys) {
+            menu_.press(key);
+            texts.push_back(stand_in_cvars[cvar]);
+        }
+        return texts;
+    }
+
     SettingsMenu menu_;
     static constexpr MenuKey less = MenuKey::less, more = MenuKey::more;
 };
+
+TEST_F(Settings, StepsGoToTheNextPlaceOfTheirOwn)
+{
+    using Texts = std::vector<std::string>;
+    stand_in_cvars["pt_render_scale"] = "67";
+    choose("render scale");
+    EXPECT_EQ(press("pt_render_scale", { less, less, more }), (Texts { "65", "60", "65" }));
+    stand_in_cvars["pt_render_scale"] = "67";
+    EXPECT_EQ(press("pt_render_scale", { more, more }), (Texts { "70", "75" }));
+    stand_in_cvars["pt_render_scale"] = "27";
+    EXPECT_EQ(press("pt_render_scale", { less, less, MenuKey::left_button, MenuKey::right_button }),
+        (Texts { "25", "25", "30", "25" }));
+    stand_in_cvars["pt_exposure_bias"] = "-0.3";
+    choose("brightness");
+    EXPECT_EQ(press("pt_exposure_bias", { more, more, more, less }), (Texts { "-0.25", "0", "0.25", "0" }));
+}
+
+// Whatever the places look like in binary: 0.3 / 0.1 is less than three.
+TEST_F(Settings, StepsMissNoPlace)
+{
+    stand_in_cvars["vid_gamma"] = "0.1";
+    choose("gamma");
+    for (int tenths = 2; tenths <= 20; tenths++) {
+        menu_.press(more);
+        EXPECT_NEAR(std::stod(stand_in_cvars["vid_gamma"]), tenths * 0.1, 1e-6);
+    }
+    for (int tenths = 19; tenths >= 1; tenths--) {
+        menu_.press(less);
+        EXPECT_NEAR(std::stod(stand_in_cvars["vid_gamma"]), tenths * 0.1, 1e-6);
+    }
+}
 
 TEST_F(Settings, LinesThatAreNoRowsAreNotChosen)
 {
