@@ -63,6 +63,7 @@ Frame::Frame(Graphics& graphics, Workers& workers)
 void Frame::begin(View& view)
 {
     views_this_frame_ = 0;
+    told_of_views_ = false;
     scene_upload_.begin_frame();
     std::array<float, shared::LIGHT_LEVEL_LANES> lanes;
     std::memcpy(lanes.data(), readback_.mapped() + graphics_.slot() * light_level_bytes, light_level_bytes);
@@ -281,7 +282,8 @@ void Frame::record_view(
     View& view, const Viewpoint& from, const SceneSnapshot& scene, const GpuWorld* gpu_world, bool average)
 {
     if (views_this_frame_ == max_views) {
-        engine::print("vkpt: more than {} 3D views in one frame; the others are not shown", max_views);
+        if (!std::exchange(told_of_views_, true))
+            engine::print("vkpt: more than {} 3D views in one frame; the others are not shown", max_views);
         return;
     }
     const bool has_world = scene.world != nullptr;

@@ -87,6 +87,7 @@ private:
     Buffer uniforms_, ltc_, blue_noise_, readback_, statistics_, ray_counts_, read_ray_counts_;
     VkDeviceSize uniform_stride_;
     uint32_t views_this_frame_ = 0;
+    bool told_of_views_ = false; // that there were more than max_views
     RenderScale render_scale_;
     uint64_t nonfinite_pixels_ = 0;
     float light_level_ = 0;

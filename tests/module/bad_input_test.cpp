@@ -6,6 +6,7 @@
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -228,6 +229,26 @@ TEST_F(BadInput, HandlesOfAnEarlierModuleAreDrawnAsPlaceholders)
 }
 
 // What the engine's entities may hold after a network hiccup.
+// As `timerefresh` draws.
+TEST_F(BadInput, ViewsThatAreTooManyAreToldOfOnceAFrame)
+{
+    start().load_map("good");
+    const auto& module = session_->module();
+    const auto told = [&] {
+        return std::ranges::count_if(session_->lines(),
+            [](const std::string& line) { return line.find("3D views in one frame") != std::string::npos; });
+    };
+    for (int frame = 1; frame <= 2; frame++) {
+        module.begin_frame(0);
+        for (int view = 0; view < 30; view++)
+            module.render_frame(&session_->view);
+        module.end_frame();
+        EXPECT_EQ(told(), frame);
+    }
+    session_->draw(2);
+    EXPECT_EQ(told(), 2);
+}
+
 TEST_F(BadInput, SenselessEntitiesAreNotDrawn)
 {
     Session& session = start();
