@@ -32,13 +32,27 @@ bool sees_sun(vec3 point)
     return (fetch_Material(frame.scene.materials, material).flags & MATERIAL_SKY) != 0u;
 }
 
+// How far the air reaches along the camera's ray. What is seen in a mirror, through water or on a screen does not lie
+// on it: there the first surface ends it.
+float length_in_air(Ray ray, vec4 seen)
+{
+    const uint mask_camera = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_SKY;
+    const float most_apart = 0.02; // of the distance: the rays pass the pixel at other places
+    if (frame.scene.eye_medium != MEDIUM_NONE)
+        return 0.0;
+    bool is_surface = seen.w >= 0.0;
+    vec3 straight = is_surface ? ray.origin + ray.direction * seen.w : ray.direction;
+    if (seen.w != DEPTH_UNLIT && distance(straight, seen.xyz) <= most_apart * (is_surface ? seen.w : 1.0))
+        return is_surface ? seen.w : ray_far;
+    return trace_nearest(ray, mask_camera).t;
+}
+
 void march_pixel(uvec2 half_pixel, uint half_index)
 {
     uvec2 pixel = min(half_pixel * 2u, frame.size - 1u);
-    float seen = load_position(pixel_index(pixel)).w;
     Random random = random_stream(make_pixel_random(pixel), march_stream);
     Ray ray = Ray(frame.camera.eye, normalize(camera_direction(pixel, vec2(0.5))), 0.0, ray_far);
-    float length = seen >= 0.0 ? min(seen, scattering_far) : scattering_far;
+    float length = min(length_in_air(ray, load_position(pixel_index(pixel))), scattering_far);
     float step = length / float(march_steps), place = next_float(random), sum = 0.0;
     ROLLED_FOR (uint i = 0u; i < march_steps; i++) {
         float t = (float(i) + place) * step;

@@ -175,5 +175,33 @@ TEST_F(Fog, HasShadowsInIt)
     EXPECT_LT(shadowed, 0.02f * lit);
 }
 
+// What is seen in a mirror is as far away as the fog behind the mirror, and an eye in water sees no air.
+TEST_F(Fog, ScattersLightInTheAirThatIsSeenAlone)
+{
+    folder_.add_wall("mirror", white_index);
+    for (const bool is_mirror : { false, true })
+        for (const bool in_water : { false, true }) {
+            MapBuilder map;
+            map.add_entity({ { "classname", "worldspawn" }, { "_sun_light", "128" }, { "_sun_color", "1 1 1" } });
+            map.add_room({ -2000, -2000, -2000 }, { 2000, 2000, 2000 }, map.add_material("sky", formats::SURF_SKY));
+            map.add(rectangle({ -wall_x, 0, 0 }, { 0, 1500, 0 }, { 0, 0, 1500 }), map.add_material("black"));
+            map.add(rectangle({ is_mirror ? 100 : wall_x, 0, 0 }, { 0, -1500, 0 }, { 0, 0, 1500 }),
+                map.add_material(is_mirror ? "mirror" : "black"));
+            map.add_entity(even_box);
+            folder_.add_map("fog", map.finish());
+            session_ = nullptr;
+            session_ = std::make_unique<Session>(
+                folder_, CvarList { { "pt_bounces", "0" }, { "pt_sky_scale", "0" }, { "pt_accumulate", "1" } });
+            session_->load_map("fog");
+            session_->look({ 0, 0, 0 }, { wall_x, 0, 0 }, 2);
+            session_->view.flags = in_water ? engine::RDF_UNDERWATER : 0;
+            const float light = seen(16).y;
+            if (is_mirror || in_water)
+                EXPECT_LT(light, 1e-4f) << is_mirror << in_water;
+            else
+                EXPECT_GT(light, 0.02f) << "the way there is free";
+        }
+}
+
 } // namespace
 } // namespace vkpt::tests

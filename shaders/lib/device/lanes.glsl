@@ -14,8 +14,8 @@
 layout(constant_id = GPU_LANES_CONSTANT) const bool has_gpu_lanes = false;
 
 // With has_gpu_lanes: the stack of the ray that is traced; free for others while none is. One array for all. Mesa's
-// driver for AMD keeps arrays of up to 256 bytes in registers, through all rays, and drops words that nobody reads: with
-// another entry than the stack needs, the first words alone are more.
+// driver for AMD keeps arrays of up to 256 bytes in registers, through all rays, and drops words that nobody reads:
+// with another entry than the stack needs, the first words alone are more.
 uvec2 lane_array[TRACE_STACK_ENTRIES + 1u];
 
 #endif
