@@ -13,6 +13,7 @@
 #include "ref_vkpt/light_inspector.hpp"
 #include "ref_vkpt/material_inspector.hpp"
 #include "ref_vkpt/overlay/overlay.hpp"
+#include "ref_vkpt/photo/pause_watch.hpp"
 #include "ref_vkpt/photo/photo_mode.hpp"
 #include "ref_vkpt/preset_command.hpp"
 #include "ref_vkpt/rays/trace_choice.hpp"
@@ -60,6 +61,7 @@ struct Module {
     PresetCommand preset;
     Overlay overlay;
     PhotoMode photo;
+    PauseWatch pause_watch;
     ReplayRing replay_ring;
     std::optional<Replay> replay; // that photo mode shows
     std::string replay_name_for_key; // waits for the player's key

@@ -265,12 +265,12 @@ void take_photograph(Module& m, const PhotoWish& wish, const formats::Image& ima
 } // namespace
 
 // Its automatic exposure starts anew, from the first image.
-void enter_photo_mode(Module& m)
+void enter_photo_mode(Module& m, bool by_pause)
 {
     m.graphics.finish();
     m.photo.game_exposure = std::move(m.view().exposure);
     m.view().history.forget();
-    m.photo.enter();
+    m.photo.enter(by_pause);
 }
 
 void leave_photo_mode(Module& m)
@@ -288,6 +288,11 @@ void leave_photo_mode(Module& m)
     m.overlay.give_keys_to_photo(false);
 }
 
+static bool can_enter_photo_mode(const Module& m)
+{
+    return m.scene.world() && m.view().snapshot && !m.graphics.is_recording();
+}
+
 void run_photo_command(Module& m)
 {
     const std::string_view word = engine::argument(1);
@@ -299,7 +304,7 @@ void run_photo_command(Module& m)
     if (!on) {
         if (!word.empty() && word != "on")
             return engine::print("pt_photo: photo mode is off; `pt_photo` turns it on, `pt_photo help` lists all");
-        if (!m.scene.world() || !m.view().snapshot || m.graphics.is_recording())
+        if (!can_enter_photo_mode(m))
             return engine::print("pt_photo: photographs are taken in a map: start one first");
         return enter_photo_mode(m);
     }
@@ -310,8 +315,20 @@ void run_photo_command(Module& m)
     run_word(m, word);
 }
 
+// pt_photo_on_pause
+static void follow_pause(Module& m)
+{
+    const PauseWatch::Event event = m.pause_watch.look(PhotoMode::is_game_paused(), m.overlay.engine_screen.had_keys());
+    const bool begins = event == PauseWatch::Event::paused && cvars::values().pt_photo_on_pause != 0;
+    if (begins && !m.photo.is_on() && can_enter_photo_mode(m))
+        enter_photo_mode(m, true);
+    else if (event == PauseWatch::Event::resumed && m.photo.was_entered_by_pause())
+        leave_photo_mode(m);
+}
+
 void begin_photo_frame(Module& m)
 {
+    follow_pause(m);
     PhotoMode& photo = m.photo;
     if (!photo.is_on())
         return;

@@ -13,7 +13,7 @@ struct Module;
 // `pt_photo ...`
 void run_photo_command(Module& m);
 // In a map that has been drawn, between frames.
-void enter_photo_mode(Module& m);
+void enter_photo_mode(Module& m, bool by_pause = false);
 // With its replay.
 void leave_photo_mode(Module& m);
 

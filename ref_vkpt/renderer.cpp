@@ -649,6 +649,19 @@ static OverlayFacts overlay_facts(const Module& m)
         m.material_inspector.describe(panel_columns(m.graphics.size())) };
 }
 
+// Between the classic picture and the path-traced one (pt_wipe).
+static void draw_divider(Module& m)
+{
+    constexpr int white = 15; // of the game's palette
+    const float wipe = cvars::shader_values().pt_wipe;
+    if (wipe <= 0 || wipe >= 1 || !m.frame_has_view || m.photo.is_on() || m.overlay.engine_screen.is_shown())
+        return;
+    const Viewpoint& shown = m.view().viewpoint;
+    const int width = std::max(int(shown.size.y) / 360, 1);
+    const int x = int(shown.origin.x) + int(wipe * float(shown.size.x)) - width / 2;
+    m.draw2d.draw_fill({ x, int(shown.origin.y), width, int(shown.size.y) }, white);
+}
+
 void end_frame()
 {
     Module& m = *running;
@@ -660,8 +673,10 @@ void end_frame()
         m.overlay.note_frame(m.graphics.timer.frame_milliseconds());
         print_speeds(m);
     }
-    if (!m.photo.takes_photo())
+    if (!m.photo.takes_photo()) {
+        draw_divider(m);
         m.overlay.draw(m.draw2d, overlay_facts(m));
+    }
     m.textures.flush_if_needed();
     m.draw2d.record(m.graphics.commands());
     m.graphics.timer.mark(m.graphics.commands(), "2d");

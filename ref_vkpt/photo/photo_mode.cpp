@@ -16,17 +16,18 @@ namespace {
 constexpr std::chrono::milliseconds rest_after(250);
 constexpr float max_frame_seconds = 0.25f; // of a camera's way in one frame
 
-bool is_game_paused()
+} // namespace
+
+bool PhotoMode::is_game_paused()
 {
     const engine::Cvar* paused = engine::get_cvar("paused", "0", engine::CVAR_NONE);
     return paused && paused->number != 0;
 }
 
-} // namespace
-
-void PhotoMode::enter()
+void PhotoMode::enter(bool by_pause)
 {
     is_on_ = takes_scene_ = follows_focus_ = shows_panel_ = true;
+    by_pause_ = by_pause;
     pauses_asked_for_ = frames_to_next_ = 0;
 }
 
@@ -189,7 +190,7 @@ void PhotoMode::hold_game(bool engine_has_keys)
 
 void PhotoMode::release_game()
 {
-    if (pauses_asked_for_ > 0 && is_game_paused())
+    if ((by_pause_ || pauses_asked_for_ > 0) && is_game_paused())
         engine::run_next("pause\n");
 }
 

@@ -30,8 +30,9 @@ public:
     static constexpr uint32_t max_samples = 65536;
 
     bool is_on() const { return is_on_; }
-    // The next view of the map is the one.
-    void enter();
+    // The next view of the map is the one. `by_pause`: the game is paused already, and goes on when photo mode ends.
+    void enter(bool by_pause);
+    bool was_entered_by_pause() const { return is_on_ && by_pause_; }
     void leave();
 
     // ---- the view
@@ -92,6 +93,7 @@ public:
 
     // ---- the game
 
+    static bool is_game_paused();
     // Has the engine pause the game, as far as it does that.
     void hold_game(bool engine_has_keys);
     // The game's automatic exposure, which the camera's images leave alone.
@@ -101,7 +103,7 @@ private:
     void release_game();
 
     bool is_on_ = false, takes_scene_ = false, follows_focus_ = true, shows_panel_ = true;
-    bool is_replay_ = false, rides_ = false;
+    bool is_replay_ = false, rides_ = false, by_pause_ = false;
     std::unique_ptr<const KeptRefDef> kept_;
     PhotoCamera camera_;
     std::optional<PhotoCamera> focused_for_;

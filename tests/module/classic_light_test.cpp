@@ -78,6 +78,25 @@ TEST_F(ClassicLight, EndsAtTheDivider)
     EXPECT_EQ(luminance(picture.mean({ 32, 0 }, { 64, 48 })), 0);
 }
 
+// In the window, but not in what is captured of the light.
+TEST_F(ClassicLight, ShowsTheDivider)
+{
+    constexpr int column = 16;
+    session_->look({ 0, 0, 40 }, { 0.01f, 0, 0 }, 60);
+    const auto window_with = [&](double wipe) {
+        session_->set("pt_wipe", wipe);
+        session_->draw(2);
+        return session_->capture_display();
+    };
+    const formats::Image all = window_with(1), quarter = window_with(0.25), half_of_it = window_with(0.5);
+    for (int y = 0; y < quarter.height; y++) {
+        EXPECT_EQ(quarter.at(column, y), quarter.at(column, 0)) << y;
+        EXPECT_NE(quarter.at(column, y), all.at(column, y)) << y;
+        EXPECT_NE(quarter.at(column, y), half_of_it.at(column, y)) << "elsewhere, " << y;
+        EXPECT_EQ(quarter.at(column, y), half_of_it.at(2 * column, y)) << y;
+    }
+}
+
 // The fast way to draw: no bounces, no shadows, no filter but anti-aliasing. One more ray a pixel finds its face.
 TEST_F(ClassicLight, TracesNoPaths)
 {

@@ -276,6 +276,27 @@ TEST_F(PhotoMode, TheConsoleAloneWritesNothing)
     EXPECT_EQ(written(""), "");
 }
 
+// The engine's key sets the cvar, and so do its menus; those draw something, and this is no menu.
+TEST_F(PhotoMode, BeginsAndEndsWithThePlayersPause)
+{
+    start();
+    const auto is_on_with = [&](int paused) {
+        session_->set("paused", paused);
+        session_->draw(12);
+        run("pt_photo info");
+        return session_->lines().back().find("photo mode is off") == std::string::npos;
+    };
+    EXPECT_TRUE(is_on_with(1));
+    EXPECT_FALSE(is_on_with(0));
+    session_->set("pt_photo_on_pause", 0);
+    session_->draw();
+    EXPECT_FALSE(is_on_with(1));
+    EXPECT_FALSE(is_on_with(0));
+    run("pt_photo");
+    EXPECT_TRUE(is_on_with(1));
+    EXPECT_TRUE(is_on_with(0)) << "it was not the pause that began it";
+}
+
 TEST_F(PhotoMode, SaysWhatItDoesNotKnow)
 {
     start();
