@@ -11,11 +11,13 @@ class PauseWatch {
 public:
     enum class Event { none, paused, resumed };
 
-    // Once a frame. `engine_has_keys`: the console or a menu is shown.
+    // Once a frame. `engine_has_keys`: the console or a menu was shown in the last one. A menu that opens pauses the
+    // game before it is drawn, so a pause must last a little.
     Event look(bool is_paused, bool engine_has_keys)
     {
         quiet_frames_ = engine_has_keys ? 0 : std::min(quiet_frames_ + 1, settled);
-        if (quiet_frames_ < settled || is_paused == was_paused_)
+        paused_frames_ = is_paused ? std::min(paused_frames_ + 1, settled) : 0;
+        if (quiet_frames_ < settled || is_paused == was_paused_ || (is_paused && paused_frames_ < settled))
             return Event::none;
         was_paused_ = is_paused;
         return is_paused ? Event::paused : Event::resumed;
@@ -24,7 +26,7 @@ public:
 private:
     static constexpr int settled = 10; // frames until what the engine does on closing its screens is over
 
-    int quiet_frames_ = 0;
+    int quiet_frames_ = 0, paused_frames_ = 0;
     bool was_paused_ = false;
 };
 

@@ -113,6 +113,23 @@ TEST(Engine, SettingsPageHasTheMouseAndLeavesTypingAlone)
     EXPECT_EQ(run.lines_with(": hello").size(), 1u) << run.result().console;
 }
 
+// The engine's menus pause the game, too, but that is no wish for a photograph.
+TEST(Engine, PausesBeginPhotoModeAndMenusDoNot)
+{
+    EngineOptions options;
+    const std::string info = "wait_25\npt_photo info\n";
+    options.script = "wait_25\npause\n" + info + "pause\n" + info + "menu_video\n" + info + "quit\n";
+    options.arguments = { "+set", "pt_render_scale", "25", "+map", own_map, "+exec", "test.cfg" };
+    options.cpu_seconds = 600;
+    const EngineRun run(options);
+    run.expect_clean();
+    const auto lines = run.lines_with("pt_photo: ");
+    ASSERT_EQ(lines.size(), 3u) << run.result().console;
+    EXPECT_NE(lines[0].find("samples"), std::string::npos) << lines[0];
+    for (const size_t i : { 1, 2 })
+        EXPECT_NE(lines[i].find("photo mode is off"), std::string::npos) << lines[i];
+}
+
 // The game stands still meanwhile, keys move the camera and not the player, and the Enter key alone writes a file.
 TEST(Engine, PhotoModeIsWorkedByKeys)
 {

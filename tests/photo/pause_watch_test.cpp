@@ -36,6 +36,7 @@ TEST(PauseWatch, MenusDoNotCount)
 {
     PauseWatch watch;
     look(watch, 20, false, false);
+    EXPECT_EQ(look(watch, 2, true, false), Told()) << "not yet drawn";
     EXPECT_EQ(look(watch, 100, true, true), Told()) << "open";
     EXPECT_EQ(look(watch, 1, false, true), Told()) << "closed in this frame";
     EXPECT_EQ(look(watch, 20, false, false), Told());
