@@ -617,7 +617,7 @@ void render_view(const engine::RefDef& refdef)
         keep_for_replay(m, refdef);
     View& view = m.view();
     const Viewpoint from = make_viewpoint(refdef, m.graphics.size(), freeze ? wanted_projection() : Projection());
-    view.is_frozen &= !has_other_settings(view);
+    view.is_frozen = view.is_frozen && !has_other_settings(view);
     const bool blends = std::exchange(view.blends_next, false) && freeze && view.is_frozen && view.snapshot;
     if (!freeze || !view.is_frozen || !view.snapshot || blends) {
         const uint32_t averaged = blends ? view.accumulated_frames : 0;

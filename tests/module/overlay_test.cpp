@@ -49,6 +49,15 @@ protected:
                 (x < image.width / 2 ? halves.left : halves.right) += image.at(x, y).g == 255;
         return halves;
     }
+    // What the cvar shows stands on the left alone.
+    static void show_on_the_left(const char* cvar)
+    {
+        const Halves before = count_text();
+        session_->set(cvar, 1);
+        const Halves with_panel = count_text();
+        EXPECT_GT(with_panel.left, before.left + 100) << cvar;
+        EXPECT_EQ(with_panel.right, before.right) << cvar;
+    }
     static std::string value(const std::string& cvar) { return session_->host().cvars().find(cvar)->text; }
 
     static inline std::unique_ptr<GameFolder> folder_;
@@ -57,27 +66,20 @@ protected:
 
 TEST_F(OverlayOfModule, LightsUnderTheCrosshairStandOnTheLeftAndGo)
 {
-    const Halves before = count_text();
-    session_->set("pt_show_lights", 1);
-    const Halves with_lights = count_text();
-    EXPECT_GT(with_lights.left, before.left + 100);
-    EXPECT_EQ(with_lights.right, before.right);
+    const int before = count_text().left;
+    show_on_the_left("pt_show_lights");
     session_->set("pt_show_lights", 0);
-    EXPECT_EQ(count_text().left, before.left);
+    EXPECT_EQ(count_text().left, before);
 }
 
 TEST_F(OverlayOfModule, MaterialUnderTheCrosshairStandsOnTheLeftAndGoes)
 {
-    const Halves before = count_text();
-    session_->set("pt_show_material", 1);
-    const Halves with_material = count_text();
-    EXPECT_GT(with_material.left, before.left + 100);
-    EXPECT_EQ(with_material.right, before.right);
-    session_->set("pt_show_lights", 1);
-    EXPECT_GT(count_text().left, with_material.left + 100) << "both";
+    const int before = count_text().left;
+    show_on_the_left("pt_show_material");
+    show_on_the_left("pt_show_lights"); // both
     session_->set("pt_show_lights", 0);
     session_->set("pt_show_material", 0);
-    EXPECT_EQ(count_text().left, before.left);
+    EXPECT_EQ(count_text().left, before);
 }
 
 TEST_F(OverlayOfModule, TimesStandOnTheRightAndGo)

@@ -89,10 +89,9 @@ TEST(MaterialLibrary, KindsOfLiquids)
 TEST(MaterialLibrary, GlassMakesPanesSmooth)
 {
     const auto roughness = [](const std::string& attributes, uint32_t flags) {
-        MaterialLibrary library;
-        library.add(formats::read_materials("a:\n" + attributes + '\n', "test.mat"));
-        MaterialDefaults defaults;
-        defaults.library = &library;
+        MaterialLibrary materials;
+        materials.add(formats::read_materials("a:\n" + attributes + '\n', "test.mat"));
+        const MaterialDefaults defaults { .library = &materials };
         SurfaceGuess surface = guess_surface("a", defaults);
         apply_material(surface, "a", defaults);
         shared::Material material {};
