@@ -118,7 +118,7 @@ private:
 
     static std::string describe_kind(std::string_view value)
     {
-        constexpr std::string_view of_q2rtx[] = { "SKY", "INVISIBLE", "SCREEN", "TRANSPARENT" };
+        constexpr std::string_view of_q2rtx[] = { "SCREEN", "TRANSPARENT" };
         const std::string kind = kind_name(value);
         return std::ranges::find(of_q2rtx, kind) != std::end(of_q2rtx) ? kind : "of other names";
     }
@@ -169,7 +169,7 @@ const std::vector<AttributeRow>& material_attributes()
         { "roughness_override", number, at_once, "roughness, 0 to 1; below 0: not given" },
         { "metalness_override", number, at_once, "metalness, 0 to 1; ours, Q2RTX has none" },
         { "metalness_factor", number, at_once, "times the alpha of the normal map, which is metalness" },
-        { "specular_factor", number, none, "of Q2RTX" },
+        { "specular_factor", number, at_once, "times what the smooth coat over the colour reflects, 0 to 1" },
         { "base_factor", number, at_once, "times the picture's colour" },
         { "bump_scale", number, at_once, "how far the normal map tilts the surface: 0 not at all, 1 as it says" },
         { "emissive_factor", number, of_walls_with_next_map, "times the light of texture_emissive" },
@@ -181,7 +181,9 @@ const std::vector<AttributeRow>& material_attributes()
         { "default_radiance", number, with_next_map, "times what glows without the map's light value" },
         { "kind", word, at_once,
             "CHROME: a mirror; GLASS: smooth panes; CAMERA: a screen that shows what the map's cameras see; WATER, "
-            "SLIME, LAVA: of liquids, with the next map; others without effect" },
+            "SLIME, LAVA: of liquids; SKY: the sky instead of a wall; INVISIBLE: nothing; these five with the next "
+            "map; "
+            "others without effect" },
         { "screen_left", number, at_once,
             "of a screen: where in the picture it begins, 0 to 1; ours, as the next three" },
         { "screen_top", number, at_once, "the same from above" },
@@ -217,7 +219,8 @@ AttributeEffect effect_of(const AttributeRow& row, std::string_view value)
         return row.effect;
     static const std::map<std::string, AttributeEffect, std::less<>> kinds { { "REGULAR", at_once },
         { "CHROME", at_once }, { "GLASS", at_once }, { "CAMERA", at_once }, { "WATER", with_next_map },
-        { "SLIME", with_next_map }, { "LAVA", with_next_map } };
+        { "SLIME", with_next_map }, { "LAVA", with_next_map }, { "SKY", with_next_map },
+        { "INVISIBLE", with_next_map } };
     const auto found = kinds.find(kind_name(value));
     return found != kinds.end() ? found->second : none;
 }

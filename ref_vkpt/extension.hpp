@@ -99,6 +99,7 @@ struct SceneMaterial {
     float uv_scroll[2]; // added to texture coordinates, at this moment
     float roughness; // GGX alpha = roughness^2
     float metallic;
+    float specular; // share that is left of the coat's reflectance, 1 usually
     uint32_t flags; // MATERIAL_* of shaders/shared/scene.h
 };
 

@@ -4,6 +4,7 @@
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/module.hpp"
 #include "ref_vkpt/overlay/wrap_line.hpp"
+#include "ref_vkpt/scene/material_guess.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -41,9 +42,10 @@ std::string describe_kind(const World& world, const PickedMaterial& picked, cons
 
 std::string describe_surface(const shared::Material& material)
 {
-    return fmt::format("roughness {:.2f}{}, metalness {:.2f}{}{}", material.roughness,
+    return fmt::format("roughness {:.2f}{}, metalness {:.2f}{}{}{}", material.roughness,
         material.flags & shared::MATERIAL_ROUGHNESS_IN_ALPHA ? " at least, by its alpha" : "", material.metallic,
         material.flags & shared::MATERIAL_METALNESS_IN_ALPHA ? " times its normal map's alpha" : "",
+        coat_loss(material) > 0 ? fmt::format(", specular {:.2f}", 1 - coat_loss(material)) : "",
         (material.maps & 0xffff) != 0 ? ", with a normal map" : "");
 }
 

@@ -3,6 +3,7 @@
 
 #include "ref_vkpt/lights/spot_cone.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
+#include "ref_vkpt/scene/material_guess.hpp"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -80,6 +81,7 @@ SceneMaterial make_material(const shared::Material& from, const Texture* texture
     to.uv_scroll[1] = from.uv_scroll.y;
     to.roughness = from.roughness;
     to.metallic = from.metallic;
+    to.specular = 1 - coat_loss(from);
     to.flags = from.flags;
     return to;
 }

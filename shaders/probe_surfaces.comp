@@ -22,6 +22,7 @@ void place_probe(uvec2 pixel, uint index)
     hit.surface.albedo = vec3(1.0);
     hit.surface.roughness = 1.0;
     hit.surface.metallic = 0.0;
+    hit.surface.coat_loss = 0.0;
     hit.cluster = find_cluster(BspTreeBuffer(frame.scene.bsp_tree), offset_ray_origin(probe.position, probe.normal));
     store_position(index, vec4(probe.position, 0.0));
     store_surface(index, hit);

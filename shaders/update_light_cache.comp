@@ -102,6 +102,7 @@ Surface surface_at(CacheFacePlane plane, vec2 place)
     s.albedo = vec3(1.0);
     s.roughness = 1.0;
     s.metallic = 0.0;
+    s.coat_loss = 0.0;
     return s;
 }
 

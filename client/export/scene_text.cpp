@@ -79,7 +79,7 @@ Json make_material(const SceneMaterial& material)
     return { { "picture", material.texture }, { "tint", vector_of(material.tint) },
         { "base_colour", vector_of(material.base_colour) }, { "opacity", material.opacity },
         { "emission_tint", vector_of(material.emission_tint) }, { "emission", vector_of(material.emission) },
-        { "roughness", material.roughness }, { "metallic", material.metallic },
+        { "roughness", material.roughness }, { "metallic", material.metallic }, { "specular", material.specular },
         { "uv_scroll", { material.uv_scroll[0], material.uv_scroll[1] } }, { "flags", flags_of(material.flags) } };
 }
 

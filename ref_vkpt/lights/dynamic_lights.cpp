@@ -17,14 +17,14 @@ namespace {
 using shared::Emitter;
 
 // Emitters that may be each other in different frames have equal kinds. A dying flash changes its radiance.
-using Kind = std::array<uint32_t, 6>;
+using Kind = std::array<uint32_t, 5>;
 
 Kind kind_of(const Emitter& e)
 {
     if (is_sphere(e))
-        return { e.type, e.lightstyle, 0, 0, 0, 0 };
+        return { e.type, e.lightstyle, 0, 0, 0 };
     const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
-    return { e.type, e.lightstyle, bits(e.area), bits(e.radiance.x), bits(e.radiance.y), bits(e.radiance.z) };
+    return { e.type, e.lightstyle, bits(e.radiance.x), bits(e.radiance.y), bits(e.radiance.z) };
 }
 
 constexpr uint32_t no_slot = UINT32_MAX;

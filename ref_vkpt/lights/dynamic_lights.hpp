@@ -14,8 +14,8 @@ class DynamicLights {
 public:
     // Orders this frame's emitters by slot, empty slots filled with dark emitters, and returns the slot of each as
     // given. An emitter is last frame's if it is of the same kind and the nearest such one, at most `farthest_move`
-    // away: spheres of one lightstyle, triangles of one area and radiance. (Hundreds that are alike and move at once
-    // are told apart by their order instead.)
+    // away: spheres of one lightstyle, triangles of one radiance (areas change with a model's frames). (Hundreds that
+    // are alike and move at once are told apart by their order instead.)
     std::vector<uint32_t> arrange(std::vector<shared::Emitter>& emitters);
     // Per slot of the last arrange(): whether the light lived in the frame before.
     const std::vector<bool>& lived_before() const { return lived_before_; }

@@ -39,6 +39,7 @@ struct FaceTexture {
     float default_radiance = 1; // times what shines without the map's light value
     bool takes_light_value = true; // the map's; else lamps shine as bright as the texture glows without one
     bool takes_lightstyles = true; // else lamps are steady
+    bool is_sky = false, is_invisible = false; // whatever the map's flags say
     uint32_t medium = shared::MEDIUM_NONE; // MEDIUM_* of liquids, whatever the map says; MEDIUM_NONE: as it says
 };
 

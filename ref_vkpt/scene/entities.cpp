@@ -5,6 +5,7 @@
 #include "ref_vkpt/lights/media.hpp"
 #include "ref_vkpt/scene/entity_geometry.hpp"
 #include "ref_vkpt/scene/material_guess.hpp"
+#include "ref_vkpt/scene/material_library.hpp"
 #include "ref_vkpt/scene/placed_lights.hpp"
 #include "ref_vkpt/scene/scene.hpp"
 
@@ -47,12 +48,13 @@ shared::FilterBox transform_box(const Transform& transform, const shared::Filter
 
 class SnapshotBuilder {
 public:
-    SnapshotBuilder(
-        SceneSnapshot& snapshot, const RefDef& refdef, const TextureStore& textures, const MaterialDefaults& defaults)
+    SnapshotBuilder(SceneSnapshot& snapshot, const RefDef& refdef, const TextureStore& textures,
+        const MaterialDefaults& defaults, SkinLampCache& skin_lamps)
         : snapshot_(snapshot)
         , refdef_(refdef)
         , textures_(textures)
         , defaults_(defaults)
+        , skin_lamps_(skin_lamps)
         , eye_(to_vec3(refdef.view_origin))
         , axes_(angle_vectors(to_vec3(refdef.view_angles)))
         , emitter_base_(snapshot.world ? int(snapshot.world->models[0].emitters.size()) : 0)
@@ -79,14 +81,19 @@ private:
     void add_null_model(const Entity& entity);
     void add_glow(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, float area, const shared::Material& material);
     void add_shell_light(glm::vec3 centre, const shared::Material& material);
-    shared::Material mesh_material(const Entity& entity, const Model& model, const Model::Part& part) const;
-    bool add_md2(const Model::Part& part, const Md2Pose& pose, const shared::Material& material, uint32_t mask);
+    shared::Material mesh_material(const Entity& entity, const Model& model, const Texture* skin) const;
+    bool add_md2(const Model::Part& part, const Md2Pose& pose, const shared::Material& material, uint32_t mask,
+        const ModelLamps& lamps = {});
+    void add_skin_lamps(
+        const Md2Mesh& mesh, const Md2Pose& pose, const SkinLamps& lamps, const shared::Material& material);
     Squeeze squeeze_weapon(const Entity& weapon) const;
+    bool is_invisible(const Texture& skin) const;
 
     SceneSnapshot& snapshot_;
     const RefDef& refdef_;
     const TextureStore& textures_;
     const MaterialDefaults& defaults_;
+    SkinLampCache& skin_lamps_;
     glm::vec3 eye_;
     Axes axes_;
     int emitter_base_;
@@ -199,16 +206,25 @@ void SnapshotBuilder::add_brush(const Entity& entity, const Model::Brush& brush)
     snapshot_.has_alpha_test |= geometry.has_alpha_test && !translucent;
 }
 
-shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Model& model, const Model::Part& part) const
+// nullptr: it has none.
+static const Texture* skin_of(const Entity& entity, const Model::Part& part)
+{
+    if (entity.skin || part.skins.empty())
+        return static_cast<const Texture*>(entity.skin);
+    const size_t number = size_t(std::max(entity.skin_number, 0));
+    const Texture* skin = part.skins[number < part.skins.size() ? number : 0];
+    return skin ? skin : part.skins[0];
+}
+
+bool SnapshotBuilder::is_invisible(const Texture& skin) const
+{
+    const MaterialSettings* settings = defaults_.library ? defaults_.library->find(skin.material) : nullptr;
+    return settings && settings->is_invisible;
+}
+
+shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Model& model, const Texture* skin) const
 {
     shared::Material material = plain_material();
-    const Texture* skin = static_cast<const Texture*>(entity.skin);
-    if (!skin && !part.skins.empty()) {
-        const size_t number = size_t(std::max(entity.skin_number, 0));
-        skin = part.skins[number < part.skins.size() ? number : 0];
-        if (!skin)
-            skin = part.skins[0];
-    }
     if (skin)
         show_texture(material, *skin);
     SurfaceGuess surface = guess_surface(model.name, defaults_);
@@ -260,8 +276,37 @@ void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const M
     if (model.light && !add_placed_lights(entity, *model.light, pose.transform))
         return;
     for (const Model::Part& part : mesh.parts) {
-        const shared::Material material = mesh_material(entity, model, part);
-        add_md2(part, pose, material, entity_mask(entity, material));
+        const Texture* skin = skin_of(entity, part);
+        if (skin && is_invisible(*skin))
+            continue;
+        const shared::Material material = mesh_material(entity, model, skin);
+        ModelLamps lamps;
+        // A weapon before the eye is not where it is seen: it lights nothing.
+        if (snapshot_.world && !is_weapon && skin && skin->emissive && material.emission != glm::vec3(0))
+            lamps
+                = { skin_lamps_.find(part.md2, skin->emissive->glow), emitter_base_ + int(snapshot_.emitters.size()) };
+        if (add_md2(part, pose, material, entity_mask(entity, material), lamps) && lamps.lamps)
+            add_skin_lamps(*part.md2, pose, *lamps.lamps, material);
+    }
+}
+
+void SnapshotBuilder::add_skin_lamps(
+    const Md2Mesh& mesh, const Md2Pose& pose, const SkinLamps& lamps, const shared::Material& material)
+{
+    std::vector<Float4> points;
+    mesh.pose(pose, points);
+    const bool is_translucent = (material.flags & shared::MATERIAL_TRANSLUCENT) != 0;
+    for (const SkinLamp& lamp : lamps) {
+        const uint32_t* corners = &mesh.corners()[size_t(lamp.slot) * 3];
+        shared::Emitter emitter {};
+        emitter.type = is_translucent ? shared::EMITTER_TRANSPARENT : shared::EMITTER_TRIANGLE;
+        emitter.p0 = to_vec3(points[corners[0]]);
+        emitter.p1 = to_vec3(points[corners[1]]);
+        emitter.p2 = to_vec3(points[corners[2]]);
+        emitter.area = triangle_area(emitter.p0, emitter.p1, emitter.p2);
+        if (emitter.area > 0) // a flat one stays dark
+            emitter.radiance = material.emission * lamp.colour * (is_translucent ? material.opacity : 1.0f);
+        snapshot_.emitters.push_back(emitter);
     }
 }
 
@@ -288,10 +333,10 @@ bool SnapshotBuilder::add_placed_lights(const Entity& entity, formats::LightMode
 }
 
 // False: it cannot be posed (MovingGeometry::add).
-bool SnapshotBuilder::add_md2(
-    const Model::Part& part, const Md2Pose& pose, const shared::Material& material, uint32_t mask)
+bool SnapshotBuilder::add_md2(const Model::Part& part, const Md2Pose& pose, const shared::Material& material,
+    uint32_t mask, const ModelLamps& lamps)
 {
-    if (!snapshot_.moving.add(part.md2, pose, uint32_t(snapshot_.materials.size()), mask))
+    if (!snapshot_.moving.add(part.md2, pose, uint32_t(snapshot_.materials.size()), mask, lamps))
         return false;
     add_material(material);
     return true;
@@ -456,9 +501,9 @@ void SnapshotBuilder::add_preview_light()
 } // namespace
 
 void add_entities(SceneSnapshot& snapshot, const RefDef& refdef, std::span<const Entity> player_body,
-    const TextureStore& textures, const MaterialDefaults& defaults)
+    const TextureStore& textures, const MaterialDefaults& defaults, SkinLampCache& skin_lamps)
 {
-    SnapshotBuilder builder(snapshot, refdef, textures, defaults);
+    SnapshotBuilder builder(snapshot, refdef, textures, defaults, skin_lamps);
     const auto add = [&](const Entity& entity) {
         const MovingGeometry::Extent first = snapshot.moving.extent();
         builder.add_entity(entity);

@@ -13,6 +13,6 @@ namespace vkpt {
 // `snapshot` holds the world's materials already (none without a world). Handles in `refdef` are of this map, or
 // nullptr. `player_body`: entities beside the refdef's.
 void add_entities(SceneSnapshot& snapshot, const engine::RefDef& refdef, std::span<const engine::Entity> player_body,
-    const TextureStore& textures, const MaterialDefaults& defaults);
+    const TextureStore& textures, const MaterialDefaults& defaults, SkinLampCache& skin_lamps);
 
 } // namespace vkpt

@@ -44,6 +44,13 @@ uint32_t pack_mips(uint32_t size, uint32_t texture_size)
     return uint32_t(int32_t(std::lround(mips * shared::MATERIAL_MIP_ONE))) & ((1u << shared::MATERIAL_MIP_BITS) - 1);
 }
 
+void set_coat_loss(shared::Material& material, float loss)
+{
+    const auto steps = uint32_t(std::lround(std::clamp(loss, 0.0f, 1.0f) * float(shared::MATERIAL_COAT_ONE)));
+    material.flags &= ~(shared::MATERIAL_COAT_ONE << shared::MATERIAL_COAT_SHIFT);
+    material.flags |= steps << shared::MATERIAL_COAT_SHIFT;
+}
+
 // The number and the scale of a normal map, and what its alpha says.
 void set_normal_map(shared::Material& material, const SurfaceGuess& surface, const TextureMaps& maps, float bump_scale)
 {
@@ -64,6 +71,12 @@ void set_normal_map(shared::Material& material, const SurfaceGuess& surface, con
 
 } // namespace
 
+float coat_loss(const shared::Material& material)
+{
+    return float(material.flags >> shared::MATERIAL_COAT_SHIFT & shared::MATERIAL_COAT_ONE)
+        / float(shared::MATERIAL_COAT_ONE);
+}
+
 SurfaceGuess guess_surface(std::string_view texture, const MaterialDefaults& defaults)
 {
     for (const Row& row : rows)
@@ -82,6 +95,7 @@ void apply_material(SurfaceGuess& surface, std::string_view name, const Material
     if (settings->metalness >= 0)
         surface.metallic = settings->metalness;
     surface.pane_roughness = settings->pane_roughness;
+    surface.specular_factor = settings->specular_factor;
     surface.base_factor = settings->base_factor;
     surface.bump_scale = settings->bump_scale;
     surface.emissive_factor = settings->emissive_factor;
@@ -95,6 +109,7 @@ void set_surface(
     const bool is_pane = (material.flags & shared::MATERIAL_GLASS) && surface.pane_roughness >= 0;
     material.roughness = is_pane ? surface.pane_roughness : surface.roughness;
     material.metallic = surface.metallic;
+    set_coat_loss(material, 1 - surface.specular_factor);
     material.maps = material.map_scales = 0;
     if (maps.normals.slot != 0 && !(material.flags & shared::MATERIAL_WARP)) // liquids have waves instead
         set_normal_map(material, surface, maps, defaults.bump_scale);

@@ -15,6 +15,7 @@ struct MaterialDefaults;
 struct SurfaceGuess {
     float roughness, metallic;
     float pane_roughness = -1; // of thin panes; below 0: `roughness`
+    float specular_factor = 1; // times what the coat over the base reflects
     float base_factor = 1; // times the texture's colour
     // Where there is a normal map:
     float bump_scale = 1; // of its tilt
@@ -29,7 +30,10 @@ SurfaceGuess guess_surface(std::string_view texture, const MaterialDefaults& def
 // What the library says of formats::material_name `name`, in place of what was guessed.
 void apply_material(SurfaceGuess& surface, std::string_view name, const MaterialDefaults& defaults);
 
-// Tint, roughness, metalness and maps of a material that has its texture.
+// What is missing of the coat's reflectance, 0 to 1.
+float coat_loss(const shared::Material& material);
+
+// Tint, roughness, metalness, coat and maps of a material that has its texture.
 void set_surface(
     shared::Material& material, const SurfaceGuess& surface, const TextureMaps& maps, const MaterialDefaults& defaults);
 

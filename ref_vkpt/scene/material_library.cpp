@@ -81,12 +81,15 @@ MaterialSettings make_settings(std::string_view name, const Attributes& attribut
     if (kind == "GLASS" && settings.roughness < 0)
         settings.pane_roughness = smooth_pane;
     settings.medium = medium_of_kind(kind);
+    settings.is_sky = kind == "SKY";
+    settings.is_invisible = kind == "INVISIBLE";
     settings.is_screen = kind == "CAMERA";
     settings.screen_area = screen_area_of(attributes);
     if (attributes.contains("synth_emissive"))
         settings.glow_threshold = number_of(attributes, "synth_emissive", 0) > 0
             ? int(std::clamp(number_of(attributes, "emissive_threshold", usual_threshold), 1.0f, 255.0f))
             : 0;
+    settings.specular_factor = std::clamp(number_of(attributes, "specular_factor", 1), 0.0f, 1.0f);
     settings.base_factor = std::clamp(number_of(attributes, "base_factor", 1), 0.0f, brightest);
     settings.bump_scale = std::clamp(number_of(attributes, "bump_scale", 1), 0.0f, steepest);
     settings.metalness_factor = std::clamp(number_of(attributes, "metalness_factor", 1), 0.0f, 1.0f);

@@ -20,6 +20,7 @@ struct MaterialSettings {
     float roughness = -1, metalness = -1;
     float pane_roughness = -1; // of what the map makes a thin pane
     uint32_t medium = shared::MEDIUM_NONE; // MEDIUM_* that it is where it is a liquid; MEDIUM_NONE: not said
+    float specular_factor = 1; // times what the coat over the base reflects
     float base_factor = 1; // times the texture's colour
     int glow_threshold = -1; // 0: does not glow; else of 255
     float bump_scale = 1; // of the normal map's tilt
@@ -27,6 +28,8 @@ struct MaterialSettings {
     float emissive_factor = 1; // times what glows
     float default_radiance = 1; // times what glows without the map's light value
     bool takes_light_value = true, takes_lightstyles = true; // see FaceTexture
+    bool is_sky = false; // of walls: the sky is seen in their place
+    bool is_invisible = false; // is not there at all, to the eye and to light
     bool is_screen = false; // shows what a camera sees
     glm::vec4 screen_area { 11 / 256.0f, 14 / 256.0f, 245 / 256.0f, 148 / 256.0f }; // left, top, right, bottom of 1
     // Files of the game; empty: none.

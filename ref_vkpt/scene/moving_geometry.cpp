@@ -127,7 +127,8 @@ void write_brush(const BrushMesh& mesh, const std::vector<Float4>& points, const
 
 // ---- the list
 
-bool MovingGeometry::add(std::shared_ptr<const Md2Mesh> mesh, const Md2Pose& pose, uint32_t material, uint32_t mask)
+bool MovingGeometry::add(
+    std::shared_ptr<const Md2Mesh> mesh, const Md2Pose& pose, uint32_t material, uint32_t mask, const ModelLamps& lamps)
 {
     if (!mesh->can_pose(pose))
         return false;
@@ -137,6 +138,8 @@ bool MovingGeometry::add(std::shared_ptr<const Md2Mesh> mesh, const Md2Pose& pos
     item.pose = pose;
     item.material = material;
     item.mask = mask;
+    item.lamps = lamps.lamps;
+    item.first_emitter = lamps.first_emitter;
     return add_item(std::move(item), bounds);
 }
 
@@ -262,11 +265,14 @@ void MovingWriter::write_item(const Job& job, size_t index, Scratch& scratch)
     const MeshTarget out { target.triangles + item.first_slot,
         target.records ? target.records + size_t(item.first_slot) * bvh_triangle_words : nullptr,
         geometry.first_id_ + item.first_slot };
-    if (item.md2)
+    if (item.md2) {
         write_md2(*item.md2, scratch.points, item.pose.mirror.has_value(), item.material, item.mask, out);
-    else
+        for (size_t i = 0; item.lamps && i < item.lamps->size(); i++)
+            out.triangles[(*item.lamps)[i].slot].emitter = geometry.emitter_at(item.first_emitter + int(i));
+    } else {
         write_brush(*item.brush, scratch.points, item.transform,
             { &geometry.brush_materials_[item.material], item.first_emitter, item.mask, geometry }, out);
+    }
     if (target.previous_positions)
         write_previous(item, scratch, target.previous_positions + item.first_slot);
     if (target.masks && item.brush && item.mask == 0)

@@ -6,6 +6,7 @@
 
 #include "ref_vkpt/scene/brush_mesh.hpp"
 #include "ref_vkpt/scene/md2_mesh.hpp"
+#include "ref_vkpt/scene/skin_lamps.hpp"
 #include "ref_vkpt/workers.hpp"
 
 #include <array>
@@ -21,6 +22,12 @@ struct BrushPose {
     uint32_t mask = 0; // MASK_* for all triangles; 0: each its own
 };
 
+// Which triangles of a model are emitters.
+struct ModelLamps {
+    std::shared_ptr<const SkinLamps> lamps; // nullptr: none
+    int first_emitter = -1; // lamp n is emitter first_emitter + n
+};
+
 class MovingGeometry {
 public:
     // Triangles get the ids `first_id` and up; those that would need 2^24 or more are left out.
@@ -30,7 +37,8 @@ public:
     }
 
     // What is not finite or lies far outside of any map is left out: false.
-    bool add(std::shared_ptr<const Md2Mesh> mesh, const Md2Pose& pose, uint32_t material, uint32_t mask);
+    bool add(std::shared_ptr<const Md2Mesh> mesh, const Md2Pose& pose, uint32_t material, uint32_t mask,
+        const ModelLamps& lamps = {});
     // `mesh` must outlive this.
     bool add(const BrushMesh& mesh, const BrushPose& pose);
     // Triangles of their own, world space, by their numbers sane. After appending some, mask_loose() gives them a ray
@@ -79,6 +87,7 @@ private:
         uint32_t material = 0; // of a brush: where its materials start in brush_materials_
         uint32_t mask = 0;
         int first_emitter = -1;
+        std::shared_ptr<const SkinLamps> lamps; // of an MD2 model; nullptr: none
         bool has_previous = false;
         Md2Pose previous_pose;
         Transform previous_transform;

@@ -196,6 +196,8 @@ FaceTexture describe(const Texture& texture, const MaterialSettings* material)
         face.takes_light_value = material->takes_light_value;
         face.takes_lightstyles = material->takes_lightstyles;
         face.medium = material->medium;
+        face.is_sky = material->is_sky;
+        face.is_invisible = material->is_invisible;
     }
     return face;
 }
@@ -383,6 +385,7 @@ void Scene::end_registration()
         find_sky_sun();
         set_sky_radiance(*world_, sky_.average * sky_.scale);
     }
+    skin_lamps_.clear();
     textures_.end_registration();
 }
 
@@ -553,7 +556,7 @@ SceneSnapshot Scene::take_snapshot(
         if (cvars.pt_flashlight != 0)
             snapshot.emitters.push_back(make_flashlight(eye));
     }
-    add_entities(snapshot, refdef, player_body, textures_, defaults);
+    add_entities(snapshot, refdef, player_body, textures_, defaults, skin_lamps_);
     if (snapshot.world)
         list_lights(snapshot, *world_, lights);
     return snapshot;

@@ -111,6 +111,7 @@ private:
     void load_materials(std::string_view map);
 
     TextureStore& textures_;
+    SkinLampCache skin_lamps_;
     std::string map_path_;
     std::unique_ptr<World> world_;
     std::optional<MapLights> map_lights_; // of world_; made when first asked for

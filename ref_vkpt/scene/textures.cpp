@@ -328,6 +328,8 @@ void TextureStore::measure(Texture& texture, const formats::Image& pixels) const
         texture.parts = find_bright_parts(pixels, alpha);
     if (texture.use == TextureUse::sky)
         texture.sun = find_painted_sun(pixels);
+    if (texture.use == TextureUse::emissive && measure.brightest > 0)
+        texture.glow = make_glow_map(pixels);
     texture.opaque_fraction = measure.opaque_fraction;
     texture.has_alpha = measure.has_alpha;
     texture.brightest = measure.brightest;

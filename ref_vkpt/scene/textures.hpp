@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ref_vkpt/lights/face_triangles.hpp"
+#include "ref_vkpt/scene/skin_lamps.hpp"
 #include "ref_vkpt/scene/sky_sun.hpp"
 #include "ref_vkpt/scene/texture_files.hpp"
 #include "ref_vkpt/vulkan/bindings.hpp"
@@ -46,6 +47,7 @@ struct Texture {
     // Of walls and skins: its normal map, and the picture of what of it glows.
     const Texture* normals = nullptr;
     const Texture* emissive = nullptr;
+    GlowMap glow; // of what glows: for lamps
     uint32_t registration = 0; // the last one that used it; 0: free
     Image image; // not set: shares the slot of another
 };

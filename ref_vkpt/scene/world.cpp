@@ -180,6 +180,18 @@ void take_holes(Bsp& bsp, std::span<const FaceTexture> textures)
             bsp.texinfos[i].flags |= SURF_ALPHATEST;
 }
 
+// The same of what is sky, or not there, by its material.
+void take_kinds(Bsp& bsp, std::span<const FaceTexture> textures)
+{
+    for (size_t i = 0; i < textures.size(); i++) {
+        uint32_t& flags = bsp.texinfos[i].flags;
+        if (textures[i].is_sky)
+            flags = (flags & SURF_LIGHT) | SURF_SKY;
+        else if (textures[i].is_invisible)
+            flags |= SURF_NODRAW;
+    }
+}
+
 // The emitters of the world model; those of animated textures have their rows.
 StaticEmitters find_world_emitters(World& world, const EmissionSource& source)
 {
@@ -284,6 +296,7 @@ std::unique_ptr<World> load_world(formats::Bytes file, const std::string& name, 
     world.fog_boxes = find_fog_boxes(entities, world.bsp.name, world.messages);
 
     take_holes(world.bsp, world.textures);
+    take_kinds(world.bsp, world.textures);
     for (const BspTexinfo& texinfo : world.bsp.texinfos)
         world.material_names.push_back(material_name(texinfo.texture));
     world.faces = FaceTriangles(world.bsp, world.textures);

@@ -17,6 +17,7 @@ struct Surface {
     vec3 albedo;
     float roughness; // GGX alpha = roughness^2; 1 and not metallic: matte, exactly Lambert
     float metallic;
+    float coat_loss; // share of the coat's reflectance that is missing: 0 none, 1 no coat
 };
 
 // Reflected radiance = (albedo * diffuse + specular) * incoming radiance. The diffuse part is kept free of the albedo
@@ -80,8 +81,9 @@ float schlick_power(float cosine)
     return m2 * m2 * m;
 }
 
-// The coat over the diffuse base fades out towards roughness 1: matte surfaces have none.
-float coat_strength(Surface s) { return quick_clamp(5.0f * (1.0f - s.roughness), 0.0f, 1.0f); }
+// The coat over the diffuse base fades out towards roughness 1: matte surfaces have none. The material's share of it
+// scales the whole reflectance, as specularFactor of glTF's KHR_materials_specular does.
+float coat_strength(Surface s) { return (1.0f - s.coat_loss) * quick_clamp(5.0f * (1.0f - s.roughness), 0.0f, 1.0f); }
 
 // Schlick's approximation; `power` = schlick_power of the cosine.
 float dielectric_fresnel(Surface s, float power)
@@ -169,7 +171,7 @@ float specular_lobe_probability(Surface s)
 {
     if (s.metallic >= 1.0f)
         return 1.0f;
-    if (s.metallic <= 0.0f && s.roughness >= 1.0f)
+    if (s.metallic <= 0.0f && coat_strength(s) <= 0.0f)
         return 0.0f;
     float power = schlick_power(dot(s.normal, view_above_horizon(s)));
     float specular = luminance(specular_fresnel(s, power));

@@ -104,7 +104,7 @@ vec3 debug_colour(int view, uvec2 pixel, uint index, float exposure)
     case DEBUG_VIEW_IRRADIANCE:
         return fetch_reflected_light(index).diffuse;
     case DEBUG_VIEW_ROUGHNESS:
-        return vec3(s.roughness, s.metallic, 0.0);
+        return vec3(s.roughness, s.metallic, s.coat_loss);
     }
     return filter_colour(view, pixel, index);
 }

@@ -151,6 +151,7 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
     s.albedo = quick_clamp(texel.rgb * material.tint, 0.0, 1.0);
     s.roughness = material.roughness;
     s.metallic = material.metallic;
+    s.coat_loss = float((material.flags >> MATERIAL_COAT_SHIFT) & MATERIAL_COAT_ONE) / float(MATERIAL_COAT_ONE);
 #ifdef VKPT_NORMAL_MAPS
     if (normal_map(material) != 0u)
         read_normal_map(material, tangent, uv, footprint, way, texel.a, facing, s);
@@ -173,6 +174,19 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
     return result;
 }
 
+// 16 bits: `metallic` in 11, below it `coat_loss` as it is in Material::flags.
+const float metallic_one = 2047.0;
+uint pack_metal_and_coat(Surface s)
+{
+    return uint(s.metallic * metallic_one + 0.5) << 5u | uint(s.coat_loss * float(MATERIAL_COAT_ONE) + 0.5);
+}
+
+void unpack_metal_and_coat(uint bits, inout Surface s)
+{
+    s.metallic = float((bits >> 5u) & 0x7ffu) / metallic_one;
+    s.coat_loss = float(bits & MATERIAL_COAT_ONE) / float(MATERIAL_COAT_ONE);
+}
+
 // What the light passes read back of the primary surface.
 void store_surface(uint pixel, HitSurface hit)
 {
@@ -180,7 +194,7 @@ void store_surface(uint pixel, HitSurface hit)
     store_normals(pixel, uvec2(pack_direction(s.normal), pack_direction(s.geometric_normal)));
     store_surface(pixel,
         uvec4(pack_unorm2(s.albedo.xy), pack_unorm2(vec2(s.albedo.z, s.roughness)),
-            pack_unorm2(vec2(s.metallic, 0.0)) | (uint(hit.cluster + 1) << 16u), pack_direction(s.view)));
+            pack_metal_and_coat(s) | (uint(hit.cluster + 1) << 16u), pack_direction(s.view)));
 }
 
 // position.w of pixels without a surface to light.
@@ -193,7 +207,7 @@ void unpack_material(uvec4 bits, inout Surface s)
     vec2 blue_roughness = unpack_unorm2(bits.y);
     s.albedo = vec3(unpack_unorm2(bits.x), blue_roughness.x);
     s.roughness = blue_roughness.y;
-    s.metallic = unpack_unorm2(bits.z).x;
+    unpack_metal_and_coat(bits.z, s);
 }
 
 struct PrimarySurface {

@@ -89,6 +89,10 @@ VKPT_CONST uint MATERIAL_GLASS = 128u; // a thin pane: translucent, smooth, colo
 VKPT_CONST uint MATERIAL_ROUGHNESS_IN_ALPHA = 256u; // of `texture`; `roughness` is the least
 VKPT_CONST uint MATERIAL_METALNESS_IN_ALPHA = 512u; // of the normal map; times `metallic`
 
+// How much of a coat's reflectance is missing, in 1 / MATERIAL_COAT_ONE.
+VKPT_CONST uint MATERIAL_COAT_SHIFT = 11u;
+VKPT_CONST uint MATERIAL_COAT_ONE = 31u;
+
 // A screen that shows what the map's camera sees that is entry flags >> MATERIAL_SCREEN_SHIFT of SceneView::screens.
 VKPT_CONST uint MATERIAL_SCREEN = 1024u;
 VKPT_CONST uint MATERIAL_SCREEN_SHIFT = 16u;

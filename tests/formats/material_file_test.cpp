@@ -57,17 +57,17 @@ TEST(MaterialFile, CountsWhatHasNoEffect)
 {
     const MaterialFile file = read_materials("a/b:\n"
                                              "is_light 1\n"
-                                             "kind sky\n"
+                                             "kind screen\n"
                                              "bump_scale 2\n"
                                              "c/d:\n"
                                              "is_light 1\n"
-                                             "kind Invisible\n"
+                                             "kind Transparent\n"
                                              "kind stone\n"
                                              "kind wood\n",
         "m.mat");
     EXPECT_TRUE(file.messages.empty());
     EXPECT_EQ(file.without_effect,
-        "m.mat: attributes without effect in this renderer (6): is_light 2, kind INVISIBLE 1, kind SKY 1, "
+        "m.mat: attributes without effect in this renderer (6): is_light 2, kind SCREEN 1, kind TRANSPARENT 1, "
         "kind of other names 2");
     EXPECT_EQ(file.entries[0].attributes.size(), 3u) << "they are kept";
     EXPECT_EQ(read_materials("a:\nkind glass\nkind Water\nkind REGULAR\nbase_factor 1\n", "m.mat").without_effect, "");

@@ -17,7 +17,7 @@ Surface make_white(float view_cosine, float roughness, float metallic)
 {
     const vec3 normal(0, 0, 1);
     const vec3 view(std::sqrt(1 - view_cosine * view_cosine), 0, view_cosine);
-    return Surface { vec3(0), normal, normal, view, vec3(1), roughness, metallic };
+    return Surface { vec3(0), normal, normal, view, vec3(1), roughness, metallic, 0 };
 }
 
 // Midpoint rule over the sphere, equal areas.
@@ -82,12 +82,15 @@ TEST(Bsdf, ReflectsNoMoreThanItReceives)
 {
     for (const float roughness : test_roughnesses)
         for (const float cosine : test_elevations)
-            for (const float metallic : { 0.0f, 0.5f, 1.0f }) {
-                const double furnace = furnace_by_sampling(make_white(cosine, roughness, metallic));
-                EXPECT_LE(furnace, 1.005)
-                    << "roughness " << roughness << " cosine " << cosine << " metallic " << metallic;
-                EXPECT_GT(furnace, 0.25); // single scattering loses most at grazing angles
-            }
+            for (const float metallic : { 0.0f, 0.5f, 1.0f })
+                for (const float coat_loss : { 0.0f, 0.6f, 1.0f }) {
+                    Surface s = make_white(cosine, roughness, metallic);
+                    s.coat_loss = coat_loss;
+                    const double furnace = furnace_by_sampling(s);
+                    EXPECT_LE(furnace, 1.005) << "roughness " << roughness << " cosine " << cosine << " metallic "
+                                              << metallic << " coat_loss " << coat_loss;
+                    EXPECT_GT(furnace, 0.25); // single scattering loses most at grazing angles
+                }
 }
 
 // A smooth white metal loses nothing; rougher ones lose what single scattering does not return.
@@ -99,6 +102,22 @@ TEST(Bsdf, WhiteMetalKeepsTheFurnaceWhite)
         EXPECT_NEAR(furnace_by_sampling(make_white(cosine, 0.1f, 1)), 1, 0.005) << cosine;
         EXPECT_NEAR(furnace_by_sampling(make_white(cosine, 0.2f, 1)), 1, 0.03) << cosine;
     }
+}
+
+// specular_factor of material files: the coat's reflectance at half its strength is half of it, and none is Lambert.
+TEST(Bsdf, CoatIsAsStrongAsTheMaterialSays)
+{
+    Surface s = make_white(0.7f, 0.3f, 0);
+    const vec3 light = vec3(-s.view.x, -s.view.y, s.view.z); // the highlight
+    const float whole = evaluate_brdf(s, light).specular.y;
+    s.coat_loss = 0.5f;
+    EXPECT_NEAR(evaluate_brdf(s, light).specular.y, 0.5f * whole, 1e-4f * whole);
+    s.coat_loss = 1;
+    EXPECT_EQ(evaluate_brdf(s, light).specular.y, 0);
+    EXPECT_NEAR(evaluate_brdf(s, light).diffuse, 1 / bsdf_pi, 1e-6f);
+    EXPECT_EQ(specular_lobe_probability(s), 0); // no ray is spent on it
+    s.metallic = 1;
+    EXPECT_NEAR(furnace_by_sampling(s), furnace_by_sampling(make_white(0.7f, 0.3f, 1)), 0.005); // metals have none
 }
 
 // A smooth white layer over a white base sends everything back, through one lobe or the other.

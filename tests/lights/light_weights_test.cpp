@@ -28,7 +28,7 @@ Case make_case(std::mt19937& rng, float roughness, float metallic)
     const auto vector = [&] { return vec3(unit(rng), unit(rng), unit(rng)); };
     Case c {};
     const vec3 view = normalize(vec3(unit(rng), unit(rng), 0.25f + 0.75f * std::abs(unit(rng))));
-    c.surface = Surface { vec3(0), vec3(0, 0, 1), vec3(0, 0, 1), view, vec3(0.5f), roughness, metallic };
+    c.surface = Surface { vec3(0), vec3(0, 0, 1), vec3(0, 0, 1), view, vec3(0.5f), roughness, metallic, 0 };
     // Around the mirror direction as often as anywhere.
     const vec3 reflected(-view.x, -view.y, view.z);
     const vec3 centre = 100.0f * normalize(rng() % 2 ? reflected + 0.5f * vector() : vector() + vec3(0, 0, 1));

@@ -6,7 +6,9 @@
 #include "tests/module/session.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <utility>
 
 namespace vkpt::tests {
@@ -248,6 +250,62 @@ TEST_F(Emission, OfSkinsIsSeenAndBounces)
     }
     EXPECT_EQ(on_floor[0], 0);
     EXPECT_GT(on_floor[1], 0.02);
+}
+
+// Irradiance / pi on a floor, in shares of the radiance of a cube's sides: over 64 x 64 parts of each.
+double form_factor_of_cube(glm::vec3 centre, float half, glm::vec3 floor)
+{
+    constexpr int parts = 64;
+    double sum = 0;
+    for (int side = 0; side < 6; side++) {
+        glm::vec3 normal(0), across(0), down(0);
+        normal[side / 2] = side % 2 ? 1.0f : -1.0f;
+        across[(side / 2 + 1) % 3] = down[(side / 2 + 2) % 3] = half;
+        for (int i = 0; i < parts * parts; i++) {
+            const float u = (float(i % parts) + 0.5f) / parts * 2 - 1, v = (float(i / parts) + 0.5f) / parts * 2 - 1;
+            const glm::vec3 way = centre + normal * half + across * u + down * v - floor;
+            const double distance2 = double(glm::dot(way, way)),
+                         cosines = double(way.z) * double(-glm::dot(way, normal));
+            if (way.z > 0 && glm::dot(way, normal) < 0)
+                sum += cosines / (distance2 * distance2) * 4 * half * half / (parts * parts);
+        }
+    }
+    return sum / std::numbers::pi;
+}
+
+// What glows of a skin is sampled as a light, wherever the model goes; the weapon before the eye is none.
+TEST_F(Emission, OfSkinsIsALamp)
+{
+    const std::string cube = folder_.add_cube("cube", 8, 0);
+    folder_.add_map("lamps", map_.finish());
+    Session::end_idle();
+    add_light("models/cube_light.tga", { 0, 255, 0, 255 });
+    folder_.add_text("materials/baseq2.mat", "models/cube:\n    emissive_factor 4\n");
+    Session session(folder_, matte);
+    session.load_map("lamps");
+    engine::Entity entity = make_entity(session.module().register_model(cube.c_str()), { 0, 0, 12 });
+    session.view.entities = &entity;
+    session.view.entity_count = 1;
+    const glm::vec3 floor(30, 0, 0);
+    const std::vector<IrradianceProbe> probes(256, { floor, { 0, 0, 1 } });
+    const auto light_floor = [&] {
+        session.look({ 0, 1, 60 }, { 0, 0, 0 }, 10);
+        session.draw();
+        double sum = 0;
+        for (const glm::vec3& measured : session.probe(probes, 64))
+            sum += double(measured.y) / double(probes.size());
+        return sum;
+    };
+    const double radiance = 4 * double(EmissionScales().glow);
+    for (const char* sampler : { "full", "subset", "subset_mis" })
+        for (const float x : { 0.0f, 14.0f, -20.0f }) {
+            session.set("pt_light_sampler", sampler);
+            entity.origin[0] = entity.previous_origin[0] = x;
+            const double expected = radiance * form_factor_of_cube({ x, 0, 12 }, 8, floor);
+            EXPECT_NEAR(light_floor() / expected, 1, 0.02) << sampler << ' ' << x;
+        }
+    entity.flags |= engine::RF_WEAPONMODEL;
+    EXPECT_EQ(light_floor(), 0);
 }
 
 // Where no picture says what of a skin glows, a material may choose its bright texels.

@@ -91,6 +91,64 @@ TEST_F(Materials, AreEditedUnderTheCrosshair)
     EXPECT_NEAR(see_floor(session) / plain, 1, 0.01);
 }
 
+// Of a black floor only the coat reflects.
+TEST_F(Materials, ScaleTheCoat)
+{
+    Session session(folder_, matte_full);
+    session.load_map("floor");
+    see_floor(session);
+    session.host().run_text("mat base_factor 0\nmat roughness_override 0.3\n");
+    const double whole = see_floor(session);
+    EXPECT_GT(whole, 0.03);
+    session.host().run_text("mat specular_factor 0.5\n");
+    EXPECT_NEAR(see_floor(session) / whole, 0.5, 0.02); // in steps of 1 / 31
+    session.host().run_text("mat\n");
+    EXPECT_TRUE(session.has_line("specular 0.48"));
+    session.host().run_text("mat specular_factor 0\n");
+    EXPECT_LT(see_floor(session), 1e-4);
+}
+
+// A board over the floor and a model: with kinds of walls that show the sky or are not there, and skins that are not.
+TEST_F(Materials, MakeSkyAndNothing)
+{
+    folder_.add_wall("test/board", 0);
+    MapBuilder map;
+    map.add_room({ -512, -512, -1 }, { 512, 512, 511 }, map.add_material("sky", formats::SURF_SKY));
+    map.add(rectangle({ 0, 0, 0 }, { 64, 0, 0 }, { 0, 64, 0 }), map.add_material("test/floor"));
+    map.add(rectangle({ 0, 0, 20 }, { 64, 0, 0 }, { 0, 64, 0 }), map.add_material("test/board"));
+    map.add(rectangle({ 0, 0, 20 }, { 0, 64, 0 }, { 64, 0, 0 }), map.add_material("test/board"));
+    folder_.add_map("board", map.finish());
+    const std::string cube = folder_.add_cube("cube", 8, 0);
+    struct Seen {
+        double board, floor; // radiance
+    };
+    const auto see = [&](const char* materials) {
+        Session::end_idle();
+        folder_.add_text("materials/baseq2.mat", materials);
+        Session session(folder_, matte_full);
+        session.load_map("board");
+        engine::Entity entity = make_entity(session.module().register_model(cube.c_str()), { 0, 0, 60 });
+        session.view.entities = &entity;
+        session.view.entity_count = 1;
+        const auto look = [&](glm::vec3 eye, glm::vec3 at) {
+            session.look(eye, at, 20);
+            session.draw();
+            return double(session.accumulate(64).mean().y);
+        };
+        return Seen { look({ 0, 1, 100 }, { 0, 0, 0 }), look({ 0, 1, 10 }, { 0, 0, 0 }) };
+    };
+    const Seen covered = see("x:\n    base_factor 1\n");
+    EXPECT_LT(covered.board, 0.01); // a black cube
+    const Seen without_cube = see("models/cube:\n    kind invisible\n");
+    EXPECT_LT(without_cube.board, 0.01); // a black board
+    const Seen bare = see("models/cube,\ntest/board:\n    kind invisible\n");
+    EXPECT_NEAR(bare.board, bare.floor, 0.02 * bare.floor);
+    EXPECT_GT(bare.floor, 1.5 * covered.floor);
+    const Seen sky = see("models/cube:\n    kind invisible\ntest/board:\n    kind sky\n");
+    EXPECT_GT(sky.board, 0.5);
+    EXPECT_NEAR(sky.floor, bare.floor, 0.02 * bare.floor); // the sky lights as the one behind it does
+}
+
 // A lift and a model in front of the floor, and what `mat` finds where each is.
 TEST_F(Materials, AreFoundOnBrushModelsAndModels)
 {
@@ -204,10 +262,10 @@ TEST_F(Materials, EditsSayWhenTheyCount)
         EXPECT_EQ(say(at_once).find("next map"), std::string::npos) << at_once;
     }
     EXPECT_EQ(say("reset").find("next map"), std::string::npos);
-    for (const char* late : { "texture_normals a/b", "light_styles 0", "kind lava", "emissive_factor 2" })
+    for (const char* late : { "texture_normals a/b", "light_styles 0", "kind lava", "kind sky", "emissive_factor 2" })
         EXPECT_NE(say(late).find("counts with the next map"), std::string::npos) << late;
     EXPECT_NE(say("reset").find("counts with the next map"), std::string::npos);
-    for (const char* vain : { "is_light 1", "kind SKY" })
+    for (const char* vain : { "is_light 1", "kind TRANSPARENT" })
         EXPECT_NE(say(vain).find("has no effect here"), std::string::npos) << vain;
     say("reset");
 }

@@ -65,6 +65,7 @@ Material read_material(const Json& json)
     material.emission = read_vector(json.at("emission"));
     material.roughness = json.at("roughness");
     material.metallic = json.at("metallic");
+    material.specular = json.at("specular");
     for (const std::string flag : json.at("flags")) {
         material.is_sky |= flag == "sky";
         material.is_translucent |= flag == "translucent";

@@ -23,7 +23,7 @@ struct Picture {
 struct Material {
     dvec3 tint { 1 }, emission_tint { 0 };
     dvec3 base_colour { 1 }, emission { 0 }; // where there is no picture
-    double roughness = 1, metallic = 0;
+    double roughness = 1, metallic = 0, specular = 1;
     bool is_sky = false, is_translucent = false;
     int picture = -1; // index into ExportedScene::pictures
 };

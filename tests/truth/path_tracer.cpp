@@ -75,6 +75,7 @@ Met make_met(const ExportedScene& scene, const RayHit& hit, dvec3 direction)
     const Material& m = *met.material;
     s.roughness = m.roughness;
     s.metallic = m.metallic;
+    s.specular = m.specular;
     s.albedo = m.base_colour;
     met.emission = m.emission;
     if (m.picture >= 0) {

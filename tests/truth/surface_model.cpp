@@ -38,7 +38,7 @@ double visibility(double nl, double nv, double alpha)
 // The coat's reflectance by Schlick's formula; it fades out over the last fifth of roughness.
 double coat(const SurfacePoint& s, double power)
 {
-    const double strength = std::clamp(5 * (1 - s.roughness), 0.0, 1.0), f0 = 0.04;
+    const double strength = s.specular * std::clamp(5 * (1 - s.roughness), 0.0, 1.0), f0 = 0.04;
     return strength * (f0 + (1 - f0) * power);
 }
 

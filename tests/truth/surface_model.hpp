@@ -12,7 +12,7 @@ struct SurfacePoint {
     glm::dvec3 position, normal, geometric_normal; // normals on the viewer's side
     glm::dvec3 view; // towards the viewer, unit
     glm::dvec3 albedo;
-    double roughness = 1, metallic = 0;
+    double roughness = 1, metallic = 0, specular = 1; // specular: share that is left of the coat
 };
 
 // BSDF times the cosine, for light from the unit direction `light`.
