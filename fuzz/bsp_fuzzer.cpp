@@ -70,7 +70,7 @@ void use_world(World& world)
     check_lights(world);
     move_lights(world);
     fuzz::use(world.make_materials(1.5f, {}));
-    const Lightmaps lightmaps = read_lightmaps(world.bsp);
+    const Lightmaps lightmaps = read_lightmaps(world);
     for (const shared::LightmapFace& map : lightmaps.faces)
         fuzz::require(map.first + size_t(map.size & 0xffff) * (map.size >> 16) <= lightmaps.luxels.size(),
             "a face's lightmap is among the luxels");

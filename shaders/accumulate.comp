@@ -9,7 +9,7 @@
 #include "lib/image.glsl"
 #include "lib/scattered_light.glsl"
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DarkLightBuffer { DarkLight v[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DlightBuffer { Dlight v[]; };
 
 // Diffuse without albedo.
 ReflectedLight reflected_light(uvec2 pixel, uint index, Surface surface)
@@ -29,7 +29,7 @@ vec3 taken_light(vec3 position)
 {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < frame.dark_light_count; i++) {
-        DarkLight dark = DarkLightBuffer(frame.dark_lights).v[i];
+        Dlight dark = DlightBuffer(frame.dark_lights).v[i];
         sum += dark.colour * quick_max(dark.intensity - distance(position, dark.origin), 0.0);
     }
     return sum;

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The part of the image that pt_wipe shows as the classic game did: the map's baked lightmaps in place of paths. The
-// passes behind find nothing left to light there.
+// The part of the image that pt_wipe shows as the classic game did: the map's baked lightmaps in place of paths, and on
+// them what the engine's OpenGL 3 renderer (gl3) makes of dynamic lights. The passes behind find nothing left to light
+// there.
 #include "lib/frame.glsl"
 #include "lib/surfaces.glsl"
 
@@ -10,12 +11,18 @@ const float lightmap_one = 128.0; // value that makes a white surface's radiance
 const float light_without_map = 1.0; // of faces and places that have no lightmap
 const uint max_models_below = 6u; // that a ray down passes
 
+// gl3's: a surface is lit within a light's intensity less dlight_margin, as if the light stood dlight_lift farther off
+// it.
+const float dlight_margin = 52.0, dlight_lift = 32.0;
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DlightBuffer { Dlight v[]; };
+
 LightmapFace load_lightmap_face(uint face)
 {
-    uint64_t address = frame.scene.lightmap_faces + uint64_t(face * 48u);
-    uvec4 a = load_element(address, 0u, uvec4(0u)), b = load_element(address, 1u, uvec4(0u)),
-          c = load_element(address, 2u, uvec4(0u));
-    return LightmapFace(uintBitsToFloat(a), uintBitsToFloat(b), c.x, c.y, c.z, c.w);
+    uint64_t address = frame.scene.lightmap_faces + uint64_t(face * 32u);
+    vec4 a = uintBitsToFloat(load_element(address, 0u, uvec4(0u)));
+    uvec4 b = load_element(address, 1u, uvec4(0u));
+    return LightmapFace(a.xy, a.zw, b.x, b.y, b.z, b.w);
 }
 
 vec3 load_luxel(uint index)
@@ -36,43 +43,67 @@ vec3 mix_luxels(uint first, uvec2 size, vec2 place)
         part.y);
 }
 
-// Irradiance / pi at a point of a face.
-vec3 baked_light(uint face, vec3 position)
+// Irradiance / pi at a place of a face.
+vec3 baked_light(LightmapFace map, vec2 uv)
 {
-    LightmapFace map = load_lightmap_face(face);
-    uvec2 size = split_halves(map.size);
     if (map.size == 0u)
         return vec3(light_without_map);
-    vec2 place = vec2(dot(position, map.across.xyz) + map.across.w, dot(position, map.down.xyz) + map.down.w);
+    uvec2 size = split_halves(map.size);
     vec3 sum = vec3(0.0);
     ROLLED_FOR (uint i = 0u; i < 4u; i++) {
         uint style = (map.styles >> (8u * i)) & 0xffu;
         if (style == 255u)
             break;
-        sum += lightstyle_scale(style) * mix_luxels(map.first + i * size.x * size.y, size, place);
+        sum += lightstyle_scale(style) * mix_luxels(map.first + i * size.x * size.y, size, uv * map.scale + map.offset);
     }
     return sum / lightmap_one;
 }
 
-// Of the map's face that the surface lies on; of what moves, that of the floor below, as the classic renderers light
-// models.
-vec3 find_baked_light(Surface s)
+// Without shadows. The light of models has no direction.
+vec3 dynamic_light(Surface s, bool on_lightmap)
+{
+    vec3 sum = vec3(0.0);
+    ROLLED_FOR (uint i = 0u; i < frame.dlight_count; i++) {
+        Dlight light = DlightBuffer(frame.dlights).v[i];
+        vec3 to_light = light.origin - s.position;
+        float strength = light.intensity - length(to_light);
+        if (on_lightmap) {
+            bool in_front = dot(to_light, s.geometric_normal) >= 0.0;
+            vec3 direction = normalize(to_light + s.geometric_normal * dlight_lift);
+            strength = in_front ? (strength - dlight_margin) * dot(direction, s.geometric_normal) : 0.0;
+        }
+        sum += light.colour * quick_max(strength, 0.0);
+    }
+    return sum;
+}
+
+// Of the map's face that the surface lies on, wherever that has moved; of other things, that of the world's floor
+// below, as the classic renderers light models.
+vec3 find_classic_light(Surface s)
 {
     const float within = 0.5;
+    vec3 light = vec3(light_without_map);
+    bool on_lightmap = false;
     Ray ray = Ray(s.position + s.geometric_normal * within, -s.geometric_normal, 0.0, 2.0 * within);
     ROLLED_FOR (uint i = 0u; i < max_models_below; i++) {
         RawHit hit = trace_nearest(ray, MASK_OPAQUE | MASK_ALPHA_TEST | MASK_TRANSLUCENT);
         if (hit.triangle != TRACE_MISS) {
-            uint face = fetch_Triangle(frame.scene.triangles, hit.triangle).cache_face;
-            if (face != 0u)
-                return baked_light(face - 1u, ray.origin + ray.direction * hit.t);
+            Triangle triangle = fetch_Triangle(frame.scene.triangles, hit.triangle);
+            if (triangle.face > 0 || (triangle.face < 0 && i == 0u)) {
+                LightmapFace map = load_lightmap_face(uint(abs(triangle.face)) - 1u);
+                on_lightmap = i == 0u;
+                light = baked_light(map, interpolate_uv(triangle, hit.barycentrics));
+                if (on_lightmap && map.size == 0u)
+                    return light;
+                break;
+            }
         }
         if (hit.triangle == TRACE_MISS && i > 0u)
             break;
         ray = i == 0u ? Ray(s.position, vec3(0.0, 0.0, -1.0), 0.0, ray_far)
                       : Ray(ray.origin, ray.direction, hit.t, ray_far);
     }
-    return vec3(light_without_map);
+    return max(light + dynamic_light(s, on_lightmap), vec3(0.0));
 }
 
 void light_pixel(uvec2 pixel, uint index)
@@ -82,7 +113,7 @@ void light_pixel(uvec2 pixel, uint index)
     PrimarySurface primary = load_primary_surface(index);
     if (primary.depth < 0.0)
         return;
-    vec3 light = find_baked_light(primary.surface) * primary.surface.albedo;
+    vec3 light = find_classic_light(primary.surface) * primary.surface.albedo;
     vec3 emitted = unpack_floats3(load_emitted(index)) + unpack_light3(load_throughput(index)) * light;
     store_emitted(index, pack_floats3(emitted));
     store_position(index, vec4(primary.surface.position, DEPTH_UNLIT));

@@ -67,7 +67,7 @@ CachedLight find_cached_light(HitSurface hit)
 {
     if ((frame.flags & (FRAME_LIGHT_CACHE | FRAME_GUIDES)) == 0u || hit.front == 0.0)
         return nothing_cached;
-    return read_light_cache(hit.cache_face, hit.surface.position);
+    return read_light_cache(hit.face, hit.surface.position);
 }
 
 layout(constant_id = INDIRECT_CONSTANT) const int fixed_indirect = NOT_FIXED;

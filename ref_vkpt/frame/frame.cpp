@@ -313,6 +313,10 @@ void Frame::record_view(
     uniforms.time = scene.time;
     uniforms.dark_light_count = uint32_t(scene.dark_lights.size());
     uniforms.dark_lights = scene.dark_lights.empty() ? 0 : uploads().push(scene.dark_lights);
+    if ((uniforms.flags & shared::FRAME_WIPE) && !scene.dlights.empty()) {
+        uniforms.dlight_count = uint32_t(scene.dlights.size());
+        uniforms.dlights = uploads().push(scene.dlights);
+    }
     uniforms.flags |= average ? shared::FRAME_JITTER : 0;
     if (!average && has_world)
         begin_bloom(uniforms);

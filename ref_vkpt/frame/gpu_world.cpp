@@ -35,7 +35,7 @@ GpuWorld upload_world(const World& world, const SamplerTables& tables, Uploader&
 
 void upload_lightmaps(GpuWorld& gpu, const World& world, Uploader& uploader)
 {
-    const Lightmaps maps = read_lightmaps(world.bsp);
+    const Lightmaps maps = read_lightmaps(world);
     gpu.lightmap_faces = uploader.make_buffer(maps.faces, MemoryKind::lights, "lightmap faces");
     gpu.luxels = uploader.make_buffer(maps.luxels, MemoryKind::lights, "luxels");
 }

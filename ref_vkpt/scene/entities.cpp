@@ -473,12 +473,14 @@ void SnapshotBuilder::add_particle(const Particle& particle)
 void SnapshotBuilder::add_dlight(const DynamicLight& light)
 {
     constexpr float lightmap_units = 128; // of a radiance of 1
-    const glm::vec3 taken
-        = glm::max(-to_vec3(light.color), glm::vec3(0)) * (cvars::values().pt_dlight_scale / lightmap_units);
-    const glm::vec3 origin = to_vec3(light.origin);
-    if (taken != glm::vec3(0) && is_sane(taken) && is_sane(origin) && is_sane(light.intensity))
-        snapshot_.dark_lights.push_back({ origin, light.intensity, taken });
-    shared::Emitter emitter = make_dynamic_light(to_vec3(light.origin), to_vec3(light.color), light.intensity);
+    const glm::vec3 origin = to_vec3(light.origin), colour = to_vec3(light.color) / lightmap_units;
+    const glm::vec3 taken = glm::max(-colour, glm::vec3(0)) * cvars::values().pt_dlight_scale;
+    if (is_sane(colour) && is_sane(origin) && is_sane(light.intensity)) {
+        snapshot_.dlights.push_back({ origin, light.intensity, colour });
+        if (taken != glm::vec3(0) && is_sane(taken))
+            snapshot_.dark_lights.push_back({ origin, light.intensity, taken });
+    }
+    shared::Emitter emitter = make_dynamic_light(origin, to_vec3(light.color), light.intensity);
     emitter.lightstyle = lightstyle_dlight;
     if (emitter.radiance != glm::vec3(0))
         snapshot_.emitters.push_back(emitter);

@@ -19,15 +19,11 @@ uint32_t count_styles(const formats::BspFace& face)
     return count;
 }
 
-glm::vec4 make_axis(glm::vec3 axis, float offset, float first)
-{
-    return glm::vec4(axis / luxel_size, (offset - first) / luxel_size);
-}
-
 } // namespace
 
-Lightmaps read_lightmaps(const formats::Bsp& bsp)
+Lightmaps read_lightmaps(const World& world)
 {
+    const formats::Bsp& bsp = world.bsp;
     constexpr size_t bytes_each = 3;
     const size_t max_luxels = bsp.lighting.size() / bytes_each + 1; // each byte is some face's
     Lightmaps maps;
@@ -41,9 +37,8 @@ Lightmaps read_lightmaps(const formats::Bsp& bsp)
         const bool is_there = luxels > 0 && std::max(extent.size.x, extent.size.y) <= max_size
             && first + luxels * bytes_each <= bsp.lighting.size() && maps.luxels.size() + luxels <= max_luxels;
         if (is_there) {
-            const formats::BspTexinfo& texinfo = bsp.texinfos[face.texinfo];
-            map.across = make_axis(texinfo.s_axis, texinfo.s_offset, extent.min_st.x);
-            map.down = make_axis(texinfo.t_axis, texinfo.t_offset, extent.min_st.y);
+            map.scale = glm::vec2(world.textures[face.texinfo].size) / luxel_size;
+            map.offset = -glm::vec2(extent.min_st) / luxel_size;
             map.first = uint32_t(maps.luxels.size());
             map.size = uint32_t(extent.size.x) | uint32_t(extent.size.y) << 16;
             for (int style = 0; style < 4; style++)

@@ -2,7 +2,7 @@
 // A map's baked lightmaps as shaders read them (shaders/classic_light.comp).
 #pragma once
 
-#include "formats/bsp.hpp"
+#include "ref_vkpt/scene/world.hpp"
 #include "shaders/shared/scene.h"
 
 #include <cstdint>
@@ -17,6 +17,6 @@ struct Lightmaps {
 
 // Faces whose lightmaps lie outside of the map's data have none, nor have those that come when all faces together have
 // had as many luxels as there are: each belongs to one face.
-Lightmaps read_lightmaps(const formats::Bsp& bsp);
+Lightmaps read_lightmaps(const World& world);
 
 } // namespace vkpt

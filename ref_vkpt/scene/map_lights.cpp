@@ -50,8 +50,8 @@ void MapLights::mute(std::vector<bool> lights)
         if (muted_[light_of_emitter_[i]])
             shown->emitters[i].lightstyle = lightstyle_none;
     for (shared::Triangle& triangle : shown->triangles)
-        if (triangle.cache_face > 0) {
-            const auto of_face = world_.faces.of(triangle.cache_face - 1);
+        if (triangle.face > 0) {
+            const auto of_face = world_.faces.of(size_t(triangle.face - 1));
             const auto lit = std::ranges::find_if(of_face, [](const FaceTriangle& t) { return t.emitter >= 0; });
             if (lit != of_face.end() && muted_[light_of_emitter_[size_t(lit->emitter)]])
                 triangle.lightstyle = lightstyle_none;

@@ -74,7 +74,7 @@ void write_md2(const Md2Mesh& mesh, const std::vector<Float4>& points, bool mirr
         triangle.material = material;
         triangle.emitter = triangle.cluster = -1;
         triangle.lightstyle = 0; // the memory is the device's: nothing in it is zero by itself
-        triangle.cache_face = 0;
+        triangle.face = 0;
         if (target.records) {
             uint32_t* record = target.records + size_t(slot) * bvh_triangle_words;
             write_corners(record, a, b, c);
@@ -115,7 +115,6 @@ void write_brush(const BrushMesh& mesh, const std::vector<Float4>& points, const
             triangle.emitter = look.first_emitter >= 0 ? look.geometry.emitter_at(triangle.emitter + look.first_emitter)
                                                        : shared::EMITTER_UNLISTED;
         triangle.cluster = -1;
-        triangle.cache_face = 0; // the map may be a model of its own, and stand anywhere
         target.triangles[slot] = triangle;
         if (target.records)
             write_record(

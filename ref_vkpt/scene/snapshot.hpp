@@ -30,7 +30,8 @@ struct SceneSnapshot {
     MovingGeometry moving;
     std::vector<MovingThing> things; // of `moving`, in its order
     std::vector<shared::Emitter> emitters;
-    std::vector<shared::DarkLight> dark_lights;
+    std::vector<shared::Dlight> dark_lights; // what those of negative colour take away
+    std::vector<shared::Dlight> dlights; // all, as the classic renderers add them
     std::vector<shared::Material> materials; // all: the world's first
     std::vector<shared::Screen> screens; // that they name, at most MAX_SCREENS
     std::vector<float> lightstyles; // lightstyle_count of them, then those of animated faces

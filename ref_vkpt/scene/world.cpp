@@ -81,7 +81,7 @@ void append_face(MapGeometry& geometry, const World& world, size_t face, size_t 
         triangle.emitter = is_beside ? shared::EMITTER_UNLISTED : part.emitter;
         triangle.lightstyle = is_dark ? lightstyle_none : face_lightstyle(bsp.faces[face], texture);
         triangle.cluster = cluster;
-        triangle.cache_face = model == 0 ? uint32_t(face) + 1 : 0;
+        triangle.face = model == 0 ? int(face) + 1 : -int(face) - 1;
         triangle.medium = medium;
         geometry.triangles.push_back(triangle);
         geometry.masks.push_back(triangle_mask(texinfo));

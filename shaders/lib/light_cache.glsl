@@ -70,13 +70,13 @@ struct CachedLight {
 
 const CachedLight nothing_cached = CachedLight(vec3(0.0), vec3(0.0), 0.0, 0u, false);
 
-// `cache_face` as Triangle's. Not known: the point has no cell, or one that too little is known of.
-CachedLight read_light_cache(uint cache_face, vec3 position)
+// `face_number` as Triangle::face. Not known: the point has no cell, or one that too little is known of.
+CachedLight read_light_cache(int face_number, vec3 position)
 {
     CachedLight result = nothing_cached;
-    if (cache_face == 0u)
+    if (face_number <= 0)
         return result;
-    CacheFace face = load_cache_face(cache_face - 1u);
+    CacheFace face = load_cache_face(uint(face_number - 1));
     if (face.size == 0u)
         return result;
     uint first = find_cache_value(face, position);
@@ -129,7 +129,7 @@ vec3 reflect_cached_light(Surface s, CachedLight cached)
 // For pt_debug_view.
 vec3 show_light_cache(HitSurface hit)
 {
-    CachedLight cached = read_light_cache(hit.cache_face, hit.surface.position);
+    CachedLight cached = read_light_cache(hit.face, hit.surface.position);
     if (!cached.known || hit.front == 0.0)
         return vec3(0.3, 0.0, 0.3);
     return cached.guide != 0u ? cached.light * vec3(0.2, 1.0, 0.2) : cached.light;

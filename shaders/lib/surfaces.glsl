@@ -20,7 +20,7 @@ struct HitSurface {
     int emitter; // >= 0: its emission is in the light lists
     int cluster; // -1: outside of the map
     float front; // 1: met from its front
-    uint cache_face; // Triangle::cache_face
+    int face; // Triangle::face
     uint medium; // Triangle::medium
 };
 
@@ -166,7 +166,7 @@ HitSurface fetch_surface(RawHit hit, Ray ray, float cone_width, int way)
         result.opacity *= particle_cover(uv, material.flags);
     result.flags = material.flags;
     result.emitter = triangle.emitter;
-    result.cache_face = triangle.cache_face;
+    result.face = triangle.face;
     result.medium = triangle.medium;
     result.cluster = triangle.cluster >= 0
         ? triangle.cluster

@@ -57,13 +57,14 @@ VKPT_CONST uint FRAME_FULLBRIGHT = 32768u; // r_fullbright: surfaces show their 
 VKPT_CONST uint FRAME_LIGHT_ALONE = 65536u; // r_lightmap: all surfaces are white
 VKPT_CONST uint FRAME_GREY_LIGHT = 131072u; // not gl3_colorlight
 
-// What a dynamic light of negative colour takes from surfaces around it: colour * (intensity - distance).
-struct DarkLight {
+// What one of the engine's dynamic lights does to surfaces around it, without their angle: colour * (intensity -
+// distance).
+struct Dlight {
     vec3 origin;
     float intensity;
     vec3 colour; // of the light on a white wall
 };
-VKPT_ASSERT_SIZE(DarkLight, 28);
+VKPT_ASSERT_SIZE(Dlight, 28);
 
 // Rays of a view, by what they were asked.
 struct RayCounts {
@@ -227,7 +228,9 @@ struct FrameUniforms {
     uint64_t ray_counts; // RayCounts where FRAME_COUNT_RAYS
     uint probe_count;
     uint dark_light_count;
-    uint64_t dark_lights; // DarkLight
+    uint64_t dark_lights; // Dlight: what those of negative colour take away
+    uint64_t dlights; // Dlight, all of them, as the classic renderers add them; where FRAME_WIPE
+    uint dlight_count;
     uvec2 size; // pixels rendered
     uvec2 bloom_size; // pixels of the level of `bloom` that is its result, where FRAME_BLOOM
     uvec2 resolved_size; // pixels of the buffers `resolved` and `accumulated`: more where anti-aliasing upscales

@@ -41,7 +41,7 @@ struct Triangle {
     int emitter; // index into the emitter table, or EMITTER_UNLISTED, EMITTER_SAMPLED_APART
     int cluster; // PVS cluster if all of it lies in one, else -1: look it up by position
     uint lightstyle; // scales the material's emission
-    uint cache_face; // number of its face in the light cache, from 1; 0: none
+    int face; // number of the map's face, from 1; of a face that moves its negative, the light cache has none; 0: none
     uint medium; // MEDIUM_*
 };
 VKPT_ASSERT_SIZE(Triangle, 96);
@@ -67,14 +67,14 @@ VKPT_CONST uint MAX_FOG_BOXES = 8u;
 
 // A face's baked lightmaps: luxels of 16 units, row by row, those of further lightstyles behind.
 struct LightmapFace {
-    vec4 across; // dot(point, xyz) + w: place in luxels, whole numbers being their middles
-    vec4 down;
+    vec2 scale; // uv * scale + offset: place in luxels, whole numbers being their middles
+    vec2 offset;
     uint first; // luxel; a word each, RGB, red in the lowest byte
     uint size; // luxels across | down << 16; 0: the face has none
     uint styles; // 8 bits each, 255: none
     uint padding;
 };
-VKPT_ASSERT_SIZE(LightmapFace, 48);
+VKPT_ASSERT_SIZE(LightmapFace, 32);
 
 VKPT_CONST uint MATERIAL_SKY = 1u; // radiance comes from the sky
 VKPT_CONST uint MATERIAL_WARP = 2u; // liquid: turbulent texture, refracting surface

@@ -30,7 +30,7 @@ void use_map(const std::vector<std::byte>& file)
     const auto world = load_world(file, "maps/bad.bsp", find_texture, {});
     world->trees();
     world->make_materials(1, {});
-    read_lightmaps(world->bsp);
+    read_lightmaps(*world);
     const LightLists& lists = world->light_lists;
     make_sampler_tables(
         { lists.lists(), lists.static_indices(), world->models[0].emitters, &world->bsp, &lists, &world->faces },

@@ -101,7 +101,7 @@ Triangle fetch_Triangle(uint64_t table, uint index)
     result.emitter = int(e.w);
     result.cluster = int(f.x);
     result.lightstyle = f.y;
-    result.cache_face = f.z;
+    result.face = int(f.z);
     result.medium = f.w;
     return result;
 }
