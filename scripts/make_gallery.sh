@@ -111,6 +111,6 @@ picture god_rays "${frames[@]}" --set pt_fog=0.0015 --set pt_fog_color="0.05 0.0
 picture fog "${frames[@]}" --set pt_fog=0.002 --set pt_fog_height=60
 picture physical_sky "${frames[@]}" --set pt_sky=physical --set pt_sky_azimuth=120
 picture flashlight "${frames[@]}" --set pt_flashlight=1 --set pt_emission_scale=0.02
-[ "$renderer" = gl3 ] || picture wipe "${frames[@]}" --set pt_wipe=0.5 # its left half is what gl3 has
+picture wipe "${frames[@]}" --set pt_wipe=0.5
 [ "$renderer" = gl3 ] || picture screens "${frames[@]}" # gl3 has no cameras
 picture lens "${samples[@]}" --set pt_aperture=10 --set pt_focus=190

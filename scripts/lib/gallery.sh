@@ -11,7 +11,7 @@ declare -A gallery_scenes=(
     [fog]=maps/looks.bsp@60,-480,150,15,90
     [physical_sky]=maps/vkpt1.bsp@0,520,200,-5,90
     [flashlight]=maps/vkpt1.bsp@-440,100,60,10,-135
-    [wipe]=maps/vkpt1.bsp
+    [wipe]=maps/vkpt1.bsp@0,-384,54,0,90
     [screens]=maps/screens.bsp@690,520,150,3,-30
     [lens]=maps/vkpt1.bsp@0,-384,46,0,90
 )

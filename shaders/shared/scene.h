@@ -41,7 +41,7 @@ struct Triangle {
     int emitter; // index into the emitter table, or EMITTER_UNLISTED, EMITTER_SAMPLED_APART
     int cluster; // PVS cluster if all of it lies in one, else -1: look it up by position
     uint lightstyle; // scales the material's emission
-    int face; // number of the map's face, from 1; of a face that moves its negative, the light cache has none; 0: none
+    int face; // of the map, from 1; negative: of a brush model, where the light cache has nothing; 0: none
     uint medium; // MEDIUM_*
 };
 VKPT_ASSERT_SIZE(Triangle, 96);
