@@ -4,8 +4,8 @@
 #   scripts/make_gallery.sh [--gl3] [NAME]...     all, or those that are named
 #   --gl3   those of the engine's own OpenGL 3 renderer, from the same places: NAME_gl3.jpg
 # VKPT_GALLERY_DIR: where to, if not docs/gallery.
-# Takes vkpt, vkpt_map, the module and the game data from the build. For --gl3 the real engine runs under Xvfb, on Mesa's
-# software OpenGL (libgl1-mesa-dri).
+# Takes vkpt, vkpt_map, the module and the game data from the build. For `body` and for --gl3 the real engine runs under
+# Xvfb, with gl3 on Mesa's software OpenGL (libgl1-mesa-dri).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . scripts/lib/gallery.sh
@@ -52,11 +52,12 @@ hide_status_bar() {
     done
 }
 
-# The real engine with gl3. Our game module turns the player's view, as a start has no pitch, and swims just so much that
-# they do not sink in water.
-photograph_gl3() {
-    local name=$1 map x y z pitch yaw run=$work/run_$1
-    IFS=' ' read -r map x y z pitch yaw <<<"$(echo "${2#maps/}" | sed 's/\.bsp@\?/ /; s/,/ /g')"
+# photograph RENDERER NAME SCENE PICTURE [ENGINE'S ARGUMENT]...: the real engine with gl3 or vkpt. Our game module turns
+# the player's view, as a start has no pitch, and swims just so much that they do not sink in water.
+photograph() {
+    local renderer=$1 scene=$3 picture=$4 map x y z pitch yaw run=$work/run_$2
+    shift 4
+    IFS=' ' read -r map x y z pitch yaw <<<"$(echo "${scene#maps/}" | sed 's/\.bsp@\?/ /; s/,/ /g')"
     mkdir -p "$run/files/maps" "$run/files/walks"
     printf 'look %s %s\ninput 60 up 1\n' "$pitch" "$yaw" >"$run/files/walks/gallery.txt"
     entities "$map" "$x" "$y" "$((z - 22))" >"$run/files/maps/$map.ent"
@@ -69,32 +70,32 @@ wait_8
 teleport $x $y $((z - 22))
 wait_64
 wait_64
-screenshot jpg 92
+screenshot ${picture##*.} 92
 wait_8
 quit
 CFG
     chmod -R a+rX "$work"
-    LIBGL_ALWAYS_SOFTWARE=1 VKPT_RENDERER=gl3 VKPT_GAME=vkpt VKPT_DATA=$work timeout 1200 scripts/run_engine.sh "$run" "$size" \
-        +set sv_entfile 1 +set con_notifytime 0 +set crosshair 0 +set cl_gun 0 +set deathmatch 0 +set maxclients 1 \
+    LIBGL_ALWAYS_SOFTWARE=1 VKPT_RENDERER=$renderer VKPT_GAME=vkpt VKPT_DATA=$work timeout 1200 scripts/run_engine.sh "$run" "$size" \
+        +set sv_entfile 1 +set con_notifytime 0 +set crosshair 0 +set deathmatch 0 +set maxclients 1 "$@" \
         +map "$map" +exec photograph.cfg >"$run/log" 2>&1 || { tail -n 20 "$run/log" >&2; return 1; }
     if grep -q '^Retrying with' "$run/home/.yq2/vkpt/qconsole.log"; then
-        echo "gl3 did not start here; its console:" >&2
-        sed -n '/ref_gl3/,/^Retrying with/p' "$run/home/.yq2/vkpt/qconsole.log" >&2
+        echo "$renderer did not start here; its console:" >&2
+        sed -n '/ref_'"$renderer"'/,/^Retrying with/p' "$run/home/.yq2/vkpt/qconsole.log" >&2
         return 1
     fi
-    install -m 644 "$run"/home/.yq2/vkpt/scrnshot/*.jpg "$out/${name}_gl3.jpg"
-    echo "$out/${name}_gl3.jpg"
+    install -m 644 "$run"/home/.yq2/vkpt/scrnshot/*."${picture##*.}" "$out/$picture"
+    echo "$out/$picture"
 }
+
+is_wanted() { [ ${#wanted[@]} -eq 0 ] || [[ " ${wanted[*]} " == *" $1 "* ]]; }
 
 # picture NAME [vkpt's options]: the scene of gallery_scenes by this name.
 picture() {
     local name=$1 scene=${gallery_scenes[$1]}
     shift
-    if [ ${#wanted[@]} -gt 0 ] && [[ " ${wanted[*]} " != *" $name "* ]]; then
-        return
-    fi
+    is_wanted "$name" || return 0
     if [ "$renderer" = gl3 ]; then
-        photograph_gl3 "$name" "$scene"
+        photograph gl3 "$name" "$scene" "${name}_gl3.jpg" +set cl_gun 0
         return
     fi
     "$build/bin/vkpt" render "$scene" --basedir "$work" --size "$size" "$@" -o "$out/$name.png"
@@ -114,3 +115,10 @@ picture flashlight "${frames[@]}" --set pt_flashlight=1 --set pt_emission_scale=
 picture wipe "${frames[@]}" --set pt_wipe=0.5
 [ "$renderer" = gl3 ] || picture screens "${frames[@]}" # gl3 has no cameras
 picture lens "${samples[@]}" --set pt_aperture=10 --set pt_focus=190
+# The engine's: what it does not send is the player's own body.
+if is_wanted body && [ "$renderer" = gl3 ]; then
+    photograph gl3 body "${gallery_scenes[body]}" body_gl3.jpg
+elif is_wanted body; then
+    hide_status_bar
+    photograph vkpt body "${gallery_scenes[body]}" body.png +set pt_render_scale 100 +set pt_target_ms 0
+fi

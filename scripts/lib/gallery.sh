@@ -13,6 +13,7 @@ declare -A gallery_scenes=(
     [flashlight]=maps/vkpt1.bsp@-440,100,60,10,-135
     [wipe]=maps/vkpt1.bsp@0,-384,54,0,90
     [screens]=maps/screens.bsp@690,520,150,3,-30
+    [body]=maps/vkpt1.bsp@0,-360,46,0,-90
     [lens]=maps/vkpt1.bsp@0,-384,46,0,90
 )
 

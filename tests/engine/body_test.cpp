@@ -54,10 +54,10 @@ TEST(Engine, ShowsThePlayerInTheMirror)
     ASSERT_GE(pictures.size(), 2u) << run.result().console;
     const formats::Image with = load_picture(pictures.front()), without = load_picture(pictures.back());
     ASSERT_EQ(with.pixels.size(), without.pixels.size());
-    const double in_mirror = mean_difference(with, without, 0.45, 0.55, 0.4, 0.65);
+    const double in_mirror = mean_difference(with, without, 0.485, 0.515, 0.48, 0.68);
     const double beside = mean_difference(with, without, 0, 0.15, 0.1, 0.6);
-    EXPECT_GT(in_mirror, 20);
-    EXPECT_LT(beside, 5);
+    EXPECT_GT(in_mirror, 12);
+    EXPECT_LT(beside, 3);
     EXPECT_LT(measure_picture(with).black, 0.5);
 }
 
