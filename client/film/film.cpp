@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // vkpt film: a trace or a demo as a film, with motion blur.
 #include "client/film/encoder.hpp"
+#include "client/film/time_left.hpp"
 #include "client/host/errors.hpp"
 #include "client/host/output_file.hpp"
 #include "client/host/session_folder.hpp"
@@ -11,7 +12,6 @@
 #include "client/record/sound.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fmt/format.h>
@@ -105,7 +105,9 @@ public:
             throw WrongUse(
                 fmt::format("-o {}: name a FILE.mp4, or a FOLDER/ for pictures frame000001.png, ...", options.output));
         if (size.width % 2 != 0 || size.height % 2 != 0)
-            throw WrongUse(fmt::format("--size {}x{}: films need an even width and height", size.width, size.height));
+            throw WrongUse(fmt::format("--size {}x{}: films need an even width and height, such as {}x{}; pictures in "
+                                       "a FOLDER/ may have any",
+                size.width, size.height, size.width + size.width % 2, size.height + size.height % 2));
         check_ffmpeg();
         file_.emplace(options.output);
         temporary_.emplace("vkpt-film-");
@@ -146,37 +148,13 @@ private:
     bool has_sound_ = false;
 };
 
-// Time left is said where stderr is no terminal, too: films take hours.
-class ProgressClock {
-public:
-    explicit ProgressClock(int frames)
-        : frames_(frames)
-        , progress_("filming", frames)
-    {
-    }
-
-    void show(int done)
-    {
-        progress_.show(done);
-        using namespace std::chrono;
-        constexpr seconds between(60);
-        const auto now = steady_clock::now();
-        if (now - said_ < between || done == frames_)
-            return;
-        said_ = now;
-        const double left = duration<double>(now - start_).count() / done * (frames_ - done);
-        std::fprintf(stderr, "%svkpt: frame %d of %d, %.0f minutes left\n", progress_.is_shown() ? "\r\033[K" : "",
-            done, frames_, std::ceil(left / 60));
-    }
-
-    void finish() { progress_.finish(); }
-
-private:
-    int frames_;
-    ProgressBar progress_;
-    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    std::chrono::steady_clock::time_point said_ = start_;
-};
+// Time left is said where stderr is no terminal, too.
+void show_progress(ProgressBar& progress, TimeLeft& time_left, int done)
+{
+    progress.show(done);
+    if (const std::string line = time_left.describe(done, TimeLeft::Clock::now()); !line.empty())
+        std::fprintf(stderr, "%svkpt: %s\n", progress.is_shown() ? "\r\033[K" : "", line.c_str());
+}
 
 int count_frames(const FilmOptions& options, const TraceFrames& trace)
 {
@@ -211,15 +189,16 @@ void make_film(const FilmOptions& options, FileSystem& files, const Recorded& re
     trace.register_with(host);
     for (const std::string& note : trace.notes())
         std::fprintf(stderr, "vkpt: %s\n", note.c_str());
-    ProgressClock clock(frames);
+    ProgressBar progress("filming", frames);
+    TimeLeft time_left(frames, TimeLeft::Clock::now());
     constexpr int seeds = 1 << 24;
     for (int frame = 0; frame < frames; frame++) {
         host.cvars().set("pt_seed", fmt::format("{}", 1 + (options.scene.seed + frame) % (seeds - 1)));
         expose(options, trace, host, frame);
         pictures.add(read_picture(host.extension()));
-        clock.show(frame + 1);
+        show_progress(progress, time_left, frame + 1);
     }
-    clock.finish();
+    progress.finish();
     pictures.finish();
     fmt::print("{}: {} frames of {} x {}, {:.1f} s, {}\n", options.output, frames, size.width, size.height, seconds,
         pictures.has_sound() ? "with sound" : "without sound");

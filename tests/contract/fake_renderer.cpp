@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A renderer that draws nothing and tells the console what it was asked: what exports.cpp and the host are tested with.
-// Cvars steer it: "fake_throw" = "VERB KIND" makes one verb throw (level, fatal, format, memory, bug, number).
+// Cvars steer it: "fake_throw" = "VERB KIND" makes one verb throw (level, fatal, format, memory, bug, number);
+// "fake_lens" = 1 tells of the lens before each view.
 #include "ref_vkpt/cvars.hpp"
 #include "ref_vkpt/engine/engine.hpp"
 #include "ref_vkpt/engine/exports.hpp"
@@ -147,6 +148,7 @@ bool init()
 {
     note("init");
     engine::get_cvar("fake_models", "0", engine::CVAR_NONE);
+    engine::get_cvar("fake_lens", "0", engine::CVAR_NONE);
     cvars::register_all();
     engine::add_command("fake_command", [] { note("command", engine::argument(1)); });
     const auto size = engine::init_graphics(0, { cvars::values().r_customwidth, cvars::values().r_customheight });
@@ -203,6 +205,8 @@ void render_view(const engine::RefDef& refdef)
 {
     for (int i = 0; i < 3; i++)
         last_eye[i] = refdef.view_origin[i];
+    if (std::string_view(engine::get_cvar("fake_lens", "0", engine::CVAR_NONE)->text) == "1")
+        note("lens", cvars::values().pt_aperture, cvars::values().pt_focus);
     note("render_view", refdef.width, refdef.height, last_eye[0], last_eye[1], last_eye[2], refdef.view_angles[0],
         refdef.view_angles[1], refdef.entity_count);
 }

@@ -4,6 +4,7 @@
 #include "formats/image.hpp"
 #include "tests/client/run_program.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -51,7 +52,9 @@ protected:
     }
     ProgramResult film(std::vector<std::string> more, const std::string& path = "/usr/bin:/bin") const
     {
-        std::vector<std::string> arguments { "film", "a.rtrace", "--size", "8x4", "--verbose" };
+        std::vector<std::string> arguments { "film", "a.rtrace", "--verbose" };
+        if (std::ranges::find(more, "--size") == more.end())
+            more.insert(more.end(), { "--size", "8x4" });
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run_program(VKPT_PROGRAM, arguments, folder.path(),
             { std::string("VKPT_MODULE=") + FAKE_MODULE, "XDG_CACHE_HOME=" + (folder.path() / "cache").string(),
@@ -107,6 +110,25 @@ TEST_F(Film, AClosedShutterFreezesTheMoment)
         EXPECT_NEAR(x, 0, 1e-4);
 }
 
+TEST_F(Film, LensIsThatOfTheOptions)
+{
+    const auto lens_of = [&](std::vector<std::string> options) {
+        options.insert(options.end(), { "--spp", "1", "--seconds", "0.1", "--set", "fake_lens=1", "-o", "out/" });
+        const ProgramResult result = film(options);
+        EXPECT_EQ(result.status, 0) << result.errors;
+        const size_t start = result.errors.find("call lens "), end = result.errors.find('\n', start);
+        return start == std::string::npos ? "none" : result.errors.substr(start, end - start);
+    };
+    EXPECT_EQ(lens_of({}), "call lens 0 256") << "all is sharp";
+    EXPECT_EQ(lens_of({ "--aperture", "6.5", "--focus", "180" }), "call lens 6.5 180");
+    for (const std::vector<std::string>& wrong : { std::vector<std::string> { "--aperture", "-1" },
+             { "--aperture", "1001" }, { "--focus", "0" }, { "--focus", "100001" } }) {
+        std::vector<std::string> options = wrong;
+        options.insert(options.end(), { "-o", "out/" });
+        EXPECT_EQ(film(options).status, 2) << wrong[0] << " " << wrong[1];
+    }
+}
+
 TEST_F(Film, FfmpegGetsEveryPicture)
 {
     write_ffmpeg("for last; do :; done\necho \"$*\" > arguments.txt\nwc -c > \"$last\"\n");
@@ -147,7 +169,10 @@ TEST_F(Film, SaysWhatIsMissingOrWrong)
     EXPECT_NE(broken.errors.find("no room"), std::string::npos) << broken.errors;
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.mp4"));
     EXPECT_EQ(film({ "-o", "a.avi" }).status, 2);
-    EXPECT_EQ(film({ "--size", "7x4", "-o", "a.mp4" }).status, 2);
+    const ProgramResult odd = film({ "--size", "7x5", "-o", "a.mp4" });
+    EXPECT_EQ(odd.status, 2);
+    EXPECT_NE(odd.errors.find("such as 8x6"), std::string::npos) << odd.errors;
+    EXPECT_EQ(film({ "--size", "7x5", "--spp", "1", "--seconds", "0.1", "-o", "out/" }).status, 0);
     EXPECT_EQ(film({ "--from", "9", "-o", "out/" }).status, 2);
     EXPECT_EQ(film({ "--shutter", "2", "-o", "out/" }).status, 2);
     EXPECT_EQ(film({ "--sound", "a.wav", "-o", "out/" }).status, 2);
