@@ -46,13 +46,14 @@ void add_emitter(LightRow& row, const InspectedLight& emitter, const InspectedSu
 std::vector<LightRow> make_rows(
     const Module& m, MapLights& lights, const InspectedSurface& surface, const std::vector<InspectedLight>& emitters)
 {
-    const size_t fixed = m.scene.world()->models[0].emitters.size();
+    const size_t fixed = m.scene.world()->models[0].emitters.size(), suns_end = fixed + lights.sun_count();
     std::map<uint32_t, LightRow> by_light; // those that move behind the map's
     double sum = 0;
     for (const InspectedLight& emitter : emitters) {
-        const bool is_fixed = emitter.emitter < fixed;
-        const uint32_t light
-            = is_fixed ? lights.light_of(emitter.emitter) : uint32_t(lights.light_count()) + emitter.emitter;
+        const bool is_fixed = emitter.emitter < suns_end; // suns are the first behind the map's emitters
+        const uint32_t light = emitter.emitter < fixed ? lights.light_of(emitter.emitter)
+            : is_fixed                                 ? lights.light_of_sun(emitter.emitter - fixed)
+                                                       : uint32_t(lights.light_count()) + emitter.emitter;
         LightRow& row = by_light[light];
         add_emitter(row, emitter, surface);
         sum += double(emitter.weight);
@@ -133,8 +134,7 @@ void LightInspector::change(Module& m, bool solo)
             text, rows_.size());
     const LightRow& row = rows_[number - 1];
     if (!row.light)
-        return engine::print(
-            "pt_lights: {} is not the map's, and stays (pt_dlight_scale and pt_sun_scale dim those)", row.name);
+        return engine::print("pt_lights: {} is not the map's, and stays (pt_dlight_scale dims the engine's)", row.name);
     MapLights& lights = m.scene.map_lights();
     std::vector<bool> muted = solo ? std::vector<bool>(lights.light_count(), true) : lights.muted();
     muted[*row.light] = !solo;

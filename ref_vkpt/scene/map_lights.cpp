@@ -6,7 +6,7 @@
 
 namespace vkpt {
 
-MapLights::MapLights(const World& world)
+MapLights::MapLights(const World& world, size_t sun_count)
     : world_(world)
 {
     constexpr uint32_t none = UINT32_MAX;
@@ -27,7 +27,7 @@ MapLights::MapLights(const World& world)
             light = uint32_t(faces_.size());
             faces_.push_back(-1);
         }
-    muted_.assign(faces_.size(), false);
+    muted_.assign(faces_.size() + sun_count, false);
 }
 
 const std::string& MapLights::texture_of(uint32_t light) const

@@ -117,12 +117,15 @@ bool is_glowing(const Texture& texture, const MaterialSettings* material)
     return threshold > 0 && texture.brightest >= threshold;
 }
 
-// First of the moving emitters, so that they keep their places; a change of pt_sun_scale counts at once.
-void add_suns(SceneSnapshot& snapshot, std::span<const Sun> suns, glm::vec3 sky_colour)
+// First of the moving emitters, so that they keep their places; a change of pt_sun_scale counts at once. `lights` knows
+// those that are muted; nullptr: none is.
+void add_suns(SceneSnapshot& snapshot, std::span<const Sun> suns, glm::vec3 sky_colour, const MapLights* lights)
 {
-    for (const Sun& sun : suns) {
-        shared::Emitter emitter = make_sun(sun, sky_colour);
-        if (emitter.lightstyle == 0)
+    for (size_t i = 0; i < suns.size(); i++) {
+        shared::Emitter emitter = make_sun(suns[i], sky_colour);
+        if (lights && lights->is_sun_muted(i))
+            emitter.lightstyle = lightstyle_none;
+        else if (emitter.lightstyle == 0)
             emitter.lightstyle = lightstyle_sun;
         snapshot.emitters.push_back(emitter);
     }
@@ -502,7 +505,7 @@ std::vector<Sun> Scene::find_suns_of_moment(const shared::Sky& sky) const
 MapLights& Scene::map_lights()
 {
     if (!map_lights_)
-        map_lights_.emplace(*world_);
+        map_lights_.emplace(*world_, world_->suns.size() + (sky_.sun ? 1 : 0));
     return *map_lights_;
 }
 
@@ -552,7 +555,7 @@ SceneSnapshot Scene::take_snapshot(
         for (engine::Entity& part : player_body)
             part.flags &= player ? ~engine::RF_VIEWERMODEL : ~0;
         world_->animated_lights.append_rows(snapshot.lightstyles, refdef.time);
-        add_suns(snapshot, find_suns_of_moment(snapshot.sky), sky_.average);
+        add_suns(snapshot, find_suns_of_moment(snapshot.sky), sky_.average, map_lights_ ? &*map_lights_ : nullptr);
         if (cvars.pt_flashlight != 0)
             snapshot.emitters.push_back(make_flashlight(eye));
     }

@@ -3,6 +3,7 @@
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <regex>
 
@@ -25,11 +26,17 @@ protected:
         map.add(rectangle({ 60, 0, 100 }, { 0, 16, 0 }, { 16, 0, 0 }), dim);
         map.add_point_light({ -60, 0, 100 }, 150);
         folder_.add_map("lamps", map.finish());
-        session_
-            = std::make_unique<Session>(folder_, CvarList { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } });
-        session_->load_map("lamps");
+        start("lamps");
         session_->look({ 0, 0, 60 }, { 1, 0, 0 }, 20);
         session_->draw();
+    }
+
+    void start(const std::string& map)
+    {
+        session_ = nullptr;
+        session_
+            = std::make_unique<Session>(folder_, CvarList { { "pt_bounces", "0" }, { "pt_roughness_default", "1" } });
+        session_->load_map(map);
     }
 
     std::vector<std::string> run(const std::string& command)
@@ -112,6 +119,34 @@ TEST_F(LightInspection, MutedLightsNeitherLightNorShine)
     session_->load_map("lamps"); // forgets it
     session_->look({ 0, 0, 60 }, { 1, 0, 0 }, 20);
     EXPECT_NEAR(light_on_floor(), all, 0.01 * all);
+}
+
+// Suns are in no face of the map.
+TEST_F(LightInspection, SunsAreMutedAsLampsAre)
+{
+    folder_.add_wall("sky", white_index);
+    MapBuilder map;
+    map.add_entity({ { "classname", "worldspawn" }, { "_sun_light", "128" }, { "_sun_color", "1 1 1" },
+        { "_sun2_light", "64" }, { "_sun2_color", "1 1 1" }, { "_sun2_angle", "0 -60" } });
+    map.add_room({ -500, -500, -100 }, { 500, 500, 500 }, map.add_material("sky", formats::SURF_SKY));
+    map.add(rectangle({ 0, 0, 0 }, { 200, 0, 0 }, { 0, 200, 0 }), map.add_material("floor"));
+    map.add_point_light({ -60, 0, 100 }, 150);
+    folder_.add_map("sunny", map.finish());
+    start("sunny");
+    session_->set("pt_sky_scale", 0);
+    session_->look({ 0, 0, 60 }, { 1, 0, 0 }, 20);
+    const double all = light_on_floor();
+    const int brightest = find_row("sun");
+    ASSERT_GT(brightest, 0);
+    EXPECT_NE(run("pt_lights mute " + std::to_string(brightest)).front().find("sun is muted"), std::string::npos);
+    EXPECT_NEAR(light_on_floor(), all - 1, 0.02);
+    EXPECT_NE(run("pt_lights").front().find("muted: 1"), std::string::npos);
+    run("pt_lights solo " + std::to_string(find_row("point light")));
+    EXPECT_NEAR(light_on_floor(), all - 1 - 0.5 * std::sin(M_PI / 3), 0.02);
+    run("pt_lights all");
+    EXPECT_NEAR(light_on_floor(), all, 0.02);
+    run("pt_lights solo " + std::to_string(find_row("sun")));
+    EXPECT_NEAR(light_on_floor(), 1, 0.02);
 }
 
 // Averaged images and photo mode's keep a scene.
