@@ -98,7 +98,7 @@ private:
     {
         std::string text;
         for (size_t action = 2 + pick(4); action > 0; action--)
-            switch (pick(8)) {
+            switch (pick(9)) {
             case 0:
                 counts_.back()["demos"]++;
                 text += "demomap " + std::string(own_demo) + "\nwait_100\n";
@@ -113,6 +113,10 @@ private:
                 text += write_nonsense() + "\nwait_5\n";
                 break;
             case 4:
+                counts_.back()["commands of the module"]++;
+                text += write_module_command() + "\nwait_5\n";
+                break;
+            case 5:
                 text += "+forward\n+right\n+attack\nwait_25\n-attack\n-right\n-forward\n";
                 break;
             default:
@@ -160,6 +164,19 @@ private:
         const double at = std::uniform_real_distribution<>(0, 1)(random_);
         const double value = low + (high - low) * (high - low > 100 ? std::pow(at, 8) : at);
         return row.type == CvarType::integer ? std::to_string(std::lround(value)) : std::to_string(value);
+    }
+
+    // What stops the game goes on again at once, and no file is written.
+    std::string write_module_command()
+    {
+        static constexpr const char* lines[] = { "pt_menu;wait;wait;pt_menu",
+            "pt_photo;wait;wait;wait;pt_photo fov 60;pt_photo nothing;wait;pt_photo off",
+            "pt_replay;wait;wait;wait;pt_replay seek -1;pt_replay play 0.5;wait;pt_replay off",
+            "pt_photo;wait;pt_menu;pt_replay;wait;wait;pt_replay off;pt_photo off;pt_menu;wait;pt_menu",
+            "mat;mat roughness_override 0.1;wait;mat kind CHROME;wait;mat nothing 1;mat reset",
+            "pt_lights;pt_lights mute 1;wait;pt_lights solo 2;wait;pt_lights mute 1e9;pt_lights all",
+            "flashlight;wait;wait;flashlight", "pt_preset low;wait;pt_preset nothing;pt_preset high", "camera" };
+        return lines[pick(std::size(lines))];
     }
 
     // None that could end the engine or write a file.

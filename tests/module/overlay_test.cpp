@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is drawn over the picture: where it is, that it goes again, and that pt_preset sets what it says.
+#include "ref_vkpt/presets.hpp"
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <regex>
 
 namespace vkpt::tests {
 namespace {
@@ -122,20 +127,48 @@ TEST_F(OverlayOfModule, PresetsSetTheirCvars)
     session_->host().run_text("pt_preset high\n");
 }
 
-// What is set then is what the console says, whatever it is on this machine.
+// Milliseconds of a frame with each measured preset, and the preset that is set then, as the console says.
+struct Decision {
+    std::array<double, PresetMeasurement::measured.size()> times {};
+    std::string preset;
+};
+
+// What follows from such times.
+std::string decide(const Decision& measured, double wanted)
+{
+    PresetMeasurement again(wanted);
+    for (double now = 0; !again.is_over(); now += 0.1) {
+        const auto* place = std::ranges::find(PresetMeasurement::measured, std::string_view(again.current()));
+        again.add_frame(now, measured.times[size_t(place - PresetMeasurement::measured.begin())]);
+    }
+    return again.answer().preset;
+}
+
 TEST_F(OverlayOfModule, AutoMeasuresAndDecides)
 {
-    session_->host().run_text("pt_preset auto 1\n");
-    EXPECT_TRUE(session_->has_line("measuring"));
-    for (int frame = 0; frame < 100000 && !session_->has_line("milliseconds of a frame here"); frame++)
-        session_->draw();
-    EXPECT_EQ(value("pt_target_ms"), "1000.00");
-    session_->host().run_text("pt_preset\n");
-    int matching = 0;
-    for (const char* preset : { "low", "medium", "high", "ultra" })
-        matching += session_->has_line(std::string("pt_preset is \"") + preset + "\"")
-            && session_->has_line(std::string("wanted 1000.0: pt_preset ") + preset + ",");
-    EXPECT_EQ(matching, 1);
+    const auto measure = [](double wanted) {
+        const std::regex pattern("frame here: ultra ([0-9.]+), high ([0-9.]+), medium ([0-9.]+); wanted [0-9.]+: "
+                                 "pt_preset ([a-z]+),");
+        size_t line = session_->lines().size();
+        session_->host().run_text(fmt::format("pt_preset auto {}\n", 1000 / wanted));
+        Decision said;
+        for (int frame = 0; frame < 100000 && said.preset.empty(); frame++) {
+            session_->draw();
+            std::smatch match;
+            for (; line < session_->lines().size(); line++)
+                if (std::regex_search(session_->lines()[line], match, pattern))
+                    said = { { std::stod(match[1]), std::stod(match[2]), std::stod(match[3]) }, match[4] };
+        }
+        EXPECT_EQ(said.preset, decide(said, wanted)) << "wanted: " << wanted << ", ultra takes " << said.times[0]
+                                                     << ", high " << said.times[1] << ", medium " << said.times[2];
+        EXPECT_EQ(value("pt_target_ms"), fmt::format("{:.2f}", wanted));
+        session_->host().run_text("pt_preset\n");
+        EXPECT_NE(session_->lines().back().find("pt_preset is \"" + said.preset + "\""), std::string::npos);
+        return said;
+    };
+    const Decision slow = measure(1000);
+    EXPECT_GT(slow.times[0], slow.times[2]);
+    measure((slow.times[0] + slow.times[1]) / 2);
     session_->host().run_text("pt_preset high\n");
 }
 
