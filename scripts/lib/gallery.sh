@@ -27,3 +27,16 @@ make_gallery_data() {
     cp "$maps/vkpt1.bsp" "$maps/screens.bsp"
     cp docs/gallery/screens.txt "$maps/cameras/"
 }
+
+# make_bare_map BASEDIR: looks.map without its liquids and glass, as maps/bare.bsp.
+make_bare_map() {
+    local maps=$1/baseq2/maps
+    awk -v textures=" vkpt/water vkpt/slime vkpt/lava vkpt/lamp_cyan vkpt/lamp_green vkpt/lamp_magenta " '
+        /^\{/ { depth++; if (depth == 2) { brush = ""; wanted = 1 } }
+        depth == 2 { brush = brush $0 "\n"; if (index(textures, " " $16 " ")) wanted = 0 }
+        depth != 2 { print }
+        /^\}/ { if (depth == 2 && wanted) printf "%s", brush; depth-- }' docs/gallery/looks.map >"$1/bare.map"
+    "$build/tools/map_compiler/vkpt_map" "$1/bare.map" -o "$maps/bare.bsp" --textures "$build/game/baseq2/textures"
+    cp docs/gallery/looks.lights "$maps/bare.lights"
+    cp docs/gallery/looks.mat "$maps/bare.mat"
+}
