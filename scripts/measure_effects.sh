@@ -63,7 +63,7 @@ write_spots() {
     local x y
     for x in -210 -70 70 210; do
         for y in -400 -200 0 200; do
-            echo "{ \"classname\" \"light\" \"origin\" \"$x $y 200\" \"light\" \"200\" \"_spotangle\" \"0 -90\" \"_cone\" \"30\" }"
+            echo "{ \"classname\" \"light\" \"origin\" \"$x $y 200\" \"light\" \"2000\" \"_spotangle\" \"0 -90\" \"_cone\" \"30\" }"
         done
     done
 }
@@ -74,7 +74,7 @@ record_shots() {
     copy_map mirror
     set_material mirror floor_ kind CHROME
     printf '%s\n' "give all" "use railgun" wait_60 +attack wait_60 wait_60 wait_60 wait_60 -attack +lookdown wait_20 -lookdown \
-        wait_60 wait_60 wait_60 stop quit >"$work/route.cfg"
+        wait_60 wait_60 wait_60 wait_60 stop quit >"$work/route.cfg"
     scripts/record_demo.sh "$work/route.cfg" "$work/shots.dm2" "$work/baseq2/maps/mirror.bsp" >&2 \
         && "$build/bin/vkpt" record "$work/shots.dm2" --timedemo --basedir "$work" -o "$work/shots.rtrace" >&2
 }
