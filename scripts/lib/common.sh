@@ -6,6 +6,10 @@
 : "${root:?common.sh is sourced by ./play, ./test and scripts/*.sh}"
 # shellcheck disable=SC2034
 build_dir=${VKPT_BUILD_DIR:-$root/build/release}
+if [[ $build_dir != /* ]]; then # what is called from here may work in another folder
+    build_dir=$PWD/$build_dir
+    export VKPT_BUILD_DIR=$build_dir
+fi
 log_dir=$root/build/log
 seconds_between_lines=10 # of progress, where there is no terminal
 
