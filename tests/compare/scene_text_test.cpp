@@ -27,9 +27,9 @@ protected:
         triangles[1] = { { { 5, 0, 0 }, { 6, 0, 0 }, { 5, 1, 0 } }, {}, {}, 2, -1, 4 };
         for (SceneTriangle& triangle : triangles)
             std::memcpy(triangle.normals, up, sizeof up);
-        materials[0] = { "", { 1, 1, 1 }, { 0.5f, 0.25f, 0.125f }, 1, {}, {}, {}, 0.7f, 0, 0 };
+        materials[0] = { "", { 1, 1, 1 }, { 0.5f, 0.25f, 0.125f }, 1, {}, {}, {}, 0.7f, 0, 1, 0 };
         materials[1] = { "textures/lamp.wal", { 1, 0.5f, 1 }, { 1, 1, 1 }, 0.5f, { 4, 6, 8 }, { 2, 3, 4 }, { 0.25f, 0 },
-            0.2f, 1, shared::MATERIAL_WARP | shared::MATERIAL_TRANSLUCENT };
+            0.2f, 1, 0.75f, shared::MATERIAL_WARP | shared::MATERIAL_TRANSLUCENT };
         materials[2] = materials[0];
         emitters[0]
             = { shared::EMITTER_TRIANGLE, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0.5f } }, {}, 0, { 2, 3, 4 }, 0.5f, 0 };
@@ -127,6 +127,7 @@ TEST_F(SceneText, JsonHasCameraEmittersAndTheirPower)
     EXPECT_EQ(json.at("time"), 1.5);
     EXPECT_EQ(json.at("liquids").at("water").at("waves").size(), 3u);
     EXPECT_EQ(json.at("materials").at(1).at("uv_scroll"), (std::vector<double> { 0.25, 0 }));
+    EXPECT_EQ(json.at("materials").at(1).at("specular"), 0.75);
     EXPECT_EQ(json.at("materials").at(1).at("flags"), (std::vector<std::string> { "warp", "translucent" }));
 }
 
