@@ -14,18 +14,13 @@
 set -euo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
 cd "$root"
-. scripts/lib/common.sh
-. scripts/lib/gallery.sh
-[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '3,13s/^# \?//p' "$0"; exit 0; }
+. scripts/lib/measure.sh
 (($#)) || die_usage "the commit to compare with is missing"
 commit=$(git rev-parse --verify --quiet --short=12 "$1^{commit}") || die_usage "'$1' is no commit"
 shift
 (($#)) || set -- maps/vkpt1.bsp maps/bare.bsp
-build=$build_dir
 rounds=${VKPT_COMMIT_ROUNDS:-5} frames=${VKPT_COMMIT_FRAMES:-24} size=${VKPT_COMMIT_SIZE:-640x360}
 old=$root/build/commits/$commit
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 
 build_commit() {
     [[ -e $old/.git ]] || run_step worktree "Checking out $commit" git worktree add --detach --force "$old" "$commit"
@@ -53,13 +48,7 @@ compare() {
         done
     done
     printf '\n%s\n\n' "$scene, $size, $rounds rounds of $frames frames:"
-    awk -F '\t' -v commit="$commit" '
-        function median(list, count,   i, j, held, value) {
-            split(list, value, " ")
-            for (i = 2; i <= count; i++)
-                for (j = i; j > 1 && value[j - 1] + 0 > value[j] + 0; j--) { held = value[j]; value[j] = value[j - 1]; value[j - 1] = held }
-            return count % 2 ? value[(count + 1) / 2] : (value[count / 2] + value[count / 2 + 1]) / 2
-        }
+    awk -F '\t' -v commit="$commit" "$awk_median"'
         function cell(who, name) { return n[who, name] ? sprintf("%.2f", median(ms[who, name], n[who, name])) : "-" }
         { if (!seen[$3]++) order[++names] = $3
           ms[$1, $3] = ms[$1, $3] " " $4; n[$1, $3]++; at[$1, $2, $3] = $4

@@ -87,8 +87,6 @@ CFG
     echo "$out/$picture"
 }
 
-is_wanted() { [ ${#wanted[@]} -eq 0 ] || [[ " ${wanted[*]} " == *" $1 "* ]]; }
-
 # picture NAME [vkpt's options]: the scene of gallery_scenes by this name.
 picture() {
     local name=$1 scene=${gallery_scenes[$1]}

@@ -13,14 +13,9 @@
 set -euo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
 cd "$root"
-. scripts/lib/common.sh
-. scripts/lib/gallery.sh
-[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '3,13s/^# \?//p' "$0"; exit 0; }
-build=$build_dir
-wanted=" $* "
+. scripts/lib/measure.sh
+wanted=("$@")
 rounds=${VKPT_EFFECT_ROUNDS:-3} frames=${VKPT_EFFECT_FRAMES:-24} size=${VKPT_EFFECT_SIZE:-640x360}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 
 # frame_time SCENE [NAME=VALUE]...: the median frame in ms.
 frame_time() {
@@ -81,13 +76,6 @@ record_shots() {
 
 # Maps that lack what the scene's map has, for effects without a setting.
 declare -A bare_maps=([looks]=bare [sunny]=sunless [spots]=vkpt1 [glow]=vkpt1)
-
-# is_wanted NAME...: whether one of them was asked for.
-is_wanted() {
-    local name
-    for name in "$@"; do [[ $wanted != "  " && $wanted != *" $name "* ]] || return 0; done
-    return 1
-}
 
 # effect NAME SCENE [NAME=WITHOUT,WITH]... [-- NAME=VALUE...]: those behind -- count for both. Without a setting to turn off,
 # the scene is compared with the map of bare_maps.
@@ -150,12 +138,7 @@ if is_wanted particles player_body; then
     effect particles "$work/shots.rtrace@20" gl3_particle_size=0,40
     effect player_body "$work/shots.rtrace@60" pt_player_body=0,1
 fi
-awk 'function median(list, count,   i, j, held, value) {
-        split(list, value, " ")
-        for (i = 2; i <= count; i++)
-            for (j = i; j > 1 && value[j - 1] + 0 > value[j] + 0; j--) { held = value[j]; value[j] = value[j - 1]; value[j - 1] = held }
-        return count % 2 ? value[(count + 1) / 2] : (value[count / 2] + value[count / 2 + 1]) / 2
-    }
+awk "$awk_median"'
     { if (!n[$1]++) order[++names] = $1
       without[$1] = without[$1] " " $2; with[$1] = with[$1] " " $3; ratio[$1] = ratio[$1] " " $3 / $2 }
     END { print "| effect | without, ms | with | ratio |\n|---|---|---|---|"

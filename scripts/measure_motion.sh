@@ -14,7 +14,7 @@
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
 . "$root/scripts/lib/common.sh"
-[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '3,14s/^# \?//p' "$0"; exit 0; }
+help_if_asked "$@"
 (($# >= 2)) || die_usage "a folder for the results and a map are needed"
 mkdir -p "$1/base/baseq2/maps" || die "cannot write to $1"
 out=$(cd "$1" && pwd)

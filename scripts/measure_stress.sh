@@ -10,7 +10,7 @@
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
 . "$root/scripts/lib/common.sh"
-[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '3,10s/^# \?//p' "$0"; exit 0; }
+help_if_asked "$@"
 [[ $# -ge 1 ]] || die_usage "the folder for the results is missing"
 mkdir -p "$1" || die "cannot write to $1"
 out=$(cd "$1" && pwd)

@@ -13,7 +13,7 @@ root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
 route=${1:-$root/scripts/demo_route.cfg}
 demo=${2:-$root/baseq2/demos/vkpt1.dm2}
 map=${3:-}
-[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '3,10s/^# \?//p' "$0"; exit 0; }
+help_if_asked "$@"
 [[ -r $route ]] || die "no route $route"
 [[ -z $map || -r $map ]] || die "no map $map"
 

@@ -7,11 +7,11 @@
 # shellcheck disable=SC2034,SC2317  # variables and functions of the scripts are replaced
 set -uo pipefail
 root=$(cd -- "$(dirname -- "$(readlink -f -- "$0")")/.." && pwd)
-[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '3,6s/^# \?//p' "$0"; exit 0; }
+. "$root/scripts/lib/common.sh"
+help_if_asked "$@"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 export VKPT_APT_DIR=$folder/apt VKPT_RECORD_DIR=$folder/record
-. "$root/scripts/lib/common.sh"
 . "$root/scripts/lib/setup.sh"
 needed_for=${1:-test}
 log_dir=$folder/log plan_dir=$folder/plan apt_lists=$folder/lists dpkg_dir=$folder/dpkg dev_dir=$folder/dev no_mesa_stamp=$folder/stamp no_shim_stamp=$folder/shim-stamp

@@ -6,10 +6,9 @@
 #define VKPT_DEVIATIONS_ARE_KNOWN
 #include "lib/frame.glsl"
 #include "denoise/denoise_atrous.glsl"
+#include "lib/dlights.glsl"
 #include "lib/image.glsl"
 #include "lib/scattered_light.glsl"
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DlightBuffer { Dlight v[]; };
 
 // Diffuse without albedo.
 ReflectedLight reflected_light(uvec2 pixel, uint index, Surface surface)

@@ -4,7 +4,7 @@
 // The part of the image that pt_wipe shows as the classic game did: the map's baked lightmaps in place of paths, and on
 // them what the engine's OpenGL 3 renderer (gl3) makes of dynamic lights. The passes behind find nothing left to light
 // there.
-#include "lib/frame.glsl"
+#include "lib/dlights.glsl"
 #include "lib/surfaces.glsl"
 
 const float lightmap_one = 128.0; // value that makes a white surface's radiance 1
@@ -14,8 +14,6 @@ const uint max_models_below = 6u; // that a ray down passes
 // gl3's: a surface is lit within a light's intensity less dlight_margin, as if the light stood dlight_lift farther off
 // it.
 const float dlight_margin = 52.0, dlight_lift = 32.0;
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer DlightBuffer { Dlight v[]; };
 
 LightmapFace load_lightmap_face(uint face)
 {

@@ -162,8 +162,6 @@ void weld(std::vector<FacePiece>& pieces, const Outline& face)
 
 } // namespace
 
-float triangle_area(glm::vec3 a, glm::vec3 b, glm::vec3 c) { return 0.5f * glm::length(glm::cross(b - a, c - a)); }
-
 float measure_area(const std::vector<glm::vec3>& outline)
 {
     glm::vec3 doubled(0);

@@ -6,6 +6,7 @@
 #include "ref_vkpt/lights/work_limit.hpp"
 
 #include <array>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -32,7 +33,10 @@ std::vector<FacePiece> cut_face(
     const formats::Bsp& bsp, size_t face, const std::vector<BrightPart>& parts, glm::ivec2 size, WorkLimit& work);
 WorkLimit limit_of_pieces(const formats::Bsp& bsp);
 
-float triangle_area(glm::vec3 a, glm::vec3 b, glm::vec3 c);
+inline float triangle_area(glm::vec3 a, glm::vec3 b, glm::vec3 c)
+{
+    return 0.5f * glm::length(glm::cross(b - a, c - a));
+}
 // The area of a convex outline.
 float measure_area(const std::vector<glm::vec3>& outline);
 

@@ -81,13 +81,13 @@ private:
     void add_null_model(const Entity& entity);
     void add_glow(glm::vec3 p0, glm::vec3 p1, glm::vec3 p2, float area, const shared::Material& material);
     void add_shell_light(glm::vec3 centre, const shared::Material& material);
-    shared::Material mesh_material(const Entity& entity, const Model& model, const Texture* skin) const;
+    shared::Material mesh_material(
+        const Entity& entity, const Model& model, const Texture* skin, const MaterialSettings* settings) const;
     bool add_md2(const Model::Part& part, const Md2Pose& pose, const shared::Material& material, uint32_t mask,
         const ModelLamps& lamps = {});
     void add_skin_lamps(
         const Md2Mesh& mesh, const Md2Pose& pose, const SkinLamps& lamps, const shared::Material& material);
     Squeeze squeeze_weapon(const Entity& weapon) const;
-    bool is_invisible(const Texture& skin) const;
 
     SceneSnapshot& snapshot_;
     const RefDef& refdef_;
@@ -216,20 +216,14 @@ static const Texture* skin_of(const Entity& entity, const Model::Part& part)
     return skin ? skin : part.skins[0];
 }
 
-bool SnapshotBuilder::is_invisible(const Texture& skin) const
-{
-    const MaterialSettings* settings = defaults_.library ? defaults_.library->find(skin.material) : nullptr;
-    return settings && settings->is_invisible;
-}
-
-shared::Material SnapshotBuilder::mesh_material(const Entity& entity, const Model& model, const Texture* skin) const
+shared::Material SnapshotBuilder::mesh_material(
+    const Entity& entity, const Model& model, const Texture* skin, const MaterialSettings* settings) const
 {
     shared::Material material = plain_material();
     if (skin)
         show_texture(material, *skin);
     SurfaceGuess surface = guess_surface(model.name, defaults_);
-    if (skin)
-        apply_material(surface, skin->material, defaults_);
+    apply_material(surface, settings);
     const TextureMaps maps = skin ? maps_of(*skin) : TextureMaps();
     set_surface(material, surface, maps, defaults_);
     if (entity.flags & RF_FULLBRIGHT)
@@ -277,9 +271,10 @@ void SnapshotBuilder::add_mesh(const Entity& entity, const Model& model, const M
         return;
     for (const Model::Part& part : mesh.parts) {
         const Texture* skin = skin_of(entity, part);
-        if (skin && is_invisible(*skin))
+        const MaterialSettings* settings = skin ? defaults_.find(skin->material) : nullptr;
+        if (settings && settings->is_invisible)
             continue;
-        const shared::Material material = mesh_material(entity, model, skin);
+        const shared::Material material = mesh_material(entity, model, skin, settings);
         ModelLamps lamps;
         // A weapon before the eye is not where it is seen: it lights nothing.
         if (snapshot_.world && !is_weapon && skin && skin->emissive && material.emission != glm::vec3(0))

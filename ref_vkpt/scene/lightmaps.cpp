@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/scene/lightmaps.hpp"
 
+#include "ref_vkpt/scene/world.hpp"
+
 #include <algorithm>
 
 namespace vkpt {

@@ -2,13 +2,14 @@
 // A map's baked lightmaps as shaders read them (shaders/classic_light.comp).
 #pragma once
 
-#include "ref_vkpt/scene/world.hpp"
 #include "shaders/shared/scene.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace vkpt {
+
+struct World;
 
 struct Lightmaps {
     std::vector<shared::LightmapFace> faces; // one for each face of the map

@@ -85,9 +85,13 @@ SurfaceGuess guess_surface(std::string_view texture, const MaterialDefaults& def
     return { defaults.roughness, defaults.metallic };
 }
 
-void apply_material(SurfaceGuess& surface, std::string_view name, const MaterialDefaults& defaults)
+const MaterialSettings* MaterialDefaults::find(std::string_view name) const
 {
-    const MaterialSettings* settings = defaults.library ? defaults.library->find(name) : nullptr;
+    return materials ? materials->find(name) : nullptr;
+}
+
+void apply_material(SurfaceGuess& surface, const MaterialSettings* settings)
+{
     if (!settings)
         return;
     if (settings->roughness >= 0)

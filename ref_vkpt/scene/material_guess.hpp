@@ -11,6 +11,7 @@
 namespace vkpt {
 
 struct MaterialDefaults;
+struct MaterialSettings;
 
 struct SurfaceGuess {
     float roughness, metallic;
@@ -27,8 +28,8 @@ struct SurfaceGuess {
 // `texture`: name as in a texinfo or a skin's path. Names that say nothing get the defaults.
 SurfaceGuess guess_surface(std::string_view texture, const MaterialDefaults& defaults);
 
-// What the library says of formats::material_name `name`, in place of what was guessed.
-void apply_material(SurfaceGuess& surface, std::string_view name, const MaterialDefaults& defaults);
+// What files and the player say, in place of what was guessed; nullptr: nothing.
+void apply_material(SurfaceGuess& surface, const MaterialSettings* settings);
 
 // What is missing of the coat's reflectance, 0 to 1.
 float coat_loss(const shared::Material& material);

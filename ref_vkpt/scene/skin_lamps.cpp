@@ -2,6 +2,7 @@
 #include "ref_vkpt/scene/skin_lamps.hpp"
 
 #include "common/colour.hpp"
+#include "ref_vkpt/lights/face_pieces.hpp"
 #include "ref_vkpt/scene/texture_files.hpp"
 
 #include <algorithm>
@@ -71,9 +72,8 @@ SkinLamps find_skin_lamps(const Md2Mesh& mesh, const formats::Image& glow)
     for (uint32_t slot = 0; slot < mesh.triangle_count(); slot++) {
         const SkinLamp lamp { slot, mean_over(glow, mesh.uvs()[slot]) };
         const uint32_t* corners = &mesh.corners()[size_t(slot) * 3];
-        const glm::vec3 origin = to_vec3(points[corners[0]]);
-        const float area = 0.5f
-            * glm::length(glm::cross(to_vec3(points[corners[1]]) - origin, to_vec3(points[corners[2]]) - origin));
+        const float area
+            = triangle_area(to_vec3(points[corners[0]]), to_vec3(points[corners[1]]), to_vec3(points[corners[2]]));
         if (luminance(lamp.colour) > darkest && area > 0)
             candidates.push_back({ lamp, luminance(lamp.colour) * area });
     }

@@ -243,7 +243,7 @@ std::vector<shared::Material> World::make_materials(float time, const MaterialDe
     for (uint32_t i = 0; i < count; i++) {
         const BspTexinfo& texinfo = bsp.texinfos[i];
         SurfaceGuess surface = guess_surface(texinfo.texture, defaults);
-        apply_material(surface, material_names[i], defaults);
+        apply_material(surface, defaults.find(material_names[i]));
         shared::Material& material = materials[count + i];
         material = {};
         material.opacity = texinfo.flags & SURF_TRANS33 ? 0.33f : texinfo.flags & SURF_TRANS66 ? 0.66f : 1.0f;

@@ -44,11 +44,15 @@ struct MapGeometry {
 using FindFaceTexture = std::function<FaceTexture(const std::string& texture)>; // by texinfo texture name
 
 class MaterialLibrary;
+struct MaterialSettings;
 
 struct MaterialDefaults {
     float roughness = 0.7f, metallic = 0;
-    const MaterialLibrary* library = nullptr; // goes before guesses
+    const MaterialLibrary* materials = nullptr; // go before guesses
     float bump_scale = 1; // of all normal maps
+
+    // Of a material_name(); nullptr: nothing is said of that texture.
+    const MaterialSettings* find(std::string_view name) const;
 };
 
 // The software backend's, in one array of nodes and one of triangles.

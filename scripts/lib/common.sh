@@ -16,6 +16,12 @@ seconds_between_lines=10 # of progress, where there is no terminal
 say() { printf '%s\n' "$*"; }
 note() { printf '   %s\n' "$*"; }
 warn() { printf 'warning: %s\n' "$*" >&2; }
+# help_if_asked ARGUMENT...: where the first one asks for help, the comment at the head of the script, and that is all.
+help_if_asked() {
+    [[ ${1:-} == -h || ${1:-} == --help ]] || return 0
+    awk 'NR > 2 && !/^#/ { exit } NR > 2 { sub(/^# ?/, ""); print }' "$root/scripts/$(basename -- "$0")"
+    exit 0
+}
 die() {
     printf 'error: %s\n' "$*" >&2
     exit 1

@@ -40,3 +40,10 @@ make_bare_map() {
     cp docs/gallery/looks.lights "$maps/bare.lights"
     cp docs/gallery/looks.mat "$maps/bare.mat"
 }
+
+# is_wanted NAME...: whether one of them is among `wanted`, the names that the script was given; all are if it was given none.
+is_wanted() {
+    local name
+    for name in "$@"; do [[ ${#wanted[@]} -gt 0 && " ${wanted[*]} " != *" $name "* ]] || return 0; done
+    return 1
+}

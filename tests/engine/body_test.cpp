@@ -43,7 +43,7 @@ TEST(Engine, ShowsThePlayerInTheMirror)
     EngineOptions options;
     options.files["maps/vkpt1.ent"] = before_the_mirror;
     options.render_scale = 100;
-    const std::string capture = "wait_25\nset pt_capture_every 1\nwait\nset pt_capture_every 0\nwait_5\n";
+    const std::string capture = std::string("wait_25\n") + capture_some;
     options.script = std::string("wait_100\npt_player_body 1\n") + capture + "pt_player_body 0\n" + capture + "quit\n";
     options.arguments = { "+set", "pt_capture_dir", capture_name, "+set", "sv_entfile", "1", "+set", "deathmatch", "0",
         "+set", "cl_bob", "0", "+set", "crosshair", "0", "+map", own_map, "+exec", "test.cfg" };

@@ -9,9 +9,6 @@ namespace vkpt::tests {
 
 namespace {
 
-// Captures for as long as a few frames take.
-constexpr const char* capture_some = "set pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\n";
-
 // The number in "frame000017.png".
 int frame_number(const std::filesystem::path& picture) { return std::stoi(picture.stem().string().substr(5)); }
 

@@ -48,6 +48,8 @@ struct EngineResult {
 
 // Console aliases wait_5, wait_25, wait_100: each wait is a frame and at least 16 ms.
 std::string wait_aliases();
+// Lines for it that capture for as long as a few frames take.
+inline constexpr const char* capture_some = "set pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\n";
 // A line for EngineOptions::script that makes the harness note the engine's memory and open files.
 inline constexpr const char* memory_mark = "echo memory mark\nwait_25\n";
 

@@ -26,7 +26,7 @@ TEST(Engine, VideoMenuChoosesThisRendererAndItsRowsAct)
 {
     EngineOptions options;
     options.render_scale = 100;
-    const std::string capture = "set pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\n";
+    const std::string capture = capture_some;
     const std::string keys = std::string(display_mark) + "wait_25\n"; // the last key's frames
     options.script = "wait_25\n" + capture + "menu_video\nwait_5\n"
         + keys

@@ -10,8 +10,6 @@ namespace vkpt::tests {
 
 namespace {
 
-constexpr const char* capture_some = "set pt_capture_every 1\nwait_5\nset pt_capture_every 0\nwait\n";
-
 // In a mission pack's folder, whose map the base game does not have. It is named as none of the real pack's:
 // engine 8.50 comes with entities of its own for some of those.
 EngineOptions make_sitting()

@@ -91,9 +91,9 @@ TEST(MaterialLibrary, GlassMakesPanesSmooth)
     const auto roughness = [](const std::string& attributes, uint32_t flags) {
         MaterialLibrary materials;
         materials.add(formats::read_materials("a:\n" + attributes + '\n', "test.mat"));
-        const MaterialDefaults defaults { .library = &materials };
+        const MaterialDefaults defaults { .materials = &materials };
         SurfaceGuess surface = guess_surface("a", defaults);
-        apply_material(surface, "a", defaults);
+        apply_material(surface, defaults.find("a"));
         shared::Material material {};
         material.flags = flags;
         set_surface(material, surface, {}, defaults);
