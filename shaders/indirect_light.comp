@@ -89,7 +89,7 @@ bool shows_cache_bias() { return corrects_cache() && (frame.flags & FRAME_CACHE_
 vec3 reflect_direct_light(inout BouncePath path, CachedLight cached, Random pixel_random)
 {
     bool known = (frame.flags & FRAME_LIGHT_CACHE) != 0u && cached.known && path.ray_length >= min_cached_distance
-        && reflects_like_cache(path.surface, cached);
+        && reflects_like_cache(path.surface);
     path.lit_by_cache = known;
     float share = known ? corrected_share() : 0.0;
     Random correction = random_for_bounce(pixel_random, path.vertex + 1u);

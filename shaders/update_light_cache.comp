@@ -68,21 +68,42 @@ uvec2 pack_light(vec3 light)
     return uvec2(bits.x | (bits.y << 21u), (bits.y >> 11u) | (bits.z << 10u));
 }
 
-// Direction and power have few bits, and change little by little: they are rounded up or down by chance (xi).
-void add_sample(uint value, SampledLight found, vec4 xi)
+// Directions and powers have few bits, and change little by little: they are rounded up or down by chance (xi).
+uint pack_cached_direction(vec3 direction, vec3 xi)
+{
+    uvec3 d = uvec3(quick_clamp(direction * 511.0 + 512.0, 1.0, 1023.0) + xi);
+    return min(d.x, 1023u) | min(d.y, 1023u) << 10u | min(d.z, 1023u) << 20u;
+}
+
+// What the newest sample has of a mean that is weighed by luminance; `share`: of the samples.
+float share_of_newest(vec3 before, vec3 found, float share)
+{
+    float old_weight = luminance(before) * (1.0 - share), new_weight = luminance(found) * share;
+    return new_weight / quick_max(old_weight + new_weight, 1e-20);
+}
+
+void add_to_lobe(uint lobe, vec3 light, vec3 direction, float share, vec3 xi)
+{
+    LightLobe before = load_cache_lobe(lobe);
+    vec3 mean = mix(before.direction, direction, share_of_newest(before.light, light, share));
+    store_element(frame.scene.cache.lobes, lobe,
+        uvec2(pack_rgb9e5(mix(before.light, light, share), xi.yzx), pack_cached_direction(mean, xi)));
+}
+
+void add_sample(CacheFace face, uint value, SampledLight found, vec4 xi)
 {
     LightOfStyle before = load_cache_value(value);
     float share = 1.0 / float(min(before.count + 1u, CACHE_MAX_SAMPLES));
-    float old_weight = luminance(before.light) * (1.0 - share), new_weight = luminance(found.light) * share;
-    float new_share = new_weight / quick_max(old_weight + new_weight, 1e-20);
-    vec3 direction = mix(before.direction, found.direction, new_share);
+    float new_share = share_of_newest(before.light, found.light, share);
     float power = mix(before.power, found.power, new_share);
-    uvec3 d = uvec3(quick_clamp(direction * 511.0 + 512.0, 1.0, 1023.0) + xi.xyz);
     uint last = min(before.count + 1u, CACHE_COUNT_MASK) | min(uint(power * 255.0 + xi.w), 255u) << CACHE_POWER_SHIFT
         | before.guide << CACHE_GUIDE_SHIFT;
     store_element(frame.scene.cache.values, value,
         uvec4(pack_light(mix(before.light, found.light, share)),
-            min(d.x, 1023u) | min(d.y, 1023u) << 10u | min(d.z, 1023u) << 20u, last));
+            pack_cached_direction(mix(before.direction, found.direction, new_share), xi.xyz), last));
+    uint own = lobe_of_direction(face, found.direction);
+    ROLLED_FOR (uint i = 0u; i < CACHE_LOBES; i++)
+        add_to_lobe(value * CACHE_LOBES + i, i == own ? found.light : vec3(0.0), found.direction, share, xi.xyz);
 }
 
 // Whether the point lies inside of something closed that stands on the face: straight up from there its inner side is
@@ -135,7 +156,7 @@ void sample_cell(CacheCell cell, CacheFace face, CacheFacePlane plane, uint samp
         float scale = lightstyle_scale(style);
         if (scale > 0.0) {
             found.light = style == chosen.lightstyle ? light / scale : vec3(0.0);
-            add_sample(frame.scene.cache.value_count + cell.first_value + layer, found, rounding);
+            add_sample(face, frame.scene.cache.value_count + cell.first_value + layer, found, rounding);
         }
     }
 }

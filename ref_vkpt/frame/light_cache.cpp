@@ -54,9 +54,11 @@ void publish(VkCommandBuffer commands, const GpuLightCache& cache)
 {
     record_memory_barrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_ACCESS_MEMORY_WRITE_BIT,
         VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    const VkDeviceSize half = cache.value_count * sizeof(shared::CacheValue);
-    const VkBufferCopy region { half, 0, half };
-    vkCmdCopyBuffer(commands, cache.values.handle(), cache.values.handle(), 1, &region);
+    for (const Buffer* table : { &cache.values, &cache.lobes }) {
+        const VkDeviceSize half = table->size() / 2;
+        const VkBufferCopy region { half, 0, half };
+        vkCmdCopyBuffer(commands, table->handle(), table->handle(), 1, &region);
+    }
 }
 
 bool shows_cache_bias() { return cvars::shader_values().pt_debug_view == shared::DEBUG_VIEW_CACHE_BIAS; }
@@ -76,6 +78,7 @@ shared::LightCacheView GpuLightCache::addresses() const
     view.cells = cells.address();
     view.corners = corners.address();
     view.values = values.address();
+    view.lobes = lobes.address();
     view.guides = guides.address();
     view.guide_blocks = guide_blocks.address();
     view.guide_lists = guide_lists.address();
@@ -100,6 +103,8 @@ GpuLightCache upload_light_cache(const LightCacheLayout& layout, Uploader& uploa
     gpu.corners = uploader.make_buffer(layout.corners, MemoryKind::lights, "light cache corners");
     gpu.values = uploader.make_buffer(
         std::vector<shared::CacheValue>(2 * layout.value_count), MemoryKind::lights, "light cache values");
+    gpu.lobes = uploader.make_buffer(std::vector<shared::CacheLobe>(2 * layout.value_count * shared::CACHE_LOBES),
+        MemoryKind::lights, "light cache lobes");
     gpu.cell_count = uint32_t(layout.cells.size());
     gpu.value_count = uint32_t(layout.value_count);
     return gpu;
@@ -136,6 +141,7 @@ void LightCacheKeeper::fill(Graphics& graphics, Frame& frame, View& view, GpuWor
         });
     // What was averaged before is an image, and no bias.
     view.accumulated_frames = shows_cache_bias() ? 0 : frames;
+    graphics.run_once([&](VkCommandBuffer commands) { publish(commands, gpu_world.light_cache); });
     upload_guides(graphics, *view.snapshot->world, view.snapshot->lightstyles, gpu_world.light_cache);
     world_ = gpu_world.version;
     next_cell_ = 0;

@@ -17,7 +17,8 @@ class Graphics;
 
 // See LightCacheView.
 struct GpuLightCache {
-    Buffer faces, planes, cells, corners, values; // of `values` the first half is read by rays, the second updated
+    Buffer faces, planes, cells, corners;
+    Buffer values, lobes; // of either the first half is read by rays, the second updated
     Buffer guides, guide_blocks, guide_lists, guide_entries; // after LightCacheKeeper::fill
     uint32_t cell_count = 0, value_count = 0;
 

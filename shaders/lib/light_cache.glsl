@@ -24,6 +24,12 @@ struct LightOfStyle {
     uint guide;
 };
 
+// CacheValue::direction
+vec3 unpack_cached_direction(uint word)
+{
+    return vec3(ivec3(uvec3(word, word >> 10u, word >> 20u) & 1023u) - 512) / 511.0;
+}
+
 // `value`: below LightCacheView::value_count what rays read, from there on what updates work on.
 LightOfStyle load_cache_value(uint value)
 {
@@ -31,11 +37,32 @@ LightOfStyle load_cache_value(uint value)
     LightOfStyle result;
     uvec3 light = uvec3(words.x, (words.x >> 21u) | (words.y << 11u), words.y >> 10u) << 10u;
     result.light = uintBitsToFloat(light & 0x7ffffc00u);
-    result.direction = vec3(ivec3(uvec3(words.z, words.z >> 10u, words.z >> 20u) & 1023u) - 512) / 511.0;
+    result.direction = unpack_cached_direction(words.z);
     result.power = float(int((words.w >> CACHE_POWER_SHIFT) & 0xffu)) / 255.0;
     result.count = words.w & CACHE_COUNT_MASK;
     result.guide = words.w >> CACHE_GUIDE_SHIFT;
     return result;
+}
+
+// CacheLobe, unpacked.
+struct LightLobe {
+    vec3 light;
+    vec3 direction;
+};
+
+LightLobe load_cache_lobe(uint lobe)
+{
+    uvec2 words = load_element(frame.scene.cache.lobes, lobe, uvec2(0u));
+    return LightLobe(unpack_rgb9e5(words.x), unpack_cached_direction(words.y));
+}
+
+// Which of a value's lobes light from there belongs to: one of four sides, high above the face or low.
+uint lobe_of_direction(CacheFace face, vec3 direction)
+{
+    const float min_flat2 = 0.64; // square of the direction's part along the face, from which on it is low
+    vec2 flat_part = vec2(dot(face.across.xyz, direction), dot(face.down.xyz, direction));
+    bool is_low = dot(flat_part, flat_part) > min_flat2 * dot(face.across.xyz, face.across.xyz);
+    return (flat_part.x < 0.0 ? 1u : 0u) | (flat_part.y < 0.0 ? 2u : 0u) | (is_low ? 4u : 0u);
 }
 
 uvec2 cache_face_cells(CacheFace face)
@@ -66,9 +93,11 @@ struct CachedLight {
     float power; // schlick_power of its angle, on average
     uint guide; // number of the cell among the guides, 0: it is none
     bool known;
+    uint face; // of the map, from 0
+    uint first; // value of the cell
 };
 
-const CachedLight nothing_cached = CachedLight(vec3(0.0), vec3(0.0), 0.0, 0u, false);
+const CachedLight nothing_cached = CachedLight(vec3(0.0), vec3(0.0), 0.0, 0u, false, 0u, 0u);
 
 // `face_number` as Triangle::face. Not known: the point has no cell, or one that too little is known of.
 CachedLight read_light_cache(int face_number, vec3 position)
@@ -81,6 +110,8 @@ CachedLight read_light_cache(int face_number, vec3 position)
         return result;
     uint first = find_cache_value(face, position);
     result.known = true;
+    result.face = uint(face_number - 1);
+    result.first = first;
     ROLLED_FOR (uint layer = 0u; layer < cache_face_layers(face); layer++) {
         float scale = lightstyle_scale(cache_layer_style(face, layer));
         LightOfStyle value = load_cache_value(first + layer);
@@ -107,23 +138,40 @@ float mean_ggx_reflectance(float alpha)
     return 1.0 / (1.0 + 1.45 * alpha * root * sqrt(root)); // alpha^1.75
 }
 
-float direction_spread(CachedLight cached) { return quick_clamp(1.0 - length(cached.direction), 0.0, 1.0); }
+float direction_spread(vec3 mean) { return quick_clamp(1.0 - length(mean), 0.0, 1.0); }
 
-// Radiance that the surface sends back of the light. Diffuse light exactly: Fresnel's term is linear in schlick_power.
-// The coat sees one light in the mean direction, and is rougher by as much as directions are spread: half vectors half
-// as much as directions, whose variance along each axis is about one less the mean's length. It reflects as much as
-// with its own roughness.
-vec3 reflect_cached_light(Surface s, CachedLight cached)
+// What the coat, or a metal, sends back of light from these directions, whose mean is known: as of a single light
+// there, but rougher by as much as directions are spread. Half vectors are spread half as much as directions, whose
+// variance along each axis is about one less the mean's length. It reflects as much as with its own roughness.
+vec3 reflect_spread_light(Surface s, LightLobe lobe)
 {
-    float rise = coat_rise(s), nv = dot(s.normal, view_above_horizon(s));
-    float diffuse = coupled_diffuse_base(s, nv) * (1.0 - dielectric_fresnel(s, rise * cached.power));
     float alpha = ggx_alpha(s.roughness),
-          wide_alpha = sqrt(quick_min(alpha * alpha + 0.5 * direction_spread(cached), 1.0));
+          wide_alpha = sqrt(quick_min(alpha * alpha + 0.5 * direction_spread(lobe.direction), 1.0));
     Surface wide = s;
     wide.roughness = sqrt(wide_alpha);
-    vec3 coat = evaluate_brdf(wide, normalize(cached.direction + s.normal * 1e-6)).specular
+    return lobe.light * evaluate_brdf(wide, normalize(lobe.direction + s.normal * 1e-6)).specular
         * (mean_ggx_reflectance(alpha) / mean_ggx_reflectance(wide_alpha));
-    return cached.light * (bsdf_pi * (s.albedo * diffuse + coat));
+}
+
+// Radiance that the surface sends back of the light. Diffuse light exactly: Fresnel's term is linear in schlick_power.
+// Of a coat, all light is one lobe, of a metal each of the cell's is.
+vec3 reflect_cached_light(Surface s, CachedLight cached)
+{
+    bool is_metal = s.metallic >= 0.5;
+    CacheFace face = load_cache_face(cached.face);
+    vec3 specular = vec3(0.0);
+    ROLLED_FOR (uint i = 0u; i < (is_metal ? cache_face_layers(face) * CACHE_LOBES : 1u); i++) {
+        LightLobe lobe = LightLobe(cached.light, cached.direction);
+        if (is_metal) {
+            lobe = load_cache_lobe(cached.first * CACHE_LOBES + i);
+            lobe.light *= lightstyle_scale(cache_layer_style(face, i / CACHE_LOBES));
+        }
+        if (lobe.light != vec3(0.0))
+            specular += reflect_spread_light(s, lobe);
+    }
+    float rise = coat_rise(s), nv = dot(s.normal, view_above_horizon(s));
+    float diffuse = coupled_diffuse_base(s, nv) * (1.0 - dielectric_fresnel(s, rise * cached.power));
+    return bsdf_pi * (s.albedo * diffuse * cached.light + specular);
 }
 
 // For pt_debug_view.
@@ -135,12 +183,8 @@ vec3 show_light_cache(HitSurface hit)
     return cached.guide != 0u ? cached.light * vec3(0.2, 1.0, 0.2) : cached.light;
 }
 
-// Narrower lobes show what the cache does not keep: each direction that light comes from. So do metals, of which lobes
-// are all that is seen, unless it all comes from one side.
-const float min_cached_roughness = 0.34, max_spread_on_metal = 0.1;
-bool reflects_like_cache(Surface s, CachedLight cached)
-{
-    return s.roughness >= min_cached_roughness && (s.metallic < 0.5 || direction_spread(cached) <= max_spread_on_metal);
-}
+// Narrower lobes show what the cache does not keep: each direction that light comes from.
+const float min_cached_roughness = 0.34;
+bool reflects_like_cache(Surface s) { return s.roughness >= min_cached_roughness; }
 
 #endif

@@ -46,6 +46,22 @@ uint pack_upper_halves(vec2 v)
 }
 vec2 unpack_upper_halves(uint bits) { return uintBitsToFloat(uvec2(bits << 16u, bits & 0xffff0000u)); }
 
+// Three numbers from 0 to 32,000 with nine bits each and a common power of two, rounded up or down by chance (xi from 0
+// to 1), so that a mean that changes little by little does change.
+const int rgb9e5_bias = 25;
+uint pack_rgb9e5(vec3 v, vec3 xi)
+{
+    int most = (floatBitsToInt(quick_max(v.x, quick_max(v.y, v.z))) >> 23) - 127; // power of two
+    int power = clamp(most + rgb9e5_bias - 8, 0, 31);
+    uvec3 parts = min(uvec3(v * intBitsToFloat((127 + rgb9e5_bias - power) << 23) + xi), uvec3(511u));
+    return parts.x | (parts.y << 9u) | (parts.z << 18u) | (uint(power) << 27u);
+}
+vec3 unpack_rgb9e5(uint bits)
+{
+    float scale = intBitsToFloat((127 - rgb9e5_bias + int(bits >> 27u)) << 23);
+    return vec3(ivec3(uvec3(bits, bits >> 9u, bits >> 18u) & 511u)) * scale;
+}
+
 uint pack_direction(vec3 direction) { return pack_snorm2(direction_to_octahedron(direction)); }
 vec3 unpack_direction(uint bits) { return octahedron_to_direction(unpack_snorm2(bits)); }
 

@@ -61,6 +61,15 @@ struct CacheValue {
 };
 VKPT_ASSERT_SIZE(CacheValue, 16);
 
+// The same light in parts, by where it comes from: what metals reflect of it. The parts of a value follow one another;
+// see lobe_of_direction in lib/light_cache.glsl.
+struct CacheLobe {
+    uint light; // pack_rgb9e5
+    uint direction; // as CacheValue
+};
+VKPT_ASSERT_SIZE(CacheLobe, 8);
+VKPT_CONST uint CACHE_LOBES = 8u;
+
 // A block of cells of a face, some of which stand out: bright and small, so that bounce rays seldom meet them and then
 // bring much. They are aimed at. What a block is weighed by:
 struct CacheGuide {
@@ -99,6 +108,7 @@ struct LightCacheView {
     uint64_t cells; // CacheCell
     uint64_t corners; // of the faces, vec2 in cells
     uint64_t values; // CacheValue: those that rays read, then as many that updates work on
+    uint64_t lobes; // CacheLobe, CACHE_LOBES for each value: in the same order, those that rays read first
     uint64_t guides; // CacheGuide, one for each entry
     uint64_t guide_blocks; // CacheGuideBlock
     uint64_t guide_lists; // CacheGuideList, one for each cluster
