@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <optional>
 
 namespace vkpt::tests {
 namespace {
@@ -35,20 +36,15 @@ protected:
         folder_.add_map("room", map.finish());
     }
 
-    // Of metal, with lamps behind screens on all four sides.
-    void add_room_of_many_lamps()
+    // Of metal: two lamps behind the screen light the wall between them from both sides.
+    void add_room_of_two_lamps()
     {
         MapBuilder map;
         const uint16_t metal = map.add_material("metal");
         map.add_room({ -256, -256, 0 }, { 256, 256, 192 }, metal);
-        for (float side : { -1.f, 1.f }) {
-            map.add_block(glm::min(glm::vec3(200 * side, -60, 0), glm::vec3(192 * side, 60, 120)),
-                glm::max(glm::vec3(200 * side, -60, 0), glm::vec3(192 * side, 60, 120)), metal);
-            map.add_block(glm::min(glm::vec3(-60, 200 * side, 0), glm::vec3(60, 192 * side, 120)),
-                glm::max(glm::vec3(-60, 200 * side, 0), glm::vec3(60, 192 * side, 120)), metal);
-            map.add_point_light({ 228 * side, 0, 60 }, 200, 0);
-            map.add_point_light({ 0, 228 * side, 100 }, 300, 0);
-        }
+        map.add_block({ -200, -100, 0 }, { -192, 100, 160 }, metal);
+        for (float y : { -80.f, 80.f })
+            map.add_point_light({ -228, y, 80 }, 200, 0);
         folder_.add_map("room", map.finish());
     }
 
@@ -88,7 +84,7 @@ std::vector<float> block_errors(const Radiance& picture, const Radiance& expecte
 // Against the converged picture that is aimed by the cache and does not read it; that one is compared with one without
 // the cache in LetsPhotoModeConvergeToTheSame.
 // A quarter's mean is known to 1 % from 1,600 frames of walls, and from 3,200 of metal.
-void expect_same_light(Session& session, int frames)
+void expect_same_light(Session& session, int frames, std::optional<float> max_error_of_sixteenths = {})
 {
     const Radiance expected = session.accumulate(2048);
     session.set("pt_accumulate", "0");
@@ -97,6 +93,9 @@ void expect_same_light(Session& session, int frames)
     EXPECT_NEAR(luminance(cached.mean()) / luminance(expected.mean()), 1, 0.02);
     const std::vector<float> errors = block_errors(cached, expected, room_picture_size / 2);
     EXPECT_LT(errors.back(), 0.05);
+    if (max_error_of_sixteenths) {
+        EXPECT_LT(block_errors(cached, expected, room_picture_size / 4).back(), *max_error_of_sixteenths);
+    }
 }
 
 const CvarList unlimited { { "flt_denoiser", "temporal" }, { "flt_taa", "on" }, { "pt_seed", "0" } };
@@ -114,11 +113,11 @@ TEST_F(LightCache, KeepsTheLightOfMetal)
     expect_same_light(*start(unlimited), 3200);
 }
 
-// Lamps on all sides: the cache knows them apart.
+// The cache knows the lamps apart: taken for one, they would leave a sixteenth of the picture 21 % too dark.
 TEST_F(LightCache, KeepsTheLightOfMetalFromSeveralSides)
 {
-    add_room_of_many_lamps();
-    expect_same_light(*start(unlimited), 3200);
+    add_room_of_two_lamps();
+    expect_same_light(*start(unlimited), 3200, 0.12f);
 }
 
 // Errors of frames without history, with the cache over without.
@@ -149,8 +148,8 @@ TEST_F(LightCache, HasLessNoise)
 
 TEST_F(LightCache, HasLessNoiseOnMetalLitFromSeveralSides)
 {
-    add_room_of_many_lamps();
-    EXPECT_LT(error_ratio(*start({ { "flt_denoiser", "temporal" }, { "pt_seed", "0" } })), 0.7);
+    add_room_of_two_lamps();
+    EXPECT_LT(error_ratio(*start({ { "flt_denoiser", "temporal" }, { "pt_seed", "0" } })), 0.8);
 }
 
 TEST_F(LightCache, FollowsLightstylesAtOnce)
