@@ -44,8 +44,7 @@ void upload_guides(Graphics& graphics, const World& world, const std::vector<flo
     gpu.guide_blocks = uploader.make_buffer(guides.blocks, MemoryKind::lights, "light cache blocks");
     gpu.guide_lists = uploader.make_buffer(guides.lists, MemoryKind::lights, "light cache guide lists");
     gpu.guide_entries = uploader.make_buffer(guides.entries, MemoryKind::lights, "light cache guide entries");
-    values.resize(2 * count);
-    std::copy_n(values.begin(), count, values.begin() + ptrdiff_t(count));
+    values.insert(values.begin(), count, shared::CacheValue {}); // publish writes what rays read
     gpu.values = uploader.make_buffer(values, MemoryKind::lights, "light cache values");
     uploader.flush();
 }
@@ -141,8 +140,8 @@ void LightCacheKeeper::fill(Graphics& graphics, Frame& frame, View& view, GpuWor
         });
     // What was averaged before is an image, and no bias.
     view.accumulated_frames = shows_cache_bias() ? 0 : frames;
-    graphics.run_once([&](VkCommandBuffer commands) { publish(commands, gpu_world.light_cache); });
     upload_guides(graphics, *view.snapshot->world, view.snapshot->lightstyles, gpu_world.light_cache);
+    graphics.run_once([&](VkCommandBuffer commands) { publish(commands, gpu_world.light_cache); });
     world_ = gpu_world.version;
     next_cell_ = 0;
     rounds_ = samples;

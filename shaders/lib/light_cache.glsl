@@ -158,13 +158,21 @@ vec3 reflect_spread_light(Surface s, LightLobe lobe)
 vec3 reflect_cached_light(Surface s, CachedLight cached)
 {
     bool is_metal = s.metallic >= 0.5;
-    CacheFace face = load_cache_face(cached.face);
+    CacheFace face;
+    uint lobes = 1u;
+    if (is_metal) {
+        face = load_cache_face(cached.face);
+        lobes = cache_face_layers(face) * CACHE_LOBES;
+    }
+    float scale = 1.0;
     vec3 specular = vec3(0.0);
-    ROLLED_FOR (uint i = 0u; i < (is_metal ? cache_face_layers(face) * CACHE_LOBES : 1u); i++) {
+    ROLLED_FOR (uint i = 0u; i < lobes; i++) {
         LightLobe lobe = LightLobe(cached.light, cached.direction);
         if (is_metal) {
+            if (i % CACHE_LOBES == 0u)
+                scale = lightstyle_scale(cache_layer_style(face, i / CACHE_LOBES));
             lobe = load_cache_lobe(cached.first * CACHE_LOBES + i);
-            lobe.light *= lightstyle_scale(cache_layer_style(face, i / CACHE_LOBES));
+            lobe.light *= scale;
         }
         if (lobe.light != vec3(0.0))
             specular += reflect_spread_light(s, lobe);
