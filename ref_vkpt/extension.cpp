@@ -254,6 +254,7 @@ void print_info()
         const glm::uvec2 size = m->view().rendered_size;
         engine::print("rendered       {} x {} pixels, {} non-finite since the start", size.x, size.y,
             m->frame.nonfinite_pixels());
+        engine::print("fireflies      {:.3f} % of the light cut off", 100 * m->frame.cut_light_share());
     }
     engine::print("light lists    {} entries", info.light_list_entries);
     engine::print("textures       {}, {:.1f} MiB", info.textures, mib(info.texture_bytes));

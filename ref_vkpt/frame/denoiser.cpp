@@ -50,25 +50,25 @@ std::vector<PassStep> gradient_filter_steps(const shared::FrameUniforms& uniform
 
 std::vector<PassStep> filter_steps(const shared::FrameUniforms& uniforms)
 {
-    const shared::FilterPush push { uniforms.screen.filter_a, uniforms.screen.filtered, 1, 0 };
+    const shared::FilterPush push { uniforms.screen.filter_a, uniforms.screen.filter_b, 1, 0 };
     return { make_step(push, PassWork { uniforms.size }) };
 }
 
 std::vector<PassStep> spread_first_steps(const shared::FrameUniforms& uniforms)
 {
-    return { make_spread_step(uniforms, uniforms.screen.filtered, uniforms.screen.filter_b, spread_ways[0]) };
+    return { make_spread_step(uniforms, uniforms.screen.filter_b, uniforms.screen.filter_a, spread_ways[0]) };
 }
 
 std::vector<PassStep> spread_steps(const shared::FrameUniforms& uniforms)
 {
     const shared::ScreenBuffers& screen = uniforms.screen;
-    return { make_spread_step(uniforms, screen.filter_b, screen.filter_a, spread_ways[1]),
-        make_spread_step(uniforms, screen.filter_a, screen.filter_b, spread_ways[2]) };
+    return { make_spread_step(uniforms, screen.filter_a, screen.filter_b, spread_ways[1]),
+        make_spread_step(uniforms, screen.filter_b, screen.filter_a, spread_ways[2]) };
 }
 
 std::vector<PassStep> accumulate_steps(const shared::FrameUniforms& uniforms)
 {
-    return { make_spread_step(uniforms, uniforms.screen.filter_b, {}, spread_ways[3]) };
+    return { make_spread_step(uniforms, uniforms.screen.filter_a, {}, spread_ways[3]) };
 }
 
 } // namespace vkpt

@@ -95,6 +95,15 @@ void Frame::read_statistics()
             "report the map, the position and the settings",
             statistics.nonfinite_pixels);
     nonfinite_pixels_ += statistics.nonfinite_pixels;
+    constexpr double kept = 0.99;
+    cut_light_ = kept * cut_light_ + statistics.cut_light;
+    sampled_light_ = kept * sampled_light_ + statistics.sampled_light;
+}
+
+double Frame::cut_light_share() const
+{
+    constexpr double pixels = shared::LIGHT_SAMPLE_PIXELS * shared::LIGHT_SAMPLE_PIXELS;
+    return sampled_light_ > 0 ? std::min(cut_light_ / (pixels * sampled_light_), 1.0) : 0;
 }
 
 RenderScale::Limits Frame::scale_limits()

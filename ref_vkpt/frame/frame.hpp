@@ -46,6 +46,9 @@ public:
     bool read_radiance(const View& view, float* rgb);
     // Pixels since the start whose light was not a number, or infinite, in the frames that have finished.
     uint64_t nonfinite_pixels() const { return nonfinite_pixels_; }
+    // The share of the light, before surfaces' colours, that the denoiser's limit on fireflies took in about the last
+    // hundred frames that have finished.
+    double cut_light_share() const;
 
     // For questions between frames (scene_queries.cpp), in commands of their own.
     // Begins, and returns the uniforms of the scene as seen from there.
@@ -90,6 +93,7 @@ private:
     bool told_of_views_ = false; // that there were more than max_views
     RenderScale render_scale_;
     uint64_t nonfinite_pixels_ = 0;
+    double cut_light_ = 0, sampled_light_ = 0; // see FrameStatistics; newer frames count for more
     float light_level_ = 0;
 };
 

@@ -17,11 +17,29 @@ float filtered_deviation(Sums sums, float scale, float deviation)
     return is_known(deviation) ? sqrt(sums.variance) * scale : (beside_known ? measured : -measured);
 }
 
-// Frames of history from which on less of this level enters the light than it finds: that much / frames. The result is
-// also the next view's history, so the light of bright neighbours would come anew with every frame, and shadows of a
-// pixel's width fill up, while the average alone already has little noise.
+// Frames of history from which on less of this level is shown than it finds: that much / frames. The average alone
+// already has little noise then.
 const float fully_filtered_frames = 6.0;
-float filtered_share(float frames) { return quick_min(fully_filtered_frames / quick_max(frames, 1.0), 1.0); }
+float shown_share(float frames) { return quick_min(fully_filtered_frames / quick_max(frames, 1.0), 1.0); }
+
+// How much of this level becomes the next view's history. What it takes from bright neighbours comes anew with every
+// frame, so shadows of a pixel's width fill up. The first frames' level hardly asks what is alike, and would stay in
+// the history for long: of it only so much is kept that places which rare light has not met yet are not wholly dark,
+// as other pixels' light would then be turned away (tap_reach).
+const float first_frames = 8.0, first_kept_share = 0.2, fully_kept_frames = 5.0;
+float kept_share(float frames)
+{
+    return frames < first_frames - 0.01 ? first_kept_share : quick_min(fully_kept_frames / frames, 1.0);
+}
+
+// Between the pixel's own average and what the level found for either lobe. Where the deviation is unknown it is so in
+// both.
+FilteredLight mix_light(FilteredLight own, FilteredLight level, vec2 share)
+{
+    return FilteredLight(mix(own.diffuse, level.diffuse, share.x),
+        mix(own.diffuse_deviation, level.diffuse_deviation, share.x), mix(own.specular, level.specular, share.y),
+        mix(own.specular_deviation, level.specular_deviation, share.y));
+}
 
 // Slices of a pixel or two in width that a movement has just uncovered: hardly any of the 3 x 3 pixels is of the same
 // surface, and few taps of the levels that follow will be, since their ways turn. So those along the axes that are
@@ -45,6 +63,7 @@ void filter_pixel(uvec2 pixel, uint index)
     uvec4 bits = load_element(push.source, index, uvec4(0u));
     if (feature_depth(features) <= 0.0) {
         store_element(push.target.address, index, bits);
+        store_filtered(index, bits);
         return;
     }
     FilteredLight light = unpack_filtered(bits);
@@ -70,16 +89,13 @@ void filter_pixel(uvec2 pixel, uint index)
     if (frames.x < new_frames && diffuse.weight < few_alike)
         add_farther_taps(diffuse, specular, centre, pixel, index);
     float diffuse_scale = 1.0 / diffuse.weight, specular_scale = 1.0 / specular.weight;
-    FilteredLight result = FilteredLight(diffuse.light * diffuse_scale,
+    FilteredLight level = FilteredLight(diffuse.light * diffuse_scale,
         filtered_deviation(diffuse, diffuse_scale, light.diffuse_deviation), specular.light * specular_scale,
         filtered_deviation(specular, specular_scale, light.specular_deviation));
-    float diffuse_share = filtered_share(frames.x), specular_share = filtered_share(frames.y);
-    result.diffuse = mix(light.diffuse, result.diffuse, diffuse_share);
-    result.specular = mix(light.specular, result.specular, specular_share);
-    // Where it is unknown, there are fewer frames.
-    result.diffuse_deviation = mix(light.diffuse_deviation, result.diffuse_deviation, diffuse_share);
-    result.specular_deviation = mix(light.specular_deviation, result.specular_deviation, specular_share);
-    store_element(push.target.address, index, pack_filtered(result));
+    vec2 shown = vec2(shown_share(frames.x), shown_share(frames.y));
+    vec2 kept = vec2(kept_share(frames.x), kept_share(frames.y));
+    store_element(push.target.address, index, pack_filtered(mix_light(light, level, shown)));
+    store_filtered(index, pack_filtered(mix_light(light, level, kept)));
 }
 
 VKPT_RUN_OVER_PIXELS(filter_pixel)

@@ -84,13 +84,23 @@ History find_history(uint index, ReprojectionQuery query, vec2 at)
     return sum;
 }
 
+// A deviation of few samples is uncertain, and mostly too low where few of them meet a light: it counts for so many
+// times as much at first, and for once from 12 frames on.
+const float few_frames_slack = 2.5, enough_frames = 12.0;
+float slack_of(float frames)
+{
+    float share = (frames - min_frames) / (enough_frames - min_frames);
+    return mix(few_frames_slack, 1.0, clamp(share, 0.0, 1.0));
+}
+
 // Deviation of the average: that of one frame, over the root of the frames that the average is worth. As FilteredLight
 // has it.
 float average_deviation(vec2 mean_and_square, float frames)
 {
     if (frames < min_frames)
         return -sqrt(mean_and_square.y);
-    return sqrt(quick_max(mean_and_square.y - mean_and_square.x * mean_and_square.x, 0.0) / frames);
+    float variance = quick_max(mean_and_square.y - mean_and_square.x * mean_and_square.x, 0.0);
+    return slack_of(frames) * sqrt(variance / frames);
 }
 
 // A rare path of great radiance must not stay in the history for seconds: new light counts up to so many times of what
@@ -101,16 +111,40 @@ const float min_known = 0.02, min_known_at_first = 0.4;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
+float image_exposure()
+{
+    ExposureBuffer exposure = ExposureBuffer(frame.exposure);
+    return exposure.v.valid != 0u ? exposure.v.exposure : 1.0;
+}
+
 // `changed`: lambda.
 vec3 limit_firefly(vec3 light, vec3 known, float frames, float changed)
 {
     if (changed > 0.1)
         return light;
-    ExposureBuffer exposure = ExposureBuffer(frame.exposure);
-    float dark
-        = (frames < min_frames ? min_known_at_first : min_known) / (exposure.v.valid != 0u ? exposure.v.exposure : 1.0);
+    float dark = (frames < min_frames ? min_known_at_first : min_known) / image_exposure();
     float limit = max_times_brighter * (luminance(known) + dark), l = luminance(light);
     return l > limit ? light * (limit / l) : light;
+}
+
+void limit_fireflies(inout vec3 diffuse, inout vec3 specular, ReflectedLight known, vec2 frames, vec2 changed)
+{
+    diffuse = limit_firefly(diffuse, known.diffuse, frames.x, changed.x);
+    specular = limit_firefly(specular, known.specular, frames.y, changed.y);
+}
+
+// What pt_info tells of the limit; see FrameStatistics. `all`: luminance of the pixel's light before it.
+void count_cut_light(uvec2 pixel, float all, float cut)
+{
+    FrameStatisticsBuffer statistics = FrameStatisticsBuffer(frame.statistics);
+    const float most = 1024.0; // of the image's range: so that sums of a frame have room
+    float scale = 256.0 * image_exposure();
+    if (cut > 0.0)
+        atomicAdd(statistics.v.cut_light, uint(quick_min(cut * scale, most * 256.0)));
+    uvec2 shift = hash_pcg4(uvec4(frame.frame_index, 0u, 0u, 0x3c6ef372u)).xy >> 16u;
+    uvec2 place = (pixel + shift) & (LIGHT_SAMPLE_PIXELS - 1u);
+    if (place == uvec2(0u))
+        atomicAdd(statistics.v.sampled_light, uint(quick_min(all * scale, most * 256.0)));
 }
 
 // What is known where the history tells little: this frame's light around the pixel. From two pixels off, as nearer
@@ -236,9 +270,9 @@ void accumulate_pixel(uvec2 pixel, uint index)
         }
     }
     vec2 changed = find_lambda(pixel);
-    ReflectedLight known = known_light(pixel, surface, history);
-    diffuse = limit_firefly(diffuse, known.diffuse, history.moments.frames.x, changed.x);
-    specular = limit_firefly(specular, known.specular, history.moments.frames.y, changed.y);
+    float before = luminance(diffuse) + luminance(specular);
+    limit_fireflies(diffuse, specular, known_light(pixel, surface, history), history.moments.frames, changed);
+    count_cut_light(pixel, before, before - luminance(diffuse) - luminance(specular));
     vec2 frames = quick_min(history.moments.frames + 1.0, vec2(max_frames, max_specular));
     frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed);
     vec2 share = 1.0 / frames;

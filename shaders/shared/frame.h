@@ -102,7 +102,12 @@ VKPT_CONST uint SCREEN_BUFFER_COUNT = 0u
 // What the passes count for the CPU.
 struct FrameStatistics {
     uint nonfinite_pixels; // whose light was not a number, or infinite; they are shown black
+    // What the limit on fireflies took, and the light of one pixel in LIGHT_SAMPLE_PIXELS^2, in 256ths of the image's
+    // range.
+    uint cut_light;
+    uint sampled_light;
 };
+VKPT_CONST uint LIGHT_SAMPLE_PIXELS = 8u; // in either direction
 
 VKPT_CONST uint BLOOM_FIRST_STEP
     = 4u; // the pyramid's first level has a pixel for so many of the image's, in either direction

@@ -4,8 +4,10 @@
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <ranges>
 
 namespace vkpt::tests {
 namespace {
@@ -350,7 +352,7 @@ TEST_F(Denoiser, DarkLinesStayDark)
     for (const Radiance& picture : filtered)
         light += light_on_dark_lines(picture, reference) / float(filtered.size());
     RecordProperty("light", std::to_string(light));
-    EXPECT_LT(light, 0.055f); // .043 to .046; .065 to .067 if bright taps' deviations counted in full
+    EXPECT_LT(light, 0.02f); // .010; .045 if the first frames' level were kept in full
     EXPECT_GT(light, -0.05f);
 }
 
@@ -372,7 +374,33 @@ TEST_F(Denoiser, AntialiasingForgetsFirstFrames)
         light += light_on_dark_lines(session.capture(), reference) / 16;
     }
     RecordProperty("light", std::to_string(light));
-    EXPECT_LT(light, 0.041f); // .033 to .037; .045 to .049 if all frames counted alike
+    EXPECT_LT(light, 0.01f); // .0025; .016 if all frames counted alike
+}
+
+// One light of fifty is chosen uniformly, and all the others are next to nothing: most of its samples are fireflies.
+TEST_F(Denoiser, TellsWhatTheLimitOnFirefliesTakes)
+{
+    add_lights(1e-3f, 300);
+    Session session(folder_,
+        { { "pt_seed", "0" }, { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "pt_exposure", "1" },
+            { "pt_light_sampler", "uniform" }, { "flt_denoiser", "off" }, { "flt_taa", "off" } });
+    session.load_map("lights");
+    session.look({ -120, -100, 90 }, { 20, 20, 0 });
+    const float all = luminance(session.accumulate(1000).mean());
+    session.set("pt_accumulate", 0);
+    session.host().run_text("pt_info\n");
+    EXPECT_TRUE(session.has_line("fireflies      0.000 %"));
+    session.set("flt_denoiser", "temporal");
+    session.draw(40); // so that there is history
+    const float filtered = luminance(average_frames(session, 400, [] {}).mean());
+    session.host().run_text("pt_info\n");
+    const auto line = std::ranges::find_if(
+        session.lines() | std::views::reverse, [](const std::string& text) { return text.starts_with("fireflies"); });
+    const double told = std::stod(line->substr(line->find_first_of("0123456789"))) / 100;
+    RecordProperty("taken", std::to_string(1 - filtered / all));
+    RecordProperty("told", std::to_string(told));
+    EXPECT_GT(told, 0.1);
+    EXPECT_NEAR(told, 1 - filtered / all, 0.05);
 }
 
 // Slits of a pixel's width, as movement uncovers them along edges, in the first frame: a bright wall behind black

@@ -297,11 +297,12 @@ TEST_F(FiltersAndLists, ErrorStays)
             }
             return sum;
         };
-        const double still = error([](int) { return 4; });
+        // Lists keep the places of lights that have gone for a view, so theirs are as long as those of all that stay.
+        const double still = error([](int) { return 9; });
         const double changing = error([](int frame) { return frame % 2 ? 9 : 1; });
         RecordProperty(std::string(sampler) + "_still", fmt::format("{:.4g}", still));
         RecordProperty(std::string(sampler) + "_changing", fmt::format("{:.4g}", changing));
-        EXPECT_LT(changing, 1.25 * still) << sampler;
+        EXPECT_LT(changing, 1.15 * still) << sampler;
     }
 }
 
