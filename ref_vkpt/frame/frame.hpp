@@ -46,8 +46,8 @@ public:
     bool read_radiance(const View& view, float* rgb);
     // Pixels since the start whose light was not a number, or infinite, in the frames that have finished.
     uint64_t nonfinite_pixels() const { return nonfinite_pixels_; }
-    // The share of the light, before surfaces' colours, that the denoiser's limit on fireflies took in about the last
-    // hundred frames that have finished.
+    // The share of the light, before surfaces' colours, that the limit on fireflies took in about the last hundred
+    // filtered frames that have finished; 0 while nothing is filtered.
     double cut_light_share() const;
 
     // For questions between frames (scene_queries.cpp), in commands of their own.
