@@ -144,7 +144,7 @@ void count_cut_light(uvec2 pixel, float all, float cut)
     uvec2 shift = hash_pcg4(uvec4(frame.frame_index, 0u, 0u, 0x3c6ef372u)).xy >> 16u;
     uvec2 place = (pixel + shift) & (LIGHT_SAMPLE_PIXELS - 1u);
     if (place == uvec2(0u))
-        atomicAdd(statistics.v.sampled_light, uint(quick_min(all * scale, most * 256.0)));
+        atomicAdd(statistics.v.sampled_light, uint(clamp(all * scale, 0.0, most * 256.0))); // may be negative
 }
 
 // What is known where the history tells little: this frame's light around the pixel. From two pixels off, as nearer
