@@ -28,9 +28,8 @@ void count_luminances()
     if (lane < bin_count)
         bins[lane] = 0u;
     barrier();
-    // One pixel of 4 x 4, and of as many more as leave no more than max_samples: one workgroup counts them.
     uvec2 size = frame.resolved_size;
-    uint spacing = max(4u, uint(ceil(sqrt(float(size.x * size.y) / float(max_samples)))));
+    uint spacing = sample_spacing(size, max_samples);
     uvec2 samples = divide_whole(size + spacing - 1u, uvec2(spacing));
     for (uint i = lane; i < samples.x * samples.y; i += gl_WorkGroupSize.x) {
         uvec2 pixel = min(place_of_tile(i, samples.x) * spacing + spacing / 2u, size - 1u);

@@ -5,6 +5,7 @@
 // surface that is shaded, written to the G-buffer.
 #define VKPT_NORMAL_MAPS
 #include "lib/frame.glsl"
+#include "lib/exposure.glsl"
 #include "lib/fog.glsl"
 #include "lib/interleaved_layers.glsl"
 #include "lib/light_cache.glsl"
@@ -179,8 +180,6 @@ vec3 movement(RawHit raw, vec3 position)
     return position
         - (corners.v[first] * (1.0 - b.x - b.y) + corners.v[first + 1u] * b.x + corners.v[first + 2u] * b.y);
 }
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
 // Of what is unlit. The eye has adapted to the view (the last frame's exposure): particles are neither invisible in the
 // sun nor blinding in the dark, but look as they do where exposure_of_unlit is right.

@@ -5,14 +5,13 @@
 // exposure and tone curve, the engine's blend, gamma, and 8 bits by blue noise. Debug views take the image's place. For
 // HDR screens also what they show beyond that.
 #include "lib/frame.glsl"
+#include "lib/exposure.glsl"
 #include "bloom/bloom.glsl"
 #include "lib/debug_views.glsl"
 #include "lib/present_packing.glsl"
 #include "lib/random.glsl"
 #include "lib/sharpen.glsl"
 #include "lib/surfaces.glsl"
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
 // A shoulder and a toe around a straight middle, rational in x: a (x (x + toe)) / (x (x shoulder + slope) + lift),
 // scaled so that `white` maps to 1.

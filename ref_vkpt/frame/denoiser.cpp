@@ -42,16 +42,11 @@ std::vector<PassStep> gradient_filter_steps(const shared::FrameUniforms& uniform
     shared::ScreenBuffer source = uniforms.screen.gradient_a, target = uniforms.screen.gradient_b;
     std::vector<PassStep> steps;
     for (uint32_t level = 0; level < gradient_levels; level++) {
-        steps.push_back(make_step(shared::FilterPush { source, target, 1u << level, level }, stratum_work(uniforms)));
+        steps.push_back(
+            make_step(shared::GradientFilterPush { source, target, 1u << level, level }, stratum_work(uniforms)));
         std::swap(source, target);
     }
     return steps;
-}
-
-std::vector<PassStep> filter_steps(const shared::FrameUniforms& uniforms)
-{
-    const shared::FilterPush push { uniforms.screen.filter_a, uniforms.screen.filter_b, 1, 0 };
-    return { make_step(push, PassWork { uniforms.size }) };
 }
 
 std::vector<PassStep> spread_first_steps(const shared::FrameUniforms& uniforms)

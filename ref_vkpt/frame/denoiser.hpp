@@ -12,7 +12,6 @@ PassWork stratum_work(const shared::FrameUniforms& uniforms);
 std::vector<PassStep> gradient_filter_steps(const shared::FrameUniforms& uniforms);
 // The spatial filter's levels: the first one's result is what the next view accumulates on, and the last is part of
 // `accumulate`.
-std::vector<PassStep> filter_steps(const shared::FrameUniforms& uniforms);
 std::vector<PassStep> spread_first_steps(const shared::FrameUniforms& uniforms);
 std::vector<PassStep> spread_steps(const shared::FrameUniforms& uniforms);
 std::vector<PassStep> accumulate_steps(const shared::FrameUniforms& uniforms);

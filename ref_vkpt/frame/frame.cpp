@@ -102,9 +102,8 @@ void Frame::read_statistics()
 
 double Frame::cut_light_share() const
 {
-    constexpr double pixels = shared::LIGHT_SAMPLE_PIXELS * shared::LIGHT_SAMPLE_PIXELS;
     const bool is_filtered = cvars::shader_values().flt_denoiser != shared::DENOISER_OFF;
-    return is_filtered && sampled_light_ > 0 ? std::min(cut_light_ / (pixels * sampled_light_), 1.0) : 0;
+    return is_filtered && sampled_light_ > 0 ? cut_light_ / sampled_light_ : 0;
 }
 
 RenderScale::Limits Frame::scale_limits()

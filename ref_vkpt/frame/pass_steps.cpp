@@ -15,8 +15,6 @@ std::vector<PassStep> level_steps(PassId pass, const shared::FrameUniforms& unif
     switch (pass) {
     case PassId::denoise_gradient_filter:
         return gradient_filter_steps(uniforms);
-    case PassId::denoise_filter:
-        return filter_steps(uniforms);
     case PassId::denoise_atrous_first:
         return spread_first_steps(uniforms);
     case PassId::denoise_atrous:

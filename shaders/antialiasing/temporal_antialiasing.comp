@@ -6,11 +6,10 @@
 // Karis 2014). The result may have more pixels than were rendered: then each of them takes from the samples that happen
 // to lie near its middle, and over the frames samples lie everywhere.
 #include "../lib/frame.glsl"
+#include "../lib/exposure.glsl"
 #include "../lib/bsdf.glsl"
 #include "../lib/packing.glsl"
 #include "../lib/reprojection.glsl"
-
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
 
 // Frames that the history is worth at most at rest, and where the image moves by moving_pixels a frame or more: there
 // each reading of it blurs, and reflections in it stay behind.
@@ -161,9 +160,8 @@ void resolve_pixel(uvec2 pixel, uint index)
     place = vec2(pixel) + way * vec2(frame.resolved_size);
     bool on_screen = all(greaterThanEqual(place, vec2(-0.5))) && all(lessThan(place, vec2(frame.resolved_size) - 0.5));
     float moved = quick_min(length(place - vec2(pixel)) * (1.0 / moving_pixels), 1.0);
-    ExposureBuffer exposure = ExposureBuffer(frame.exposure); // of the last view
     bool is_at_rest = moved < 0.1 && frame.size == frame.resolved_size;
-    float knee_scale = moved * (exposure.v.valid != 0u ? exposure.v.exposure : 1.0), knee = moving_knee * knee_scale,
+    float knee_scale = moved * image_exposure(), knee = moving_knee * knee_scale,
           reading_knee = moving_reading_knee * knee_scale;
     Neighbourhood now = look_around(ivec2(rendered), middle, knee);
     vec3 result = now.here;

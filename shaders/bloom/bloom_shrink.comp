@@ -4,12 +4,11 @@
 // A level of the bloom's pyramid from the one before, of twice its size; the first one from the image, of four times
 // its size.
 #include "../lib/frame.glsl"
+#include "../lib/exposure.glsl"
 #include "bloom.glsl"
 #include "../lib/bsdf.glsl"
 
 VKPT_PUSH_CONSTANTS
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
-
 // Very bright pixels count less, or a single one would flicker over the whole image.
 vec3 shrink_image(uvec2 pixel)
 {

@@ -5,8 +5,6 @@
 #include "../lib/frame.glsl"
 #include "denoise_taps.glsl"
 
-VKPT_PUSH_CONSTANTS
-
 // As FilteredLight has it. What is unknown stays so until the next level, but for pixels beside some with more history,
 // as anti-aliasing makes them at every edge: the next level would blur those.
 float filtered_deviation(Sums sums, float scale, float deviation)
@@ -29,6 +27,7 @@ float shown_share(float frames) { return quick_min(fully_filtered_frames / quick
 const float first_frames = 8.0, first_kept_share = 0.2, fully_kept_frames = 5.0;
 float kept_share(float frames)
 {
+    // 0.01: frames are kept in sevenths, which are rounded
     return frames < first_frames - 0.01 ? first_kept_share : quick_min(fully_kept_frames / frames, 1.0);
 }
 
@@ -52,17 +51,17 @@ void add_farther_taps(inout Sums diffuse, inout Sums specular, Pixel centre, uve
         ROLLED_FOR (int side = 0; side < 4; side++) {
             int way = side < 2 ? farther[i] : -farther[i];
             ivec2 off = (side & 1) == 0 ? ivec2(way, 0) : ivec2(0, way);
-            add_neighbour_at(diffuse, specular, centre, push.source, pixel, index, off, make_way(centre, vec2(off)),
-                0.125, specular_fall(centre, float(way * way)));
+            add_neighbour_at(diffuse, specular, centre, frame.screen.filter_a, pixel, index, off,
+                make_way(centre, vec2(off)), 0.125, specular_fall(centre, float(way * way)));
         }
 }
 
 void filter_pixel(uvec2 pixel, uint index)
 {
     uvec2 features = load_features(index);
-    uvec4 bits = load_element(push.source, index, uvec4(0u));
+    uvec4 bits = load_filter_a(index);
     if (feature_depth(features) <= 0.0) {
-        store_element(push.target.address, index, bits);
+        store_filter_b(index, bits);
         store_filtered(index, bits);
         return;
     }
@@ -83,7 +82,7 @@ void filter_pixel(uvec2 pixel, uint index)
     UNROLLED_FOR (int y = 0; y < 3; y++)
         UNROLLED_FOR (int x = 0; x < 3; x++)
             if (x != 1 || y != 1)
-                add_neighbour(diffuse, specular, centre, push.source, rows[y] + columns[x],
+                add_neighbour(diffuse, specular, centre, frame.screen.filter_a, rows[y] + columns[x],
                     make_way(centre, vec2(x - 1, y - 1)), across[x] * down[y], x != 1 && y != 1 ? fall * fall : fall);
     vec2 frames = unpack_moments(load_moments(index)).frames;
     if (frames.x < new_frames && diffuse.weight < few_alike)
@@ -94,7 +93,7 @@ void filter_pixel(uvec2 pixel, uint index)
         filtered_deviation(specular, specular_scale, light.specular_deviation));
     vec2 shown = vec2(shown_share(frames.x), shown_share(frames.y));
     vec2 kept = vec2(kept_share(frames.x), kept_share(frames.y));
-    store_element(push.target.address, index, pack_filtered(mix_light(light, level, shown)));
+    store_filter_b(index, pack_filtered(mix_light(light, level, shown)));
     store_filtered(index, pack_filtered(mix_light(light, level, kept)));
 }
 

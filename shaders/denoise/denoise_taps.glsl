@@ -113,7 +113,7 @@ Pixel make_pixel(uint index, uvec2 features, FilteredLight light, bvec2 is_measu
     pixel.depth = feature_depth(features);
     uvec2 reach = load_filter_reach(index);
     pixel.depth_gradient = unpack_upper_halves(reach.x);
-    pixel.specular_fall = uintBitsToFloat(reach.y);
+    pixel.specular_fall = unpack_upper_halves(reach.y).x;
     pixel.diffuse_luminance = luminance(light.diffuse);
     pixel.specular_luminance = luminance(light.specular);
     pixel.diffuse_allowed = allowed_square(light.diffuse_deviation) + min_variance(pixel.diffuse_luminance);

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // This frame's light, averaged with what the last view knew of the same surface; and how much it varies.
 #include "../lib/frame.glsl"
+#include "../lib/exposure.glsl"
 #include "denoise.glsl"
 #include "../lib/interleaved_layers.glsl"
 
@@ -109,14 +110,6 @@ const float max_times_brighter = 50.0;
 // Added to what is known, as a share of the image's range: in the dark, and more so where little is known yet.
 const float min_known = 0.02, min_known_at_first = 0.4;
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer ExposureBuffer { ExposureState v; };
-
-float image_exposure()
-{
-    ExposureBuffer exposure = ExposureBuffer(frame.exposure);
-    return exposure.v.valid != 0u ? exposure.v.exposure : 1.0;
-}
-
 // `changed`: lambda.
 vec3 limit_firefly(vec3 light, vec3 known, float frames, float changed)
 {
@@ -127,24 +120,14 @@ vec3 limit_firefly(vec3 light, vec3 known, float frames, float changed)
     return l > limit ? light * (limit / l) : light;
 }
 
-void limit_fireflies(inout vec3 diffuse, inout vec3 specular, ReflectedLight known, vec2 frames, vec2 changed)
+// Of either lobe. By what share the pixel's light is less.
+float limit_fireflies(inout vec3 diffuse, inout vec3 specular, ReflectedLight known, vec2 frames, vec2 changed)
 {
+    float before = luminance(diffuse) + luminance(specular);
     diffuse = limit_firefly(diffuse, known.diffuse, frames.x, changed.x);
     specular = limit_firefly(specular, known.specular, frames.y, changed.y);
-}
-
-// What pt_info tells of the limit; see FrameStatistics. `all`: luminance of the pixel's light before it.
-void count_cut_light(uvec2 pixel, float all, float cut)
-{
-    FrameStatisticsBuffer statistics = FrameStatisticsBuffer(frame.statistics);
-    const float most = 1024.0; // of the image's range: so that sums of a frame have room
-    float scale = 256.0 * image_exposure();
-    if (cut > 0.0)
-        atomicAdd(statistics.v.cut_light, uint(quick_min(cut * scale, most * 256.0)));
-    uvec2 shift = hash_pcg4(uvec4(frame.frame_index, 0u, 0u, 0x3c6ef372u)).xy >> 16u;
-    uvec2 place = (pixel + shift) & (LIGHT_SAMPLE_PIXELS - 1u);
-    if (place == uvec2(0u))
-        atomicAdd(statistics.v.sampled_light, uint(clamp(all * scale, 0.0, most * 256.0))); // may be negative
+    float after = luminance(diffuse) + luminance(specular);
+    return after < before ? 1.0 - after / before : 0.0;
 }
 
 // What is known where the history tells little: this frame's light around the pixel. From two pixels off, as nearer
@@ -270,9 +253,8 @@ void accumulate_pixel(uvec2 pixel, uint index)
         }
     }
     vec2 changed = find_lambda(pixel);
-    float before = luminance(diffuse) + luminance(specular);
-    limit_fireflies(diffuse, specular, known_light(pixel, surface, history), history.moments.frames, changed);
-    count_cut_light(pixel, before, before - luminance(diffuse) - luminance(specular));
+    float cut_share
+        = limit_fireflies(diffuse, specular, known_light(pixel, surface, history), history.moments.frames, changed);
     vec2 frames = quick_min(history.moments.frames + 1.0, vec2(max_frames, max_specular));
     frames = 1.0 / mix(1.0 / frames, vec2(1.0), changed);
     vec2 share = 1.0 / frames;
@@ -294,7 +276,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
         reach = find_lobe_reach(surface.roughness, path_length, quick_max(specular_hit_distance, path_length));
     // See specular_fall. Filters must not reach farther than the lobe, or reflections blur.
     float fall = specular_hit_distance > 0.0 ? 1.0 / (reach * reach) : 0.0;
-    store_filter_reach(index, uvec2(depth_gradient, floatBitsToUint(fall)));
+    store_filter_reach(index, uvec2(depth_gradient, pack_upper_halves(vec2(fall, cut_share))));
 }
 
 VKPT_RUN_OVER_PIXELS(accumulate_pixel)

@@ -132,6 +132,13 @@ uvec2 pixel_in_tile(uint lane)
 // The light cache's cells that are updated, in rows.
 uvec2 cache_update_grid() { return uvec2(CACHE_ROW, (frame.scene.cache.updated + CACHE_ROW - 1u) / CACHE_ROW); }
 
+// One pixel of so many in either direction, at least 4, is looked at where one workgroup looks at no more than
+// max_samples.
+uint sample_spacing(uvec2 size, uint max_samples)
+{
+    return max(4u, uint(ceil(sqrt(float(size.x * size.y) / float(max_samples)))));
+}
+
 // Where tile `tile` of rows of `across` stands.
 uvec2 place_of_tile(uint tile, uint across)
 {

@@ -102,12 +102,10 @@ VKPT_CONST uint SCREEN_BUFFER_COUNT = 0u
 // What the passes count for the CPU.
 struct FrameStatistics {
     uint nonfinite_pixels; // whose light was not a number, or infinite; they are shown black
-    // What the limit on fireflies took, and the light of one pixel in LIGHT_SAMPLE_PIXELS^2, in 256ths of the image's
-    // range.
-    uint cut_light;
+    // The light of some pixels, and what the limit on fireflies took of it, in 4096ths of the image's range.
     uint sampled_light;
+    uint cut_light;
 };
-VKPT_CONST uint LIGHT_SAMPLE_PIXELS = 8u; // in either direction
 
 VKPT_CONST uint BLOOM_FIRST_STEP
     = 4u; // the pyramid's first level has a pixel for so many of the image's, in either direction
@@ -121,9 +119,9 @@ struct BloomPush {
     float own_share; // bloom_grow: of the target; what is left is the coarser levels'
 };
 
-// What one level of the denoiser's spatial filter is told (push constants).
-struct FilterPush {
-    ScreenBuffer source; // of the type of the buffer `filtered`
+// What one level of denoise/denoise_gradient_filter.comp is told (push constants).
+struct GradientFilterPush {
+    ScreenBuffer source; // of the type of the buffer `gradient_a`
     ScreenBuffer target;
     uint step; // pixels between taps
     uint level; // from 0

@@ -97,31 +97,22 @@ TEST_F(FilledMemory, DoesNotShowThroughTheDevicesOwnRays)
     expect_independence({ { "pt_trace", "query" }, { "flt_denoiser", "temporal" } });
 }
 
-// In MiB, as pt_info tells it.
-double used_by_heaps(Session& session)
-{
-    const size_t before = session.lines().size();
-    session.host().run_text("pt_info\n");
-    for (size_t i = before; i < session.lines().size(); i++)
-        if (const std::string& line = session.lines()[i]; line.find("heaps (MiB)") != line.npos)
-            return std::stod(line.substr(line.find_first_of("0123456789")));
-    return 0;
-}
+constexpr const char* heaps_used = "heaps (MiB)";
 
 // Module and test share a C library.
 TEST(HeapMemory, IsToldOfWhatIsUsedAndNotOfWhatIsFree)
 {
     GameFolder folder;
     Session session(folder);
-    const double before = used_by_heaps(session);
+    const double before = session.info_number(heaps_used);
     ASSERT_GT(before, 1) << "pt_info told nothing of the heaps";
     constexpr size_t small = 1 << 10, large = 1 << 20; // large ones lie outside of the heaps
     std::vector<std::vector<char>> blocks(32 << 10, std::vector<char>(small, 1));
     for (int i = 0; i < 32; i++)
         blocks.emplace_back(large, 1);
-    EXPECT_NEAR(used_by_heaps(session), before + 64, 4);
+    EXPECT_NEAR(session.info_number(heaps_used), before + 64, 4);
     blocks = {};
-    EXPECT_NEAR(used_by_heaps(session), before, 4);
+    EXPECT_NEAR(session.info_number(heaps_used), before, 4);
 }
 
 } // namespace

@@ -145,6 +145,22 @@ bool Session::has_line(std::string_view part) const
     return std::ranges::any_of(lines_, [&](const std::string& line) { return line.find(part) != std::string::npos; });
 }
 
+std::string Session::info_line(std::string_view label)
+{
+    const size_t before = lines_.size();
+    host().run_text("pt_info\n");
+    const auto line = std::find_if(lines_.begin() + std::ptrdiff_t(before), lines_.end(),
+        [&](const std::string& text) { return text.starts_with(label); });
+    return line == lines_.end() ? std::string() : *line;
+}
+
+double Session::info_number(std::string_view label)
+{
+    const std::string line = info_line(label);
+    const size_t number = line.find_first_of("0123456789", std::min(label.size(), line.size()));
+    return number == line.npos ? 0 : std::stod(line.substr(number));
+}
+
 void Session::set(const std::string& name, double value) { set(name, fmt::format("{:.9g}", value)); }
 
 void Session::load_map(const std::string& name, const std::string& sky)

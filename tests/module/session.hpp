@@ -35,6 +35,10 @@ public:
     const Extension& extension() { return host().extension(); }
     const std::vector<std::string>& lines() const { return lines_; } // the console's
     bool has_line(std::string_view part) const;
+    // The line of pt_info that begins so; empty: there is none.
+    std::string info_line(std::string_view label);
+    // The first number of that line; 0: there is none.
+    double info_number(std::string_view label);
 
     void set(const std::string& name, const std::string& value) { host().cvars().set(name, value); }
     void set(const std::string& name, double value);

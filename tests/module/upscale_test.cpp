@@ -58,15 +58,7 @@ protected:
     }
 
     // What pt_info says of it.
-    static std::string rendered()
-    {
-        const size_t lines = session_->lines().size();
-        session_->host().run_text("pt_info\n");
-        for (size_t i = lines; i < session_->lines().size(); i++)
-            if (session_->lines()[i].starts_with("rendered"))
-                return session_->lines()[i];
-        return {};
-    }
+    static std::string rendered() { return session_->info_line("rendered"); }
 
     static inline std::unique_ptr<GameFolder> folder_;
     static inline std::unique_ptr<Session> session_;
