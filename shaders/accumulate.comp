@@ -78,10 +78,11 @@ void compose_pixel(uvec2 pixel, uint index)
         count_nonfinite_pixel();
         radiance = vec3(0.0);
     }
+    uint marks = load_emitted(index).y & is_supersampled;
     if ((frame.flags & FRAME_LAYERED) != 0u)
-        store_layers(index, pack_light3(radiance));
+        store_layers(index, pack_light3(radiance) | uvec2(0u, marks));
     else
-        store_image(index, radiance);
+        store_image(index, radiance, marks);
 }
 
 VKPT_RUN_OVER_PIXELS(compose_pixel)

@@ -19,14 +19,15 @@ vec3 other_layer(vec3 own, uvec2 pixel, uint index, int way)
 
 void blend_pixel(uvec2 pixel, uint index)
 {
-    vec3 radiance = unpack_light3(load_layers(index));
+    uvec2 layer = load_layers(index);
+    vec3 radiance = unpack_light3(layer);
     uint differs = differing_layers(index);
     if (differs != 0u) {
         vec3 next = (differs & next_differs) != 0u ? other_layer(radiance, pixel, index, 1) : radiance;
         vec3 last = (differs & last_differs) != 0u ? other_layer(radiance, pixel, index, -1) : radiance;
         radiance = (radiance + next + last) * (1.0 / 3.0);
     }
-    store_image(index, radiance);
+    store_image(index, radiance, layer.y & is_supersampled);
 }
 
 VKPT_RUN_OVER_PIXELS(blend_pixel)

@@ -5,26 +5,22 @@
 // surface that is shaded, written to the G-buffer.
 #define VKPT_NORMAL_MAPS
 #include "lib/frame.glsl"
+#include "lib/camera_rays.glsl"
 #include "lib/exposure.glsl"
 #include "lib/fog.glsl"
-#include "lib/interleaved_layers.glsl"
 #include "lib/light_cache.glsl"
 #include "lib/media.glsl"
 #include "lib/pixel_random.glsl"
 #include "lib/reprojection.glsl"
-#include "lib/surfaces.glsl"
 
 const uint max_specular_segments = 12u;
 // Sprites, beams and particles on the way do not count: of those at an opacity of 0.05, the 84th is hardly seen.
 const uint max_unlit_segments = 128u;
 // What is behind particles that let less than this through is not looked for.
 const float min_throughput = 0.015;
-const uint mask_camera = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_VIEW_WEAPON | MASK_SKY;
 const uint mask_reflected = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_OWN_BODY | MASK_SKY;
 // Panes no rougher than this mirror.
 const float pane_roughness = 0.2;
-// Metals smoother than this are mirrors.
-const float mirror_roughness = 0.06;
 
 // Unpolarised Fresnel reflectance of a smooth dielectric; `ratio` = index behind / index before. 1: total reflection.
 float fresnel_dielectric(float cosine, float ratio)
@@ -300,7 +296,7 @@ bool follow_path(inout Path path, Sight sight, inout Random random)
         && meet_screen(path, sight, raw, hit))
         return true;
     path.emitted += path.throughput * hit.emission;
-    if (s.metallic > 0.5 && s.roughness < mirror_roughness) {
+    if (is_mirror(s)) {
         path.throughput *= s.albedo + (1.0 - s.albedo) * schlick_power(dot(s.normal, s.view));
         reflect_path(path, s, s.normal);
         return true;
@@ -374,7 +370,7 @@ void see_pixel(uvec2 pixel, uint index)
     path.unlit_depth = DEPTH_NOTHING;
     path.unlit_segments = 0u;
     path.layers = (frame.flags & FRAME_LAYERED) != 0u ? share_layers(pixel) : unshared_layers;
-    Sight sight = Sight(path.ray.direction, index, offset, 2.0 * length(frame.camera.right) / float(frame.size.x));
+    Sight sight = Sight(path.ray.direction, index, offset, pixel_spread());
 
     ROLLED_FOR (uint segment = 0u; segment < max_specular_segments + path.unlit_segments; segment++)
         if (!follow_path(path, sight, random))
@@ -386,7 +382,8 @@ void see_pixel(uvec2 pixel, uint index)
     if ((frame.flags & FRAME_REPLAYED) != 0u)
         store_random_seed(index, uvec2(join_halves(pixel), frame.frame_index));
     store_emitted(index, pack_floats3(path.emitted));
-    store_throughput(index, pack_light3(path.throughput) | uvec2(0u, other_layers_bits(path.layers)));
+    uint more_bits = other_layers_bits(path.layers) | brightness_bits(path.emitted);
+    store_throughput(index, pack_light3(path.throughput) | uvec2(0u, more_bits));
     if (!path.reached_surface) {
         store_position(index, vec4(path.ray.direction, path.unlit_depth));
         return;

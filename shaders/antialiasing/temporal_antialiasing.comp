@@ -8,6 +8,7 @@
 #include "../lib/frame.glsl"
 #include "../lib/exposure.glsl"
 #include "../lib/bsdf.glsl"
+#include "../lib/image.glsl"
 #include "../lib/packing.glsl"
 #include "../lib/reprojection.glsl"
 
@@ -22,6 +23,9 @@ const float growth_at_rest = 0.5;
 // Standard deviations of the neighbourhood that the history may lie off its mean where the image moves. At rest it
 // may be all that the neighbourhood shows: of a lamp as small as a pixel most frames show one pixel in nine.
 const float max_deviations = 1.25;
+// What the edge of a lamp of several rays counts for, in frames: readings of the history take more light from it than
+// these rays leave noise.
+const float supersampled_worth = 24.0;
 // A sample counts for exp(-sample_fall d^2) at a distance of d of the result's pixels. Where samples are scarce the
 // least weight keeps the nearest one in charge.
 const float sample_fall = 2.3;
@@ -82,6 +86,7 @@ vec3 sample_history(vec2 place, float knee)
 struct Neighbourhood {
     vec3 here; // as sampled near the pixel's middle
     float certainty; // 1: right there
+    bool is_supersampled; // the pixel itself
     vec3 mean;
     vec3 deviation;
     vec3 least, most;
@@ -95,9 +100,12 @@ Neighbourhood look_around(ivec2 rendered, vec2 middle, float knee)
     vec2 enlargement = vec2(frame.resolved_size) / vec2(frame.size);
     vec3 mean = vec3(0.0), square = vec3(0.0), here = vec3(0.0), least = vec3(1e9), most = vec3(0.0);
     float weights = 0.0, nearest = 0.0, brightest = 0.0;
+    uint marks = 0u;
     UNROLLED_FOR (int tap = 0; tap < 9; tap++) {
         ivec2 at = clamp(rendered + ivec2(tap % 3, tap / 3) - 1, ivec2(0), ivec2(frame.size) - 1);
-        vec3 colour = compress(unpack_light3(load_composed(uint(at.y) * frame.size.x + uint(at.x))), knee);
+        uvec2 bits = load_composed(uint(at.y) * frame.size.x + uint(at.x));
+        vec3 colour = compress(unpack_light3(bits), knee);
+        marks = tap == 4 ? bits.y : marks;
         float weight = tap == 4 ? 1.0 : 0.0;
         if (!same_size) {
             vec2 off = (vec2(at) + frame.pixel_offset - middle) * enlargement;
@@ -114,7 +122,8 @@ Neighbourhood look_around(ivec2 rendered, vec2 middle, float knee)
     }
     mean *= 1.0 / 9.0;
     vec3 deviation = sqrt(quick_max(square * (1.0 / 9.0) - mean * mean, vec3(0.0)));
-    return Neighbourhood(here / max(weights, 1e-12), nearest, mean, deviation, least, most, brightest);
+    return Neighbourhood(
+        here / max(weights, 1e-12), nearest, (marks & is_supersampled) != 0u, mean, deviation, least, most, brightest);
 }
 
 // At rest a lamp smaller than a pixel is met through some of the camera's places in the pixel only, and in the other
@@ -155,12 +164,11 @@ void resolve_pixel(uvec2 pixel, uint index)
 {
     vec2 middle = (vec2(pixel) + 0.5) * vec2(frame.size) / vec2(frame.resolved_size);
     uvec2 rendered = min(uvec2(whole_to_int(floor(middle))), frame.size - 1u);
-    vec2 place = fetch_place(pixel_index(rendered)).xy;
-    vec2 way = (place + 0.5) / vec2(frame.previous_size) - (vec2(rendered) + 0.5) / vec2(frame.size);
-    place = vec2(pixel) + way * vec2(frame.resolved_size);
+    vec2 way = way_back(rendered, fetch_place(pixel_index(rendered)).xy);
+    vec2 place = vec2(pixel) + way * vec2(frame.resolved_size);
     bool on_screen = all(greaterThanEqual(place, vec2(-0.5))) && all(lessThan(place, vec2(frame.resolved_size) - 0.5));
     float moved = quick_min(length(place - vec2(pixel)) * (1.0 / moving_pixels), 1.0);
-    bool is_at_rest = moved < 0.1 && frame.size == frame.resolved_size;
+    bool is_at_rest = moved < resting_pixels / moving_pixels && frame.size == frame.resolved_size;
     float knee_scale = moved * image_exposure(), knee = moving_knee * knee_scale,
           reading_knee = moving_reading_knee * knee_scale;
     Neighbourhood now = look_around(ivec2(rendered), middle, knee);
@@ -186,7 +194,8 @@ void resolve_pixel(uvec2 pixel, uint index)
             known = luminance(limited) < 0.5 * luminance(old) ? quick_min(known, 1.0) : known;
             old = limited;
         }
-        result = mix(old, now.here, now.certainty / quick_max(known + now.certainty, 1e-3));
+        float worth = now.certainty * (now.is_supersampled ? supersampled_worth : 1.0);
+        result = mix(old, now.here, worth / quick_max(known + worth, 1e-3));
         frames = known + mix(growth_at_rest, 1.0, moved) * now.certainty;
         frames = quick_min(frames, mix(max_frames, max_moving_frames, moved) - 1.0);
     }

@@ -5,11 +5,18 @@
 
 #include "packing.glsl"
 
-// temporal_antialiasing stores `accumulated` itself, perhaps at another size.
-void store_image(uint index, vec3 radiance)
+// Set in the second word of `emitted`, and then of `layers` and `composed`, where what the pixel emits is the mean over
+// several camera rays (antialiasing/supersample_lamps.comp).
+const uint is_supersampled = 0x80000000u;
+
+// The image stands still where it moves by less in a frame.
+const float resting_pixels = 0.025;
+
+// temporal_antialiasing stores `accumulated` itself, perhaps at another size. `marks`: is_supersampled or 0.
+void store_image(uint index, vec3 radiance, uint marks)
 {
     if ((frame.flags & FRAME_ANTIALIASED) != 0u) {
-        store_composed(index, pack_light3(radiance));
+        store_composed(index, pack_light3(radiance) | uvec2(0u, marks));
         return;
     }
     float share = 1.0 / float(frame.accumulated_frames + 1u);

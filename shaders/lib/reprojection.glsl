@@ -11,6 +11,12 @@
 // Place in the last view, whole numbers being its pixels' samples, and depth there; see pack_place.
 vec3 fetch_place(uint index) { return unpack_place(load_reprojected(index)); }
 
+// From a pixel to where the last view showed the same, `place` as fetch_place has it; 1: over the whole screen.
+vec2 way_back(uvec2 pixel, vec2 place)
+{
+    return (place + 0.5) / vec2(frame.previous_size) - (vec2(pixel) + 0.5) / vec2(frame.size);
+}
+
 // From -1 to 1, y down: a place in a pixel, `offset` from its corner.
 vec2 screen_place(uvec2 pixel, vec2 offset) { return (vec2(pixel) + offset) / vec2(frame.size) * 2.0 - 1.0; }
 
