@@ -113,7 +113,8 @@ TEST_F(SmallLamps, KeepTheirLight)
         }
 }
 
-// Of fewer pixels than are shown: .71 and .73 where one ray a pixel keeps .28 and .24.
+// Of fewer pixels than are shown: .70 to .73 where one ray a pixel keeps .28 and .24, and .64 are kept of lamps that
+// are looked for only beside pixels whose ray has met one.
 TEST_F(SmallLamps, KeepTheirLightWhereTheImageIsEnlarged)
 {
     session_->look({ 0, 0, 0 }, { 100, 0, 0 }, 60);
@@ -125,7 +126,7 @@ TEST_F(SmallLamps, KeepTheirLightWhereTheImageIsEnlarged)
         session_->view.time += 100; // anew
         const double kept = walk_past(pixels).brightness / converged;
         RecordProperty(std::to_string(pixels), std::to_string(kept));
-        EXPECT_GT(kept, 0.6) << "pixels a frame: " << pixels;
+        EXPECT_GT(kept, 0.67) << "pixels a frame: " << pixels;
         EXPECT_LT(kept, 1.03) << "pixels a frame: " << pixels;
     }
     session_->set("pt_render_scale", 100);
@@ -142,7 +143,7 @@ TEST_F(SmallLamps, AreDimmedByFog)
     session_->set("pt_accumulate", 0);
     const double kept = walk_past(0.13f).brightness / converged;
     RecordProperty("kept", std::to_string(kept));
-    EXPECT_LT(kept, 1.03); // .44; 2.6 as if there was no fog
+    EXPECT_LT(kept, 1.03); // .52; 2.5 as if there was none
     EXPECT_GT(kept, 0.3);
     session_->set("pt_fog", 0);
 }
