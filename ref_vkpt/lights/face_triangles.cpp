@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "ref_vkpt/lights/face_triangles.hpp"
 
+#include "ref_vkpt/lights/back_to_back.hpp"
 #include "ref_vkpt/lights/emitters.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ std::vector<glm::vec3> face_outline(const Bsp& bsp, size_t face)
     std::vector<glm::vec3> outline = bsp.face_polygon(face);
     if (bsp.texinfos[bsp.faces[face].texinfo].flags & SURF_WARP)
         for (glm::vec3& corner : outline)
-            corner += bsp.face_normal(face) * liquid_lift;
+            corner += bsp.face_normal(face) * side_lift;
     return outline;
 }
 
@@ -47,6 +48,7 @@ bool is_drawn(const BspTexinfo& texinfo)
 FaceTriangles::FaceTriangles(const Bsp& bsp, std::span<const FaceTexture> textures)
 {
     WorkLimit pieces = limit_of_pieces(bsp), triangles(bsp, max_triangles, "triangles");
+    const std::vector<bool> back_to_back = find_back_to_back(bsp);
     first_.push_back(0);
     for (size_t face = 0; face < bsp.faces.size(); face++) {
         const BspTexinfo& texinfo = bsp.texinfos[bsp.faces[face].texinfo];
@@ -58,6 +60,10 @@ FaceTriangles::FaceTriangles(const Bsp& bsp, std::span<const FaceTexture> textur
                     append_triangles(triangles_, piece.outline, normal, piece.part);
         if (triangles_.size() == first_.back() && (is_drawn(texinfo) || has_light_value(texinfo)))
             append_triangles(triangles_, face_outline(bsp, face), normal, FaceTriangle::whole);
+        if (back_to_back[face] && !(texinfo.flags & SURF_WARP)) // face_outline lifts those
+            for (size_t i = first_.back(); i < triangles_.size(); i++)
+                for (glm::vec3& corner : triangles_[i].corners)
+                    corner += normal * side_lift;
         triangles.spend(triangles_.size() - first_.back(), "face", face);
         first_.push_back(uint32_t(triangles_.size()));
     }

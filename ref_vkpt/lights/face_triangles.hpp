@@ -43,12 +43,13 @@ struct FaceTexture {
     uint32_t medium = shared::MEDIUM_NONE; // MEDIUM_* of liquids, whatever the map says; MEDIUM_NONE: as it says
 };
 
-// A face's outline where it is drawn, used for geometry and emitters alike: Bsp::face_polygon, but for liquids that
-// stand `liquid_lift` in front of their plane. The surface of a liquid is two faces in one plane that look away from
-// each other; apart, a ray meets the one whose front it sees, and no chance of rounding decides which. Less than the
-// distance from which rays leave a surface (offset_ray_origin in shaders/lib/surfaces.glsl): what passes one of the two
-// has passed both.
-inline constexpr float liquid_lift = 1.0f / 128;
+// Surfaces of liquids and of other things that are not solid are two faces in one plane that look away from each other
+// (back_to_back.hpp). So far in front of their plane they stand apart: a ray meets the one whose front it sees, and no
+// chance of rounding decides which. Less than the distance from which rays leave a surface (offset_ray_origin in
+// shaders/lib/surfaces.glsl): what passes one of the two has passed both.
+inline constexpr float side_lift = 1.0f / 128;
+
+// A face's outline: Bsp::face_polygon, but for liquids, which are lifted by side_lift.
 std::vector<glm::vec3> face_outline(const formats::Bsp& bsp, size_t face);
 
 // The mean of a face's corners, in its plane.
@@ -66,8 +67,9 @@ struct FaceTriangle {
     int emitter = shared::EMITTER_UNLISTED; // as Triangle::emitter: set by extract_emitters
 };
 
-// Not those of faces that are neither drawn nor emit. Where a face emits and its texture has bright parts, it is cut
-// along them: those emit all of the face's light, in their colours.
+// Not those of faces that are neither drawn nor emit. Faces that stand back to back are lifted by side_lift. Where a
+// face emits and its texture has bright parts, it is cut along them: those emit all of the face's light, in their
+// colours.
 class FaceTriangles {
 public:
     FaceTriangles() = default;

@@ -2,6 +2,7 @@
 # Emitters and light lists: a static library of its own, so that tests and tools can use it without Vulkan.
 add_library(vkpt_lights STATIC
     ${CMAKE_CURRENT_LIST_DIR}/animated_lights.cpp
+    ${CMAKE_CURRENT_LIST_DIR}/back_to_back.cpp
     ${CMAKE_CURRENT_LIST_DIR}/cluster_finder.cpp
     ${CMAKE_CURRENT_LIST_DIR}/dynamic_lights.cpp
     ${CMAKE_CURRENT_LIST_DIR}/emitters.cpp

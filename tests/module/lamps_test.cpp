@@ -92,6 +92,23 @@ TEST_F(Lamps, GoWithTheirSwitch)
     EXPECT_NEAR(measure(session).on_floor / on.on_floor, 1, 0.005);
 }
 
+// The shell of what is not solid has two faces in each plane, one to be seen from inside.
+TEST_F(Lamps, ShellsShineAllOver)
+{
+    const glm::vec3 across(3, 16, 5), along(16, -2, -3);
+    map_.add(rectangle({ 0, 0, 100 }, across, along), lamp_);
+    map_.add(
+        rectangle(glm::vec3(0, 0, 100) + 0.125f * across, along * 1.25f, across * 1.25f), lamp_); // of a larger piece
+    folder_.add_map("lamps", map_.finish());
+    Session session(folder_, matte);
+    session.load_map("lamps");
+    session.look({ 7, 3, 60 }, { 0, 0, 100 }, 20);
+    session.draw();
+    const Radiance picture = session.capture();
+    const auto is_dark = [](glm::vec3 pixel) { return pixel.y < 500 * 0.0095f - 0.05f; };
+    EXPECT_EQ(std::ranges::count_if(picture.pixels, is_dark), 0);
+}
+
 TEST_F(Lamps, ShineAsTheShownPictureSays)
 {
     add_lamp(dark_);
