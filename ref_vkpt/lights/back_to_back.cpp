@@ -22,26 +22,31 @@ constexpr size_t pairs_per_face = 64;
 
 struct PlaneFace {
     uint32_t face;
-    bool is_front; // along the plane's normal, as plane_of has it
+    bool is_front; // as in TurnedPlane
     std::vector<glm::vec3> outline;
     float first, last; // along one axis
 };
 
-// The same for both sides of a plane: its normal, turned so that the largest component is positive, and its distance.
-struct PlaneKey {
-    std::array<int64_t, 4> key;
-    bool is_front;
+// The same for all faces of a plane: its normal, turned so that the largest component is positive, and its distance.
+// The map has both sides of a plane in the same numbers, so little is lost by rounding.
+using PlaneKey = std::array<int64_t, 4>;
+
+struct TurnedPlane {
+    PlaneKey key;
+    bool is_front; // the face looks along that normal
 };
 
-PlaneKey plane_of(glm::vec3 normal, glm::vec3 corner)
+TurnedPlane plane_of(const Bsp& bsp, size_t face)
 {
-    const glm::vec3 size = glm::abs(normal);
+    const BspPlane& plane = bsp.planes[bsp.faces[face].plane];
+    const glm::vec3 size = glm::abs(plane.normal);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const float sign = normal[axis] < 0 ? -1.0f : 1.0f;
-    const glm::dvec3 n = glm::dvec3(normal) * double(sign);
+    const double sign = plane.normal[axis] < 0 ? -1 : 1;
     const auto whole = [](double x) { return std::isfinite(x) ? std::llround(std::clamp(x, -1e12, 1e12)) : 0; };
-    return { { whole(n.x * 4096), whole(n.y * 4096), whole(n.z * 4096), whole(glm::dot(n, glm::dvec3(corner)) * 16) },
-        sign > 0 };
+    PlaneKey key { 0, 0, 0, whole(sign * double(plane.dist) * 16) };
+    for (int i = 0; i < 3; i++)
+        key[size_t(i)] = whole(sign * double(plane.normal[i]) * 4096);
+    return { key, (sign > 0) == (bsp.faces[face].side == 0) };
 }
 
 struct Extent {
@@ -99,13 +104,13 @@ std::vector<bool> find_back_to_back(const Bsp& bsp)
     std::vector<bool> marked(bsp.faces.size());
     size_t pairs = pairs_per_face * bsp.faces.size();
     for (const BspModel& model : bsp.models) {
-        std::map<std::array<int64_t, 4>, std::vector<PlaneFace>> planes;
+        std::map<PlaneKey, std::vector<PlaneFace>> planes;
         for (size_t face = size_t(model.first_face); face < size_t(model.first_face + model.face_count); face++) {
             std::vector<glm::vec3> outline = bsp.face_polygon(face);
             if (outline.size() < 3 || !is_drawn(bsp.texinfos[bsp.faces[face].texinfo]))
                 continue;
             const glm::vec3 normal = bsp.face_normal(face);
-            const PlaneKey plane = plane_of(normal, outline[0]);
+            const TurnedPlane plane = plane_of(bsp, face);
             // Along an axis on which the plane is not seen edge on.
             const Extent extent
                 = extent_along(outline, std::abs(normal.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0));
