@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 #include <map>
 
@@ -18,13 +20,15 @@ namespace {
 using namespace formats;
 
 constexpr float least_overlap = 0.25f; // units, in every direction
-constexpr size_t pairs_per_face = 64;
+// Comparisons of corners that each corner of the map may take: real maps take 1 to 6, made-up ones
+// must end.
+constexpr size_t work_per_corner = 256;
 
 struct PlaneFace {
     uint32_t face;
     bool is_front; // as in TurnedPlane
     std::vector<glm::vec3> outline;
-    float first, last; // along one axis
+    glm::vec3 mins, maxs;
 };
 
 // The same for all faces of a plane: its normal, turned so that the largest component is positive, and its distance.
@@ -78,22 +82,44 @@ bool is_separated(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>&
     return false;
 }
 
-// Those of one plane, marked where they overlap with one that looks the other way; `pairs` is what may yet be compared.
-void mark_overlaps(std::vector<PlaneFace>& sides, const Bsp& bsp, size_t& pairs, std::vector<bool>& marked)
+// What may yet be done.
+class Work {
+public:
+    explicit Work(const Bsp& bsp)
+        : left_(work_per_corner * bsp.surface_edges.size())
+    {
+    }
+    // False: too much.
+    bool spend(size_t comparisons)
+    {
+        left_ -= std::min(left_, comparisons);
+        return left_ > 0;
+    }
+
+private:
+    size_t left_;
+};
+
+// Those of one plane, marked where they overlap with one that looks the other way. `axis`: one along which the plane
+// extends.
+void mark_overlaps(
+    std::vector<PlaneFace>& sides, const Bsp& bsp, glm::length_t axis, Work& work, std::vector<bool>& marked)
 {
-    std::ranges::sort(sides, {}, &PlaneFace::first);
+    std::ranges::sort(sides, {}, [axis](const PlaneFace& side) { return side.mins[axis]; });
     for (size_t i = 0; i < sides.size(); i++)
-        for (size_t k = i + 1; k < sides.size() && sides[k].first < sides[i].last; k++) {
-            if (pairs == 0)
+        for (size_t k = i + 1; k < sides.size() && sides[k].mins[axis] < sides[i].maxs[axis]; k++) {
+            const PlaneFace &a = sides[i], &b = sides[k];
+            if (!work.spend(1))
                 return;
-            pairs--;
-            if (sides[i].is_front == sides[k].is_front || (marked[sides[i].face] && marked[sides[k].face]))
+            if (a.is_front == b.is_front || (marked[a.face] && marked[b.face])
+                || glm::any(glm::lessThan(glm::min(a.maxs, b.maxs), glm::max(a.mins, b.mins))))
                 continue;
-            const glm::vec3 normal = bsp.face_normal(sides[i].face);
-            if (is_separated(sides[i].outline, sides[k].outline, normal)
-                || is_separated(sides[k].outline, sides[i].outline, normal))
-                continue;
-            marked[sides[i].face] = marked[sides[k].face] = true;
+            const size_t corners = a.outline.size() + b.outline.size();
+            if (!work.spend(corners * corners))
+                return;
+            const glm::vec3 normal = bsp.face_normal(a.face);
+            if (!is_separated(a.outline, b.outline, normal) && !is_separated(b.outline, a.outline, normal))
+                marked[a.face] = marked[b.face] = true;
         }
 }
 
@@ -102,23 +128,26 @@ void mark_overlaps(std::vector<PlaneFace>& sides, const Bsp& bsp, size_t& pairs,
 std::vector<bool> find_back_to_back(const Bsp& bsp)
 {
     std::vector<bool> marked(bsp.faces.size());
-    size_t pairs = pairs_per_face * bsp.faces.size();
+    Work work(bsp);
     for (const BspModel& model : bsp.models) {
         std::map<PlaneKey, std::vector<PlaneFace>> planes;
         for (size_t face = size_t(model.first_face); face < size_t(model.first_face + model.face_count); face++) {
             std::vector<glm::vec3> outline = bsp.face_polygon(face);
+            if (!work.spend(outline.size())) // models of a broken map may share their faces
+                return marked;
             if (outline.size() < 3 || !is_drawn(bsp.texinfos[bsp.faces[face].texinfo]))
                 continue;
-            const glm::vec3 normal = bsp.face_normal(face);
+            PlaneFace side { uint32_t(face), false, std::move(outline), glm::vec3(1e30f), glm::vec3(-1e30f) };
+            for (const glm::vec3 corner : side.outline) {
+                side.mins = glm::min(side.mins, corner);
+                side.maxs = glm::max(side.maxs, corner);
+            }
             const TurnedPlane plane = plane_of(bsp, face);
-            // Along an axis on which the plane is not seen edge on.
-            const Extent extent
-                = extent_along(outline, std::abs(normal.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0));
-            planes[plane.key].push_back(
-                { uint32_t(face), plane.is_front, std::move(outline), extent.least, extent.most });
+            side.is_front = plane.is_front;
+            planes[plane.key].push_back(std::move(side));
         }
         for (auto& [key, sides] : planes)
-            mark_overlaps(sides, bsp, pairs, marked);
+            mark_overlaps(sides, bsp, std::abs(bsp.face_normal(sides[0].face).x) < 0.7f ? 0 : 1, work, marked);
     }
     return marked;
 }

@@ -3,6 +3,7 @@
 #include "ref_vkpt/lights/face_triangles.hpp"
 #include "synthetic_bsp.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace vkpt::test {
@@ -66,6 +67,20 @@ TEST_F(BackToBack, TrianglesStandApart)
     EXPECT_EQ(height(top), 8 + side_lift);
     EXPECT_EQ(height(bottom), 8 - side_lift);
     EXPECT_EQ(height(alone), 40);
+}
+
+// Every face overlaps with half of the others, which would take 10^11 comparisons.
+TEST_F(BackToBack, EndsWhateverAMapHolds)
+{
+    Outline round;
+    for (int i = 0; i < 128; i++)
+        round.emplace_back(100 * std::cos(float(i) / 128 * 6.2831853f), 100 * std::sin(float(i) / 128 * 6.2831853f), 8);
+    for (int i = 0; i < 2000; i++) {
+        for (glm::vec3& corner : round)
+            corner.x += 0.01f;
+        add(round, i % 2 == 0 ? up : down);
+    }
+    EXPECT_EQ(find_back_to_back(bsp_).size(), bsp_.faces.size());
 }
 
 } // namespace
