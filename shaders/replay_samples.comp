@@ -14,7 +14,7 @@ const float max_pixels_off = 1.5;
 bool shows_same(uint there, PrimarySurface primary)
 {
     vec4 old = load_previous_position(there);
-    float pixel_width = primary.depth * 2.0 * length(frame.camera.right) / float(frame.size.x);
+    float pixel_width = primary.depth * pixel_spread();
     float cosine = max(dot(primary.surface.geometric_normal, primary.surface.view), 0.05);
     vec3 off = old.xyz - primary.surface.position;
     float max_off = max_pixels_off * pixel_width / cosine;

@@ -47,7 +47,7 @@ vec2 place_in_cell(CacheFacePlane plane, vec2 cell, vec2 middle, vec2 xi)
 {
     const uint tries = 4u;
     ROLLED_FOR (uint i = 0u; i < tries; i++) {
-        vec2 place = cell + fract(xi + float(i) * vec2(0.7548776662, 0.5698402910));
+        vec2 place = cell + recurrent_place(xi, i);
         if (is_in_face(plane, place))
             return place;
     }

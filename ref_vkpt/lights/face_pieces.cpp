@@ -182,7 +182,7 @@ std::vector<FacePiece> cut_face(
     // What moves over the face, or changes, shines as a whole.
     if (parts.empty() || (texinfo.flags & (formats::SURF_WARP | formats::SURF_FLOWING)) || texinfo.next >= 0)
         return {};
-    const Outline outline = face_outline(bsp, face);
+    const Outline outline = bsp.face_polygon(face);
     const auto boxes = find_boxes(bsp, texinfo, outline, parts, glm::vec2(size));
     if (!boxes)
         return {};

@@ -26,7 +26,7 @@ struct FacePiece {
     int part; // index of the part that it shows, or `dark`
 };
 
-// Cuts face_outline(bsp, face) along the parts' edges, the texture being `size` texels wide and high in texinfo space
+// Cuts bsp.face_polygon(face) along the parts' edges, the texture being `size` texels wide and high in texinfo space
 // and tiled. Empty where the face shows no bright part, or so many that it may as well shine as a whole. `work` is what
 // all faces of the map may take together: see limit_of_pieces.
 std::vector<FacePiece> cut_face(

@@ -24,15 +24,6 @@ void append_triangles(
 
 } // namespace
 
-std::vector<glm::vec3> face_outline(const Bsp& bsp, size_t face)
-{
-    std::vector<glm::vec3> outline = bsp.face_polygon(face);
-    if (bsp.texinfos[bsp.faces[face].texinfo].flags & SURF_WARP)
-        for (glm::vec3& corner : outline)
-            corner += bsp.face_normal(face) * side_lift;
-    return outline;
-}
-
 glm::vec3 face_centre(const Bsp& bsp, size_t face)
 {
     const std::vector<glm::vec3> outline = bsp.face_polygon(face);
@@ -59,8 +50,8 @@ FaceTriangles::FaceTriangles(const Bsp& bsp, std::span<const FaceTexture> textur
                 for (const FacePiece& piece : cut_face(bsp, face, texture.parts, texture.size, pieces))
                     append_triangles(triangles_, piece.outline, normal, piece.part);
         if (triangles_.size() == first_.back() && (is_drawn(texinfo) || has_light_value(texinfo)))
-            append_triangles(triangles_, face_outline(bsp, face), normal, FaceTriangle::whole);
-        if (back_to_back[face] && !(texinfo.flags & SURF_WARP)) // face_outline lifts those
+            append_triangles(triangles_, bsp.face_polygon(face), normal, FaceTriangle::whole);
+        if (back_to_back[face])
             for (size_t i = first_.back(); i < triangles_.size(); i++)
                 for (glm::vec3& corner : triangles_[i].corners)
                     corner += normal * side_lift;

@@ -49,9 +49,6 @@ struct FaceTexture {
 // shaders/lib/surfaces.glsl): what passes one of the two has passed both.
 inline constexpr float side_lift = 1.0f / 128;
 
-// A face's outline: Bsp::face_polygon, but for liquids, which are lifted by side_lift.
-std::vector<glm::vec3> face_outline(const formats::Bsp& bsp, size_t face);
-
 // The mean of a face's corners, in its plane.
 glm::vec3 face_centre(const formats::Bsp& bsp, size_t face);
 

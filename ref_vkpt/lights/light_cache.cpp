@@ -92,7 +92,7 @@ std::vector<FlatFace> flatten_faces(const formats::Bsp& bsp)
     const formats::BspModel& model = bsp.models[0];
     for (size_t i = size_t(model.first_face); i < size_t(model.first_face + model.face_count); i++)
         if (has_cells(bsp.texinfos[bsp.faces[i].texinfo]))
-            faces[i] = flatten_face(face_outline(bsp, i), bsp.face_normal(i));
+            faces[i] = flatten_face(bsp.face_polygon(i), bsp.face_normal(i));
     return faces;
 }
 

@@ -19,8 +19,7 @@ const uint rays = 5u;
 float previous_brightness(uvec2 pixel, vec2 way)
 {
     vec2 place = ((vec2(pixel) + 0.5) / vec2(frame.size) + way) * vec2(frame.resolved_size);
-    ivec2 at = clamp(whole_to_int(floor(place)), ivec2(0), ivec2(frame.resolved_size) - 1);
-    return luminance(unpack_light3(load_previous_resolved(uint(at.y) * frame.resolved_size.x + uint(at.x))));
+    return luminance(unpack_light3(load_last_resolved(whole_to_int(floor(place)))));
 }
 
 // Whether the pixel or one beside it shows a lamp, or the last image did, and another of them does not.
@@ -51,9 +50,6 @@ vec4 emission_along(Ray ray)
     return (hit.flags & more_to_see) != 0u || is_mirror(hit.surface) ? vec4(0.0) : vec4(hit.emission, 1.0);
 }
 
-// Places of an additive recurrence (Roberts 2018, R2), moved so that the first is where the pixel's own ray passes.
-vec2 place_in_pixel(uint ray) { return fract(frame.pixel_offset + float(ray) * vec2(0.75487767, 0.56984029)); }
-
 void supersample_pixel(uvec2 pixel, uint index)
 {
     if (frame.cvars.pt_debug_view == DEBUG_VIEW_CACHE) // its `emitted` is not what is emitted
@@ -69,9 +65,10 @@ void supersample_pixel(uvec2 pixel, uint index)
     if (!is_seen_straight(throughput) || !is_edge_of_lamp(pixel, brightness_of(throughput), previous))
         return;
     vec4 sum = vec4(unpack_floats3(load_emitted(index)), 1.0);
-    ROLLED_FOR (uint i = 1u; i < rays; i++)
-        sum += emission_along(
-            Ray(frame.camera.eye, normalize(perspective_direction(pixel, place_in_pixel(i))), 0.0, ray_far));
+    ROLLED_FOR (uint i = 1u; i < rays; i++) { // the pixel's own ray is the first
+        vec3 direction = normalize(perspective_direction(pixel, recurrent_place(frame.pixel_offset, i)));
+        sum += emission_along(Ray(frame.camera.eye, direction, 0.0, ray_far));
+    }
     add_traced_rays(index);
     store_emitted(index, pack_floats3(sum.rgb / sum.a) | uvec2(0u, is_supersampled));
 }

@@ -46,12 +46,7 @@ void catmull_rom(float t, out float weights[4])
         -0.5 * t3 + t2 - 0.5 * t, 1.5 * t3 - 2.5 * t2 + 1.0, -1.5 * t3 + 2.0 * t2 + 0.5 * t, 0.5 * t3 - 0.5 * t2);
 }
 
-uvec2 load_old(ivec2 pixel)
-{
-    uvec2 at = uvec2(clamp(pixel, ivec2(0), ivec2(frame.resolved_size) - 1));
-    return load_previous_resolved(at.y * frame.resolved_size.x + at.x);
-}
-vec3 old_radiance(ivec2 pixel, float knee) { return compress(unpack_light3(load_old(pixel)), knee); }
+vec3 old_radiance(ivec2 pixel, float knee) { return compress(unpack_light3(load_last_resolved(pixel)), knee); }
 
 // At a place whose whole numbers are pixels, compressed by `knee`: bicubic, so that a moving image does not blur, but
 // for the four corners, which count for less than 0.5 % each; and within the range of the nearest four, or there would
@@ -188,7 +183,7 @@ void resolve_pixel(uvec2 pixel, uint index)
         vec3 limited = quick_min(quick_max(old, lowest), highest);
         // Beside lamps that lies above all that is there, and where colours end expand() would make a flash of it.
         limited *= quick_min(1.0, now.brightest / quick_max(luminance(limited), 1e-6));
-        float known = unpack_light2(load_old(whole_to_int(floor(place + 0.5))).y).y;
+        float known = unpack_light2(load_last_resolved(whole_to_int(floor(place + 0.5))).y).y;
         if (!is_expected) {
             // What had to be limited that much tells of something else.
             known = luminance(limited) < 0.5 * luminance(old) ? quick_min(known, 1.0) : known;

@@ -169,7 +169,7 @@ vec2 place_of_reflection(vec3 direction, float distance)
 float find_lobe_reach(float roughness, float path_length, float distance)
 {
     float spread = 2.0 * ggx_alpha(roughness) * distance / (distance + path_length);
-    return 1.0 + spread * float(frame.size.x) * 0.5 / length(frame.camera.right);
+    return 1.0 + spread / pixel_spread();
 }
 
 // Lambda: the share of the light (diffuse, specular) that has changed since the last view around this pixel.

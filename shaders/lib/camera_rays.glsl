@@ -9,9 +9,6 @@
 
 const uint mask_camera = MASK_OPAQUE | MASK_TRANSLUCENT | MASK_ALPHA_TEST | MASK_VIEW_WEAPON | MASK_SKY;
 
-// By how much a pixel of a camera's ray gets wider over a unit.
-float pixel_spread() { return 2.0 * length(frame.camera.right) / float(frame.size.x); }
-
 // Metals smoother than this are mirrors.
 const float mirror_roughness = 0.06;
 bool is_mirror(Surface s) { return s.metallic > 0.5 && s.roughness < mirror_roughness; }

@@ -24,4 +24,11 @@ void store_image(uint index, vec3 radiance, uint marks)
     store_accumulated(index, vec4(before + (radiance - before) * share, 0.0));
 }
 
+// Of the last image, after anti-aliasing; beyond its edge the pixel at the edge.
+uvec2 load_last_resolved(ivec2 pixel)
+{
+    uvec2 at = uvec2(clamp(pixel, ivec2(0), ivec2(frame.resolved_size) - 1));
+    return load_previous_resolved(at.y * frame.resolved_size.x + at.x);
+}
+
 #endif

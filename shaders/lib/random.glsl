@@ -156,4 +156,10 @@ vec2 next_vec2(INOUT(Random) random)
     return result;
 }
 
+// Place `number` of an additive recurrence in the unit square that begins at `first` (Roberts 2018, R2).
+vec2 recurrent_place(vec2 first, uint number)
+{
+    return fract(first + float(number) * vec2(0.7548776662f, 0.5698402910f));
+}
+
 #endif

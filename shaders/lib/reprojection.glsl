@@ -17,6 +17,9 @@ vec2 way_back(uvec2 pixel, vec2 place)
     return (place + 0.5) / vec2(frame.previous_size) - (vec2(pixel) + 0.5) / vec2(frame.size);
 }
 
+// How much wider a pixel gets over a unit of its ray.
+float pixel_spread() { return 2.0 * length(frame.camera.right) / float(frame.size.x); }
+
 // From -1 to 1, y down: a place in a pixel, `offset` from its corner.
 vec2 screen_place(uvec2 pixel, vec2 offset) { return (vec2(pixel) + offset) / vec2(frame.size) * 2.0 - 1.0; }
 

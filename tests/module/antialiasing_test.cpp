@@ -81,6 +81,15 @@ protected:
         return shown;
     }
 
+    // Mean brightness of the converged picture.
+    static double measure_converged()
+    {
+        session_->look({ 0, 0, 0 }, { 100, 0, 0 }, 60);
+        const double brightness = double(luminance(session_->accumulate(256).mean()));
+        session_->set("pt_accumulate", 0);
+        return brightness;
+    }
+
     static constexpr float distance = 120;
     static constexpr float pixel = 2 * distance * 0.57735f / 96; // units that one spans there
 
@@ -90,9 +99,7 @@ protected:
 
 TEST_F(SmallLamps, KeepTheirLight)
 {
-    session_->look({ 0, 0, 0 }, { 100, 0, 0 }, 60);
-    const double converged = double(luminance(session_->accumulate(256).mean()));
-    session_->set("pt_accumulate", 0);
+    const double converged = measure_converged();
     for (const char* mode : { "on", "upscale" })
         for (const float pixels : { 0.0f, 0.13f, 1.7f }) {
             session_->set("flt_taa", mode);
@@ -117,9 +124,7 @@ TEST_F(SmallLamps, KeepTheirLight)
 // are looked for only beside pixels whose ray has met one.
 TEST_F(SmallLamps, KeepTheirLightWhereTheImageIsEnlarged)
 {
-    session_->look({ 0, 0, 0 }, { 100, 0, 0 }, 60);
-    const double converged = double(luminance(session_->accumulate(256).mean()));
-    session_->set("pt_accumulate", 0);
+    const double converged = measure_converged();
     session_->set("flt_taa", "upscale");
     session_->set("pt_render_scale", 60);
     for (const float pixels : { 0.13f, 1.7f }) {
@@ -138,9 +143,7 @@ TEST_F(SmallLamps, AreDimmedByFog)
     session_->set("pt_fog_color", "0 0 0");
     session_->set("pt_fog", 0.01);
     session_->set("flt_taa", "on");
-    session_->look({ 0, 0, 0 }, { 100, 0, 0 }, 60);
-    const double converged = double(luminance(session_->accumulate(256).mean()));
-    session_->set("pt_accumulate", 0);
+    const double converged = measure_converged();
     const double kept = walk_past(0.13f).brightness / converged;
     RecordProperty("kept", std::to_string(kept));
     EXPECT_LT(kept, 1.03); // .52; 2.5 as if there was none
