@@ -2,7 +2,6 @@
 #include "ref_vkpt/lights/back_to_back.hpp"
 
 #include "ref_vkpt/lights/face_triangles.hpp"
-#include "ref_vkpt/lights/work_limit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +20,9 @@ namespace {
 using namespace formats;
 
 constexpr float least_overlap = 0.25f; // units, in every direction
-constexpr uint64_t max_comparisons = 10'000'000; // of corners, per megabyte of the map; real maps make 100,000 at most
+// Comparisons of corners that each corner of the map may take: real maps take 1 to 6, made-up ones
+// must end.
+constexpr size_t work_per_corner = 256;
 
 struct PlaneFace {
     uint32_t face;
@@ -81,21 +82,41 @@ bool is_separated(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>&
     return false;
 }
 
+// What may yet be done. Not a WorkLimit: a map that has many faces in one plane is no reason to refuse it.
+class Work {
+public:
+    explicit Work(const Bsp& bsp)
+        : left_(work_per_corner * bsp.surface_edges.size())
+    {
+    }
+    // False: too much.
+    bool spend(size_t comparisons)
+    {
+        left_ -= std::min(left_, comparisons);
+        return left_ > 0;
+    }
+
+private:
+    size_t left_;
+};
+
 // Those of one plane, marked where they overlap with one that looks the other way. `axis`: one along which the plane
 // extends.
 void mark_overlaps(
-    std::vector<PlaneFace>& sides, const Bsp& bsp, glm::length_t axis, WorkLimit& work, std::vector<bool>& marked)
+    std::vector<PlaneFace>& sides, const Bsp& bsp, glm::length_t axis, Work& work, std::vector<bool>& marked)
 {
     std::ranges::sort(sides, {}, [axis](const PlaneFace& side) { return side.mins[axis]; });
     for (size_t i = 0; i < sides.size(); i++)
         for (size_t k = i + 1; k < sides.size() && sides[k].mins[axis] < sides[i].maxs[axis]; k++) {
             const PlaneFace &a = sides[i], &b = sides[k];
-            work.spend(1, "face", a.face);
+            if (!work.spend(1))
+                return;
             if (a.is_front == b.is_front || (marked[a.face] && marked[b.face])
                 || glm::any(glm::lessThan(glm::min(a.maxs, b.maxs), glm::max(a.mins, b.mins))))
                 continue;
             const size_t corners = a.outline.size() + b.outline.size();
-            work.spend(corners * corners, "face", a.face);
+            if (!work.spend(corners * corners))
+                return;
             const glm::vec3 normal = bsp.face_normal(a.face);
             if (!is_separated(a.outline, b.outline, normal) && !is_separated(b.outline, a.outline, normal))
                 marked[a.face] = marked[b.face] = true;
@@ -107,12 +128,13 @@ void mark_overlaps(
 std::vector<bool> find_back_to_back(const Bsp& bsp)
 {
     std::vector<bool> marked(bsp.faces.size());
-    WorkLimit work(bsp, max_comparisons, "comparisons of faces in one plane");
+    Work work(bsp);
     for (const BspModel& model : bsp.models) {
         std::map<PlaneKey, std::vector<PlaneFace>> planes;
         for (size_t face = size_t(model.first_face); face < size_t(model.first_face + model.face_count); face++) {
             std::vector<glm::vec3> outline = bsp.face_polygon(face);
-            work.spend(outline.size(), "face", face);
+            if (!work.spend(outline.size())) // models of a broken map may share their faces
+                return marked;
             if (outline.size() < 3 || !is_drawn(bsp.texinfos[bsp.faces[face].texinfo]))
                 continue;
             PlaneFace side { uint32_t(face), false, std::move(outline), glm::vec3(1e30f), glm::vec3(-1e30f) };

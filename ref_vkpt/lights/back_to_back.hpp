@@ -10,7 +10,8 @@
 namespace vkpt {
 
 // For each face whether another one of its model, in its plane and the other way round, covers a part of it. Those that
-// are not drawn do not count. Throws formats::FormatError where that takes far more work than a map of its size may.
+// are not drawn do not count. Looks at so many pairs at most as is right for a map of its size, and says no of what is
+// left then.
 std::vector<bool> find_back_to_back(const formats::Bsp& bsp);
 
 } // namespace vkpt
