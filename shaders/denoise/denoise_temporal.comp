@@ -17,7 +17,7 @@ const float min_frames = 4.0;
 const float glossy_roughness = 0.3;
 
 struct History {
-    FilteredLight light;
+    FilteredLight light; // its deviations 0 where they are unknown
     Moments moments; // frames 0: nothing is known
 };
 
@@ -38,6 +38,8 @@ void add_history(inout History sum, inout float total, ReprojectionQuery query, 
     Moments moments = unpack_moments(load_previous_moments(there));
     sum.light.diffuse += light.diffuse * share;
     sum.light.specular += light.specular * share;
+    sum.light.diffuse_deviation += quick_max(light.diffuse_deviation, 0.0) * share;
+    sum.light.specular_deviation += quick_max(light.specular_deviation, 0.0) * share;
     sum.moments.diffuse += vec2(moments.diffuse.x, variance_of(moments.diffuse)) * share;
     sum.moments.specular += vec2(moments.specular.x, variance_of(moments.specular)) * share;
     sum.moments.frames += moments.frames * share;
@@ -76,6 +78,8 @@ History find_history(uint index, ReprojectionQuery query, vec2 at)
     float scale = 1.0 / total;
     sum.light.diffuse *= scale;
     sum.light.specular *= scale;
+    sum.light.diffuse_deviation *= scale;
+    sum.light.specular_deviation *= scale;
     sum.moments.diffuse *= scale;
     sum.moments.specular *= scale;
     sum.moments.diffuse.y += sum.moments.diffuse.x * sum.moments.diffuse.x;
@@ -95,20 +99,22 @@ float slack_of(float frames)
 }
 
 // Deviation of the average: that of one frame, over the root of the frames that the average is worth. As FilteredLight
-// has it.
-float average_deviation(vec2 mean_and_square, float frames)
+// has it. `filtered`: of what the last view's filter left, and the average still holds most of. A pixel's own frames do
+// not tell how uncertain the light is that the filter brought in from a neighbour: counted as certain, a rare bright
+// sample stayed as a ring of the eight pixels around it.
+float average_deviation(vec2 mean_and_square, float frames, float filtered)
 {
     if (frames < min_frames)
         return -sqrt(mean_and_square.y);
     float variance = quick_max(mean_and_square.y - mean_and_square.x * mean_and_square.x, 0.0);
-    return slack_of(frames) * sqrt(variance / frames);
+    return quick_max(slack_of(frames) * sqrt(variance / frames), filtered * (1.0 - 1.0 / frames));
 }
 
 // A rare path of great radiance must not stay in the history for seconds: new light counts up to so many times of what
 // is known of the place (biased; the more frames tell, the less).
 const float max_times_brighter = 50.0;
 // Added to what is known, as a share of the image's range: in the dark, and more so where little is known yet.
-const float min_known = 0.02, min_known_at_first = 0.4;
+const float min_known = 0.02, min_known_at_first = 0.1;
 
 // `changed`: lambda.
 vec3 limit_firefly(vec3 light, vec3 known, float frames, float changed)
@@ -246,6 +252,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
         if (surface.roughness < glossy_roughness) {
             History glossy = find_history(index, query, image);
             history.light.specular = glossy.light.specular;
+            history.light.specular_deviation = glossy.light.specular_deviation;
             history.moments.specular = glossy.moments.specular;
             history.moments.frames.y = glossy.moments.frames.y;
         } else {
@@ -265,8 +272,8 @@ void accumulate_pixel(uvec2 pixel, uint index)
     FilteredLight light;
     light.diffuse = mix(history.light.diffuse, diffuse, share.x);
     light.specular = mix(history.light.specular, specular, share.y);
-    light.diffuse_deviation = average_deviation(diffuse_moments, frames.x);
-    light.specular_deviation = average_deviation(specular_moments, frames.y);
+    light.diffuse_deviation = average_deviation(diffuse_moments, frames.x, history.light.diffuse_deviation);
+    light.specular_deviation = average_deviation(specular_moments, frames.y, history.light.specular_deviation);
     store_light(index, pack_filtered(light));
     store_moments(index,
         pack_moments(Moments(vec2(diffuse_moments.x, sqrt(diffuse_moments.y)),

@@ -375,6 +375,53 @@ TEST_F(Denoiser, AntialiasingForgetsFirstFrames)
     EXPECT_LT(light, 0.01f); // .0025; .016 if all frames counted alike
 }
 
+// Pixels around which the eight neighbours are brighter than the pixel itself and than all that surrounds them.
+int count_rings(const Radiance& picture)
+{
+    const auto light = [&](int x, int y) { return luminance(picture.at(x, y)); };
+    int count = 0;
+    for (int y = 2; y < picture.height - 2; y++)
+        for (int x = 2; x < picture.width - 2; x++) {
+            float ring = std::numeric_limits<float>::max(), rest = light(x, y);
+            for (int dy = -2; dy <= 2; dy++)
+                for (int dx = -2; dx <= 2; dx++) {
+                    if (std::max(std::abs(dx), std::abs(dy)) == 1)
+                        ring = std::min(ring, light(x + dx, y + dy));
+                    else
+                        rest = std::max(rest, light(x + dx, y + dy));
+                }
+            count += ring > 1.05f * rest ? 1 : 0;
+        }
+    return count;
+}
+
+// Far lights that are alike, but for one that is chosen as seldom and far brighter: its samples are spread over their
+// surroundings, not over the pixels right beside them.
+TEST_F(Denoiser, RareSamplesLeaveNoRings)
+{
+    constexpr int side = 24;
+    MapBuilder map;
+    map.add(rectangle({ 0, 0, 0 }, { 512, 0, 0 }, { 0, 512, 0 }), map.add_material("wall"));
+    for (int i = 0; i < side * side; i++)
+        map.add_point_light({ float(i % side), float(i / side), 3000 }, i == 0 ? 3000 : 100);
+    folder_.add_map("far", map.finish());
+    Session session(folder_,
+        { { "pt_seed", "0" }, { "pt_bounces", "0" }, { "pt_roughness_default", "1" }, { "pt_light_sampler", "uniform" },
+            { "flt_denoiser", "asvgf" }, { "flt_taa", "off" } },
+        { 192, 108 });
+    int rings = 0;
+    for (int start = 0; start < 8; start++) {
+        session.load_map("far");
+        session.look({ 0, 0, 40 }, { 5, 0, 0 }, 40);
+        session.draw(20);
+        const Radiance picture = session.capture();
+        ASSERT_FALSE(is_black(picture));
+        rings += count_rings(picture);
+    }
+    RecordProperty("rings", rings);
+    EXPECT_LT(rings, 4); // 0; 350 if what neighbours brought in counted as certain
+}
+
 // One light of fifty is chosen uniformly, and all the others are next to nothing: most of its samples are fireflies.
 TEST_F(Denoiser, TellsWhatTheLimitOnFirefliesTakes)
 {
