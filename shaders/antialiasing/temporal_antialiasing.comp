@@ -28,7 +28,7 @@ const float max_deviations = 1.25;
 const float supersampled_worth = 24.0;
 // A sample counts for exp(-sample_fall d^2) at a distance of d of the result's pixels. Where samples are scarce the
 // least weight keeps the nearest one in charge.
-const float sample_fall = 2.3;
+const float sample_fall = 3.0;
 
 // Radiance is averaged as it is where the image stands still, or edges of lamps would lose most of their light, and
 // small lamps all but vanish. In motion what is bright counts less in the average, as few frames are averaged and a
