@@ -419,7 +419,7 @@ TEST_F(Denoiser, RareSamplesLeaveNoRings)
         rings += count_rings(picture);
     }
     RecordProperty("rings", rings);
-    EXPECT_LT(rings, 4); // 0; 350 if what neighbours brought in counted as certain
+    EXPECT_LT(rings, 4); // 0; 287 if what neighbours brought in counted as certain
 }
 
 // One light of fifty is chosen uniformly, and all the others are next to nothing: most of its samples are fireflies.
