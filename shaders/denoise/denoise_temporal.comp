@@ -89,6 +89,15 @@ History find_history(uint index, ReprojectionQuery query, vec2 at)
     return sum;
 }
 
+// What is known of specular light is known from elsewhere. The distance to what is reflected stays the surface's.
+void take_specular(inout History history, History other)
+{
+    history.light.specular = other.light.specular;
+    history.light.specular_deviation = other.light.specular_deviation;
+    history.moments.specular = other.moments.specular;
+    history.moments.frames.y = other.moments.frames.y;
+}
+
 // A deviation of few samples is uncertain, and mostly too low where few of them meet a light: it counts for so many
 // times as much at first, and for once from 12 frames on.
 const float few_frames_slack = 2.5, enough_frames = 12.0;
@@ -250,11 +259,7 @@ void accumulate_pixel(uvec2 pixel, uint index)
     if (specular_hit_distance > 0.0) {
         vec2 image = place_of_reflection(direction, (path_length + specular_hit_distance) / direction_length);
         if (surface.roughness < glossy_roughness) {
-            History glossy = find_history(index, query, image);
-            history.light.specular = glossy.light.specular;
-            history.light.specular_deviation = glossy.light.specular_deviation;
-            history.moments.specular = glossy.moments.specular;
-            history.moments.frames.y = glossy.moments.frames.y;
+            take_specular(history, find_history(index, query, image));
         } else {
             max_specular = max_specular_frames(length(image - query.shown.xy), reach);
         }

@@ -4,8 +4,11 @@
 #include "tests/module/map_builder.hpp"
 #include "tests/module/session.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace vkpt::tests {
 namespace {
@@ -395,8 +398,8 @@ int count_rings(const Radiance& picture)
     return count;
 }
 
-// Far lights that are alike, but for one that is chosen as seldom and far brighter: its samples are spread over their
-// surroundings, not over the pixels right beside them.
+// Many far lights that are alike, and one that is thirty times as bright and chosen as seldom as each of them: its
+// samples are spread widely, not over the pixels right beside them.
 TEST_F(Denoiser, RareSamplesLeaveNoRings)
 {
     constexpr int side = 24;
